@@ -1,0 +1,74 @@
+// One scene in motion: packing, then the step loop, with health checks. What leaves it are frames and measures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "engine/frame.hpp"
+#include "engine/measure/measures.hpp"
+#include "engine/scene/plan.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// What happens before the drive starts, for the progress line.
+struct PackingProgress {
+    enum class Stage { growing, settling };
+    Stage stage = Stage::growing;
+    double done = 0;           // 0 to 1: share of the wanted radii; or of the time limit of settling
+    std::int64_t steps = 0;    // so far
+};
+// Return false to stop.
+using PackingWatcher = std::function<bool(const PackingProgress&)>;
+
+struct PackingResult {
+    bool finished = true;           // false when the watcher stopped it
+    bool settled = true;            // false when the time limit ended settling
+    double settle_time = 0;         // s, simulated
+    double kinetic_per_grain = 0;   // J, at the end
+    double solid_fraction = 0;      // of the settled bed, estimated
+};
+
+class Simulation {
+public:
+    // threads: 0 takes what the machine gives. Throws UserError for what the scene gets wrong.
+    Simulation(const Scene& scene, const Plan& plan, int threads);
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+
+    // Places the grains (layers, radius growth, settling) or continues from the scene's file. Afterwards
+    // step() is 0, or the file's step when the scene keeps its clock.
+    PackingResult pack(const PackingWatcher& watcher);
+
+    // Runs up to step `target`. Throws RunError when the run stopped being healthy.
+    void advance(std::int64_t target);
+
+    std::int64_t step() const;
+    std::size_t grains() const;
+    int threads() const;
+
+    Frame frame() const;
+    Measures measures() const;
+    std::uint64_t state_hash() const;  // of every bit that decides the future
+
+    // Contacts that carry force now, for contacts.nc.
+    struct ContactRecord {
+        std::int32_t first, second;  // ids; second is -1 - face for a wall
+        double normal;               // N, >= 0
+        Vec3 tangential;             // N, on `second`
+        Vec3 point;                  // m
+    };
+    std::vector<ContactRecord> contacts() const;
+
+    // Everything needed to go on bit-identically; written to a temporary name and renamed.
+    void save_checkpoint(const std::filesystem::path& path) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel

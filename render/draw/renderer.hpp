@@ -1,0 +1,30 @@
+// From a frame to a picture: grains, walls and the words around them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/draw/picture.hpp"
+
+namespace grainreel {
+
+class Renderer {
+public:
+    // Makes an off-screen OpenGL context, current on the calling thread: construct, use and destroy it on one
+    // thread. raster_threads: of the software rasteriser, >= 1. Throws RunError when no context is to be had.
+    Renderer(const Scene& scene, int raster_threads);
+    ~Renderer();
+
+    // playback: what the caption says of time ("slow motion, 1/10 speed"). The size is the scene's film size.
+    const Picture& draw(const Frame& frame, const std::string& playback);
+
+    std::string gl_description() const;  // vendor, renderer and version of the context
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel

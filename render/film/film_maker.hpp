@@ -1,0 +1,50 @@
+// The film's production line: frames go in on the engine's thread, a bounded queue, a drawing thread, another
+// bounded queue, an encoding thread. Nothing is dropped, nothing reordered.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+struct FilmOptions {
+    std::filesystem::path folder;  // movie.mp4, poster.png and frames/ go here
+    bool film = true;              // movie.mp4 and poster.png
+    bool frames = false;           // frames/000000.png ...
+    int raster_threads = 1;
+    int encoder_threads = 1;
+};
+
+struct FilmReport {
+    std::int64_t frames = 0;
+    double draw_seconds = 0, encode_seconds = 0;  // busy time of the two threads
+    double waited_seconds = 0;                    // the engine's, for a place in the queue
+    std::string gl;                               // context description
+    std::vector<std::string> notes;               // "1921x1080 padded to 1922x1080: ..."
+};
+
+class FilmMaker {
+public:
+    FilmMaker(const Scene& scene, const FilmOptions& options);
+    ~FilmMaker();  // abandons what is queued; the film on disk still plays
+
+    // Takes one frame with its caption; waits while the queue is full. Throws RunError when drawing or
+    // encoding failed (disk full), with the first failure's words.
+    void take(FramePtr frame, std::string playback);
+
+    // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError likewise.
+    FilmReport finish();
+
+    std::int64_t frames_done() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel
