@@ -1,0 +1,53 @@
+#include "engine/scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+double Container::floor_half_width() const { return half_width_at(0); }
+
+double Container::half_width_at(double z) const {
+    if (shape != Shape::wedge) return half_width;
+    return half_width - std::max(0.0, slant_height - z) * std::tan(half_angle);
+}
+
+double Container::volume() const {
+    if (shape == Shape::cylinder) return std::numbers::pi * half_width * half_width * height;
+    const double slanted = shape == Shape::wedge ? std::min(slant_height, height) : 0.0;
+    const double mean_width = half_width_at(0) + half_width_at(slanted);  // twice the mean half-width
+    return depth * (slanted * mean_width + (height - slanted) * 2 * half_width);
+}
+
+double Drive::speed() const { return amplitude * 2 * std::numbers::pi * frequency; }
+
+double Drive::g_level(double gravity) const {
+    const double omega = 2 * std::numbers::pi * frequency;
+    return gravity > 0 ? amplitude * omega * omega / gravity : std::numeric_limits<double>::infinity();
+}
+
+std::int64_t Scene::grains() const {
+    return std::accumulate(species.begin(), species.end(), std::int64_t{0},
+                           [](std::int64_t sum, const Species& s) { return sum + s.count; });
+}
+
+std::string Scene::where(const std::string& key) const {
+    // From the key itself up through its parents, to the first that the file wrote.
+    for (std::string path = key; !path.empty();) {
+        if (const auto found = written.find(path); found != written.end()) {
+            const Location& at = found->second;
+            if (at.line == 0) return at.file;
+            return at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
+        }
+        const auto cut = path.find_last_of(".[");
+        path = cut == std::string::npos ? std::string() : path.substr(0, cut);
+    }
+    return file;
+}
+
+}  // namespace grainreel
