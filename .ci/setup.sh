@@ -1,0 +1,111 @@
+# shellcheck shell=bash
+# Sourced by ./movie and ./test: packages, configuration, build. Everything it says goes to stderr.
+root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
+build="$root/build/release"
+
+# Debian 12 package, and the pkg-config module or file that stands for it elsewhere ("-" where it is implied).
+program_packages="
+g++                  a C++20 compiler (GCC 12 or clang 14, or newer)
+cmake                CMake 3.25
+ninja-build          Ninja
+pkgconf              pkg-config
+libeigen3-dev        eigen3 3.4
+libfmt-dev           fmt
+libspdlog-dev        spdlog
+libcli11-dev         CLI11
+nlohmann-json3-dev   nlohmann_json
+libtomlplusplus-dev  tomlplusplus
+libudunits2-dev      udunits2, with its XML database
+libxxhash-dev        libxxhash
+libnetcdf-dev        netcdf
+libpng-dev           libpng
+libpango1.0-dev      pangocairo, pangoft2, cairo
+fonts-dejavu-core    the DejaVu fonts
+libosmesa6-dev       osmesa (Mesa before 25.1), headers and library
+libgl-dev            GL/glcorearb.h
+libavformat-dev      libavformat
+libavcodec-dev       libavcodec, with libx264
+libswscale-dev       libswscale
+"
+test_packages="
+libgtest-dev         gtest
+libgmock-dev         gmock
+"
+
+say() { printf '%s\n' "$*" >&2; }
+
+list_libraries() {  # $1: a package table
+    say "What the build needs; the names are Debian's and then pkg-config's or plain words:"
+    sed '/^$/d; s/^/  /' <<<"$1" >&2
+}
+
+install_packages() {  # $1: a package table. Returns at once when all of it is installed.
+    local wanted missing as_root=()
+    wanted=$(awk '{print $1}' <<<"$1")
+    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+        return 0  # another distribution: the configuration tells whether the libraries are there
+    fi
+    # shellcheck disable=SC2086  # one word a package
+    missing=$(comm -23 <(sort <<<"$wanted" | sed '/^$/d') \
+                       <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null |
+                         sed -n 's/^installed //p' | sort) | tr '\n' ' ')
+    [[ -n $missing ]] || return 0
+    if ((EUID != 0)); then
+        if sudo -n true 2>/dev/null || { [[ -t 0 ]] && command -v sudo >/dev/null; }; then
+            as_root=(sudo)
+        else
+            say "These packages are missing, and installing them needs root. Ask for:"
+            say "  apt-get install --no-install-recommends $missing"
+            exit 2
+        fi
+    fi
+    say "Installing with apt: $missing"
+    "${as_root[@]}" apt-get -q -o DPkg::Lock::Timeout=300 update >&2 ||
+        say "apt-get update failed; going on with the lists that are there."
+    # shellcheck disable=SC2086
+    if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 \
+            install --no-install-recommends $missing </dev/null >&2; then
+        say "apt could not install: $missing"
+        list_libraries "$1"
+        exit 2
+    fi
+}
+
+configure() {  # $1: a package table; then options for cmake
+    local table=$1 tool
+    shift
+    for tool in cmake ninja; do
+        if ! command -v "$tool" >/dev/null; then
+            say "$tool is missing."
+            list_libraries "$table"
+            exit 2
+        fi
+    done
+    if ! (cd "$root" && cmake --preset release "$@" >&2); then
+        list_libraries "$table"
+        exit 2
+    fi
+}
+
+cached() { grep -qsxF "$1" "$build/CMakeCache.txt"; }
+
+# Configures only where ninja cannot know that it must: a first time, or a tree that has moved since.
+prepare() {  # $1: ON with tests, OFF without them; then yes or no: may packages be installed
+    local tests=$1 may_install=$2 table=$program_packages
+    [[ $tests == OFF ]] || table+=$test_packages
+    [[ $may_install == no ]] || install_packages "$table"
+    if ! cached "CMAKE_HOME_DIRECTORY:INTERNAL=$root" || [[ ! -e $build/build.ninja ]]; then
+        configure "$table" --fresh "-DGRAINREEL_TESTS=$tests"
+    elif [[ $tests == ON ]] && ! cached "GRAINREEL_TESTS:BOOL=ON"; then
+        configure "$table" -DGRAINREEL_TESTS=ON
+    fi
+}
+
+compile() {  # ninja's targets
+    [[ -x $build/grainreel ]] || say "Building; the first time takes a few minutes."
+    if [[ -t 2 ]]; then
+        ninja -C "$build" "$@" >&2 || exit 1
+    else
+        ninja --quiet -C "$build" "$@" | sed '/no work to do/d' >&2 || exit 1
+    fi
+}
