@@ -2,13 +2,16 @@
 // bounded queue, an encoding thread. Nothing is dropped, nothing reordered.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/draw/picture.hpp"
 
 namespace grainreel {
 
@@ -25,12 +28,24 @@ struct FilmReport {
     double draw_seconds = 0, encode_seconds = 0;  // busy time of the two threads
     double waited_seconds = 0;                    // the engine's, for a place in the queue
     std::string gl;                               // context description
-    std::vector<std::string> notes;               // "1921x1080 padded to 1922x1080: ..."
+    std::string encoder;             // "libx264 (...), crf 20, veryfast, 2 threads"; empty without film
+    std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
 };
 
+// What turns a frame into a picture: the Renderer, or a test's own. Made, used and destroyed on one thread.
+class Drawer {
+  public:
+    virtual ~Drawer() = default;
+    virtual const Picture& draw(const Frame& frame, const std::string& playback) = 0;
+    virtual std::string description() const = 0;
+};
+using DrawerMaker = std::function<std::unique_ptr<Drawer>()>;
+
 class FilmMaker {
-public:
-    FilmMaker(const Scene& scene, const FilmOptions& options);
+  public:
+    // Creates the film's file and folder. Throws RunError when they cannot be written.
+    FilmMaker(const Scene& scene, const FilmOptions& options);  // draws with the Renderer
+    FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer);
     ~FilmMaker();  // abandons what is queued; the film on disk still plays
 
     // Takes one frame with its caption; waits while the queue is full. Throws RunError when drawing or
@@ -38,11 +53,12 @@ public:
     void take(FramePtr frame, std::string playback);
 
     // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError likewise.
+    // Neither take() nor finish() may follow.
     FilmReport finish();
 
-    std::int64_t frames_done() const;
+    std::int64_t frames_done() const;  // encoded so far
 
-private:
+  private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -16,15 +16,23 @@ struct Shot {
     int segment = 0;
 };
 
-// What a frame's caption says of time: "slow motion 1/10" or "one frame a period, phase 0.25".
+// What a frame's caption says of time: "real time", "slow motion, 1/10 speed" or
+// "1 frame a period at phase 0.25 (plays 1.5×)". UTF-8.
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate);
 
-// Shots in rising order of step, from step 0 to `steps`. Motion segments sample evenly in simulated time
-// (rounded to the nearest step); locked ones take one step every `every` periods at `phase`.
+// Shots in strictly rising order of step, from step 0 to `steps`. Motion segments sample evenly in simulated
+// time (rounded to the nearest step); locked ones take one step every `every` periods at `phase`. Segments
+// follow each other without a gap; the one without a duration takes what the others leave. No segments: one
+// in real time. The segments' film ends with them when they are shorter than `steps`. Throws UserError when a
+// segment is locked but the clock has no periods.
 std::vector<Shot> film_schedule(const Film& film, const Clock& clock, std::int64_t steps);
 
+// s of simulated time from the start of the film to the frame that stands for all of it: the end of the last
+// locked segment, since there the result shows at a known phase; without one, 0.8 of the film.
+double poster_time(const Film& film, double duration);
+
 // One line for each segment that shows fewer than 8 frames a period without being locked, with the apparent
-// frequency |f - k F|, F being frames per simulated second.
+// frequency |f - k F|, F being frames per simulated second and k the whole number nearest to f / F.
 std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive);
 
 }  // namespace grainreel

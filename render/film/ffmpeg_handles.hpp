@@ -1,0 +1,63 @@
+// Owners of FFmpeg's objects, and its errors in words.
+#pragma once
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
+
+#include <memory>
+#include <string>
+
+namespace grainreel {
+
+struct FfmpegDeleter {
+    void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
+    void operator()(AVFrame* p) const { av_frame_free(&p); }
+    void operator()(AVPacket* p) const { av_packet_free(&p); }
+    void operator()(SwsContext* p) const { sws_freeContext(p); }
+};
+// A file being read.
+struct InputDeleter {
+    void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
+};
+// A file being written; closed without a trailer unless one was written before.
+struct OutputDeleter {
+    void operator()(AVFormatContext* p) const {
+        avio_closep(&p->pb);
+        avformat_free_context(p);
+    }
+};
+
+using CodecPtr = std::unique_ptr<AVCodecContext, FfmpegDeleter>;
+using AvFramePtr = std::unique_ptr<AVFrame, FfmpegDeleter>;
+using PacketPtr = std::unique_ptr<AVPacket, FfmpegDeleter>;
+using ScalerPtr = std::unique_ptr<SwsContext, FfmpegDeleter>;
+using InputPtr = std::unique_ptr<AVFormatContext, InputDeleter>;
+using OutputPtr = std::unique_ptr<AVFormatContext, OutputDeleter>;
+
+// From now on FFmpeg and its codecs print nothing; their errors are kept for ffmpeg_error.
+void quiet_ffmpeg();
+
+// "No space left on device" for a negative return code of FFmpeg, with the last error line that FFmpeg logged
+// since the previous call, if any.
+std::string ffmpeg_error(int code);
+
+// A dictionary of options that is freed in any case.
+class Options {
+  public:
+    Options() = default;
+    Options(const Options&) = delete;
+    Options& operator=(const Options&) = delete;
+    ~Options() { av_dict_free(&dictionary_); }
+    void set(const std::string& key, const std::string& value) {
+        av_dict_set(&dictionary_, key.c_str(), value.c_str(), 0);
+    }
+    AVDictionary** get() { return &dictionary_; }
+
+  private:
+    AVDictionary* dictionary_ = nullptr;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,157 @@
+#include "render/film/film_maker.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "render/film/bounded_queue.hpp"
+#include "render/film/picture_files.hpp"
+
+namespace grainreel {
+namespace {
+
+using Watch = std::chrono::steady_clock;
+
+double seconds_since(Watch::time_point start) {
+    return std::chrono::duration<double>(Watch::now() - start).count();
+}
+
+// Deep enough that an uneven engine or encoder rarely makes the others wait; a picture is 8 MB at 1080p.
+constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
+// Those in the queue, the one being drawn, the one being encoded, and the last one, kept for the poster.
+constexpr std::size_t pictures_in_all = waiting_pictures + 3;
+
+struct Order {
+    FramePtr frame;
+    std::string playback;
+};
+
+}  // namespace
+
+struct FilmMaker::Impl {
+    Impl(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer)
+        : files(scene, options), make(std::move(make_drawer)) {
+        for (std::size_t i = 0; i < pictures_in_all; ++i) spare.push(Picture());
+        drawing = std::thread([this] { guarded(&Impl::draw_all); });
+        encoding = std::thread([this] { guarded(&Impl::encode_all); });
+    }
+
+    ~Impl() {
+        cancel();
+        join();
+    }
+
+    // Runs one stage; its failure stops the other one and is kept for the caller.
+    void guarded(void (Impl::*stage)()) {
+        try {
+            (this->*stage)();
+        } catch (const std::exception& error) {
+            fail(error.what());
+        } catch (...) {
+            fail("the film failed for an unknown reason");
+        }
+    }
+
+    void draw_all() {
+        const std::unique_ptr<Drawer> drawer = make();
+        gl = drawer->description();
+        while (std::optional<Order> order = frames.pop()) {
+            std::optional<Picture> canvas = spare.pop();
+            if (!canvas) return;
+            const Watch::time_point start = Watch::now();
+            *canvas = drawer->draw(*order->frame, order->playback);  // copies into the old buffer
+            draw_seconds += seconds_since(start);
+            pictures.push({std::move(*canvas), std::move(order->frame), std::move(order->playback)});
+        }
+        pictures.close();
+    }
+
+    void encode_all() {
+        while (std::optional<DrawnFrame> drawn = pictures.pop()) {
+            const Watch::time_point start = Watch::now();
+            spare.push(files.add(std::move(*drawn)));
+            encode_seconds += seconds_since(start);
+            ++done;
+        }
+        const Watch::time_point start = Watch::now();
+        files.close_poster();
+        if (complete) files.finish();
+        encode_seconds += seconds_since(start);
+    }
+
+    void fail(const std::string& words) {
+        {
+            const std::scoped_lock lock(failure_mutex);
+            if (failure.empty()) failure = words;
+        }
+        cancel();
+    }
+
+    void cancel() {
+        frames.cancel();
+        pictures.cancel();
+        spare.cancel();
+    }
+
+    void join() {
+        if (drawing.joinable()) drawing.join();
+        if (encoding.joinable()) encoding.join();
+    }
+
+    void throw_failure() {
+        const std::scoped_lock lock(failure_mutex);
+        if (!failure.empty()) throw RunError(failure);
+    }
+
+    PictureFiles files;  // the encoding thread's, once that runs
+    DrawerMaker make;
+    BoundedQueue<Order> frames{waiting_frames};
+    BoundedQueue<DrawnFrame> pictures{waiting_pictures};
+    BoundedQueue<Picture> spare{pictures_in_all};
+    std::atomic<bool> complete = false;  // finish() was called: the film is to be closed, not abandoned
+    std::atomic<std::int64_t> done = 0;
+    std::mutex failure_mutex;
+    std::string failure;  // of the stage that failed first; empty when none did
+    std::string gl;       // from here on: written by one thread, read after join()
+    double draw_seconds = 0, encode_seconds = 0, waited_seconds = 0;
+    std::thread drawing, encoding;
+};
+
+FilmMaker::FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer)
+    : impl_(std::make_unique<Impl>(scene, options, std::move(make_drawer))) {}
+
+FilmMaker::~FilmMaker() = default;
+
+void FilmMaker::take(FramePtr frame, std::string playback) {
+    const Watch::time_point start = Watch::now();
+    const bool taken = impl_->frames.push({std::move(frame), std::move(playback)});
+    impl_->waited_seconds += seconds_since(start);
+    if (taken) return;
+    impl_->throw_failure();
+    GRAINREEL_CHECK(!"a frame after the film was finished");
+}
+
+FilmReport FilmMaker::finish() {
+    impl_->complete = true;
+    impl_->frames.close();
+    impl_->join();
+    impl_->throw_failure();
+    FilmReport report;
+    report.frames = impl_->done;
+    report.draw_seconds = impl_->draw_seconds;
+    report.encode_seconds = impl_->encode_seconds;
+    report.waited_seconds = impl_->waited_seconds;
+    report.gl = impl_->gl;
+    report.encoder = impl_->files.encoder();
+    report.notes = impl_->files.notes();
+    return report;
+}
+
+std::int64_t FilmMaker::frames_done() const {
+    return impl_->done;
+}
+
+}  // namespace grainreel

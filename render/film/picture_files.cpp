@@ -1,0 +1,92 @@
+#include "render/film/picture_files.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "render/film/sampler.hpp"
+
+namespace grainreel {
+namespace {
+
+// A poster for whoever kills the run: of the first frame, and again each time the film has doubled.
+bool poster_in_passing(std::int64_t count) {
+    return count == 1 || (count >= 32 && std::has_single_bit(static_cast<std::uint64_t>(count)));
+}
+
+std::unique_ptr<Encoder> make_encoder(const Scene& scene, const FilmOptions& options) {
+    EncoderSettings settings;
+    settings.path = options.folder / "movie.mp4";
+    settings.width = scene.film.width;
+    settings.height = scene.film.height;
+    settings.rate = scene.film.rate;
+    settings.crf = scene.film.quality;
+    settings.preset = scene.film.preset;
+    settings.threads = options.encoder_threads;
+    settings.title = scene.title.empty() ? scene.name : scene.title;
+    settings.comment = fmt::format("grainreel, scene {}, seed {}", scene.name, scene.run.seed);
+    return std::make_unique<Encoder>(settings);
+}
+
+}  // namespace
+
+PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
+    : folder_(options.folder),
+      name_(scene.name),
+      title_(scene.title),
+      frames_wanted_(options.frames),
+      poster_time_(poster_time(scene.film, scene.run.duration)),
+      poster_done_(!options.film) {
+    if (frames_wanted_) {
+        std::error_code error;
+        std::filesystem::create_directories(folder_ / "frames", error);
+        if (error)
+            throw RunError(fmt::format("{}: cannot make the folder: {}", (folder_ / "frames").string(),
+                                       error.message()));
+    }
+    if (options.film) encoder_ = make_encoder(scene, options);
+}
+
+Picture PictureFiles::add(DrawnFrame drawn) {
+    if (count_ == 0) first_time_ = drawn.frame->time;
+    if (encoder_) encoder_->add(drawn.picture);
+    if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", count_), drawn);
+    ++count_;
+    if (!poster_done_) consider_poster(drawn);
+    std::swap(last_, drawn);
+    return std::move(drawn.picture);
+}
+
+void PictureFiles::consider_poster(const DrawnFrame& drawn) {
+    if (last_.frame && drawn.frame->time - first_time_ > poster_time_) {
+        close_poster();
+    } else if (poster_in_passing(count_)) {
+        write(folder_ / "poster.png", drawn);
+    }
+}
+
+void PictureFiles::close_poster() {
+    if (poster_done_ || !last_.frame) return;
+    poster_done_ = true;
+    write(folder_ / "poster.png", last_);
+}
+
+void PictureFiles::finish() {
+    if (encoder_) encoder_->finish();
+}
+
+void PictureFiles::write(const std::filesystem::path& path, const DrawnFrame& drawn) const {
+    const Frame& frame = *drawn.frame;
+    write_png(path, drawn.picture,
+              {{"Title", title_},
+               {"Scene", name_},
+               {"Time", fmt::format("{:.9g} s", frame.time)},
+               {"Drive phase", fmt::format("{:.9g}", frame.phase)},
+               {"Step", std::to_string(frame.step)},
+               {"Playback", drawn.playback},
+               {"Software", "grainreel"}});
+}
+
+}  // namespace grainreel

@@ -1,0 +1,102 @@
+#include "render/film/remux.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "engine/base/error.hpp"
+#include "render/film/ffmpeg_handles.hpp"
+
+namespace grainreel {
+namespace {
+
+int open_input(const std::filesystem::path& path, InputPtr& input) {
+    AVFormatContext* context = nullptr;
+    const int code = avformat_open_input(&context, ffmpeg_url(path).c_str(), nullptr, nullptr);
+    input.reset(context);
+    return code;
+}
+
+int open_output(const AVFormatContext& input, const std::filesystem::path& path, OutputPtr& output) {
+    AVFormatContext* context = nullptr;
+    int code = avformat_alloc_output_context2(&context, nullptr, "mp4", ffmpeg_url(path).c_str());
+    output.reset(context);
+    if (code < 0) return code;
+    const AVStream& from = *input.streams[0];
+    AVStream* to = avformat_new_stream(context, nullptr);
+    if (!to) return AVERROR(ENOMEM);
+    code = avcodec_parameters_copy(to->codecpar, from.codecpar);
+    if (code < 0) return code;
+    to->codecpar->codec_tag = 0;
+    to->time_base = from.time_base;
+    to->avg_frame_rate = from.avg_frame_rate;
+    av_dict_copy(&context->metadata, input.metadata, 0);
+    Options options;
+    options.set("movflags", "faststart");
+    code = avio_open(&context->pb, context->url, AVIO_FLAG_WRITE);
+    return code < 0 ? code : avformat_write_header(context, options.get());
+}
+
+int copy_packets(AVFormatContext& input, AVFormatContext& output) {
+    const PacketPtr packet(av_packet_alloc());
+    if (!packet) return AVERROR(ENOMEM);
+    int code = 0;
+    while ((code = av_read_frame(&input, packet.get())) >= 0) {
+        av_packet_rescale_ts(packet.get(), input.streams[0]->time_base, output.streams[0]->time_base);
+        packet->pos = -1;
+        code = av_write_frame(&output, packet.get());
+        if (code >= 0) code = output.pb->error;
+        av_packet_unref(packet.get());
+        if (code < 0) return code;
+    }
+    return code == AVERROR_EOF ? 0 : code;
+}
+
+int write_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
+    InputPtr input;
+    OutputPtr output;
+    int code = open_input(from, input);
+    if (code >= 0) code = open_output(*input, to, output);
+    if (code >= 0) code = copy_packets(*input, *output);
+    if (code >= 0) code = av_write_trailer(output.get());
+    if (code >= 0) code = output->pb->error;
+    if (code >= 0) code = avio_closep(&output->pb);
+    return code;
+}
+
+// A file or a folder; 0 or a negative error.
+int sync(const std::filesystem::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return AVERROR(errno);
+    const int code = ::fsync(descriptor) == 0 ? 0 : AVERROR(errno);
+    ::close(descriptor);
+    return code;
+}
+
+}  // namespace
+
+std::string ffmpeg_url(const std::filesystem::path& path) {
+    return "file:" + path.string();
+}
+
+void remux_for_streaming(const std::filesystem::path& path) {
+    const std::filesystem::path part = path.string() + ".part";
+    int code = write_copy(path, part);
+    if (code >= 0) code = sync(part);
+    std::error_code renamed;
+    if (code >= 0) std::filesystem::rename(part, path, renamed);
+    if (renamed) code = AVERROR(renamed.value());
+    if (code >= 0) {
+        sync(std::filesystem::absolute(path)
+                 .parent_path());  // the new name; without it the film is no worse off
+        return;
+    }
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw RunError(fmt::format("{}: cannot put the index in front: {}; the film on disk is whole and plays",
+                               path.string(), ffmpeg_error(code)));
+}
+
+}  // namespace grainreel
