@@ -1,0 +1,32 @@
+// contacts.nc: who pushes whom, and how hard, at the moments of the trajectory. The number of contacts
+// changes from frame to frame and classic NetCDF has one unlimited dimension, so the file is one long table:
+// dimension `row`, columns frame (counts the trajectory's frames from 0), first, second (ids; a wall is -1 -
+// its face), normal (N), tangential (N, on `second`) and point (m). Forces and points are floats.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/run/simulation.hpp"
+
+namespace grainreel {
+
+class ContactsWriter {
+  public:
+    // Throws RunError when the file cannot be written.
+    ContactsWriter(const std::filesystem::path& path, const std::string& title,
+                   const std::string& program_version);
+    ~ContactsWriter();
+
+    // The rows are in the file when this returns. Throws RunError when they could not be written; those of
+    // the frames before stay readable.
+    void write(std::int64_t frame, const std::vector<Simulation::ContactRecord>& contacts);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,24 @@
+// final.csv: the state of every grain as a table, one row a grain. Written with as many digits as it takes to
+// read back the same bits, so a scene may start from it.
+//
+//   id,species,radius,x,y,z,vx,vy,vz,wx,wy,wz[,qx,qy,qz,qw]
+//
+// SI units: radius and position m, velocity m/s, spin (angular velocity) rad/s; `species` counts the scene's
+// species from 0; the orientation is a unit quaternion, there only when the run kept it.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/frame.hpp"
+
+namespace grainreel {
+
+// Throws RunError when the file cannot be written; what it held before stays then.
+void write_grain_table(const std::filesystem::path& path, const Frame& frame);
+
+// The frame's step, time and wall poses stay at their defaults: the table does not hold them.
+// Throws UserError with line and column when the file is missing, is not such a table, or holds a value that
+// no grain can have (a radius of 0, an infinite speed, an id twice).
+Frame read_grain_table(const std::filesystem::path& path);
+
+}  // namespace grainreel

@@ -1,0 +1,34 @@
+#include "engine/output/log.hpp"
+
+#include <spdlog/logger.h>
+#include <spdlog/sinks/basic_file_sink.h>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+RunLog::RunLog(const std::filesystem::path& path) {
+    try {
+        auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), true);
+        logger_ = std::make_unique<spdlog::logger>("run", std::move(sink));
+    } catch (const spdlog::spdlog_ex& problem) {
+        throw RunError(problem.what());
+    }
+    logger_->set_pattern("%Y-%m-%d %H:%M:%S.%e  %-7l  %v");
+    logger_->flush_on(spdlog::level::trace);
+    logger_->set_error_handler([](const std::string&) {});
+}
+
+RunLog::~RunLog() = default;
+
+void RunLog::info(const std::string& message) {
+    logger_->log(spdlog::level::info, message);
+}
+void RunLog::warning(const std::string& message) {
+    logger_->log(spdlog::level::warn, message);
+}
+void RunLog::error(const std::string& message) {
+    logger_->log(spdlog::level::err, message);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,92 @@
+#include "engine/output/run_json.hpp"
+
+#include <chrono>
+#include <ctime>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/output/text_file.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json text_or_null(const std::string& text) {
+    return text.empty() ? Json(nullptr) : Json(text);
+}
+
+template <class Value>
+Json table(const std::vector<std::pair<std::string, Value>>& rows) {
+    Json object = Json::object();
+    for (const auto& [name, value] : rows) object[name] = value;
+    return object;
+}
+
+Json program(const RunRecord& r) {
+    return {{"name", "grainreel"},    {"version", r.version},   {"commit", r.commit},
+            {"compiler", r.compiler}, {"flags", r.build_flags}, {"libraries", table(r.libraries)}};
+}
+
+Json engine(const RunRecord& r) {
+    return {{"seed", r.seed},
+            {"grains", r.grains},
+            {"step_s", r.step},
+            {"steps", r.steps},
+            {"steps_planned", r.steps_planned},
+            {"simulated_s", r.simulated},
+            {"vector", r.vector},
+            {"particle_steps_per_second", r.particle_steps_per_second},
+            {"state_hash", r.state_hash ? Json(fmt::format("{:016x}", *r.state_hash)) : Json(nullptr)}};
+}
+
+}  // namespace
+
+std::string to_string(RunStatus status) {
+    switch (status) {
+        case RunStatus::running:
+            return "running";
+        case RunStatus::complete:
+            return "complete";
+        case RunStatus::interrupted:
+            return "interrupted";
+        case RunStatus::failed:
+            break;
+    }
+    return "failed";
+}
+
+std::string utc_now() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
+    const Json document = {
+        {"status", to_string(r.status)},
+        {"exit_status", r.exit_status ? Json(*r.exit_status) : Json(nullptr)},
+        {"error", text_or_null(r.error)},
+        {"command", r.command},
+        {"scene", r.scene_file},
+        {"started", r.started},
+        {"finished", text_or_null(r.finished)},
+        {"program", program(r)},
+        {"gl", text_or_null(r.gl)},
+        {"threads",
+         {{"engine", r.engine_threads}, {"raster", r.raster_threads}, {"encoder", r.encoder_threads}}},
+        {"engine", engine(r)},
+        {"wall_s", table(r.wall_seconds)},
+        {"written",
+         {{"film_frames", r.film_frames},
+          {"trajectory_frames", r.trajectory_frames},
+          {"measures_rows", r.measures_rows}}},
+        {"peak_memory_bytes", r.peak_memory},
+        {"warnings", r.warnings}};
+    // Names and messages come from the user's files: what is not UTF-8 is shown, not a reason to fail.
+    replace_file(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace grainreel

@@ -1,0 +1,53 @@
+// run.json: what was run, with what, and how it went. Written when the run begins (status "running") and
+// again, in one stroke, when it ends; a run that was killed still says "running".
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grainreel {
+
+enum class RunStatus { running, complete, interrupted, failed };
+
+struct RunRecord {
+    RunStatus status = RunStatus::running;
+    std::optional<int> exit_status;  // of the program; none while running
+    std::string error;               // what ended a failed run
+
+    std::string command;  // as typed, words quoted where the shell needs it
+    std::string scene_file;
+    std::string version, commit, compiler, build_flags;
+    std::vector<std::pair<std::string, std::string>> libraries;  // name, version
+    std::string gl;      // of the context that drew the film; empty without one
+    std::string vector;  // vector instructions the engine was compiled for
+
+    std::uint64_t seed = 0;
+    int engine_threads = 0, raster_threads = 0, encoder_threads = 0;
+    std::string started, finished;  // UTC, ISO 8601
+
+    std::int64_t grains = 0;
+    std::int64_t steps = 0, steps_planned = 0;  // of vibration
+    double step = 0;                            // s
+    double simulated = 0;                       // s, since the drive started
+    std::optional<std::uint64_t> state_hash;    // of the end state
+
+    std::vector<std::pair<std::string, double>> wall_seconds;  // by stage
+    double particle_steps_per_second = 0;                      // of vibration, time in the engine alone
+    std::int64_t film_frames = 0, trajectory_frames = 0, measures_rows = 0;
+    std::int64_t peak_memory = 0;  // bytes
+    std::vector<std::string> warnings;
+};
+
+std::string to_string(RunStatus status);
+
+// Now, in UTC: "2031-05-04T12:30:00Z".
+std::string utc_now();
+
+// Throws RunError when the file cannot be written; what it held before stays then.
+void write_run_json(const std::filesystem::path& path, const RunRecord& record);
+
+}  // namespace grainreel

@@ -1,0 +1,33 @@
+// Text on disk with every failure noticed: a full disk is a RunError that names the file and the reason.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace grainreel {
+
+// A file written line by line; each write reaches the system before it returns.
+class TextFile {
+  public:
+    // Throws RunError when the file cannot be made.
+    explicit TextFile(const std::filesystem::path& path);
+
+    // Throws RunError when not all of `text` could be written.
+    void write(std::string_view text);
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::filesystem::path path_;
+    std::unique_ptr<std::FILE, Close> file_;
+};
+
+// Puts `text` in place of what `path` held: readers see the old file or the new one, never a part.
+void replace_file(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace grainreel

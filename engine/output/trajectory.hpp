@@ -1,0 +1,72 @@
+// trajectory.nc: frames in a classic NetCDF file after the AMBER trajectory convention 1.0, extended as
+// LAMMPS and OVITO extend it (id, type, radius, cell_origin, further variables a grain).
+//
+// Departures from the convention, each said in the file: SI units (every variable carries `units`; the
+// convention has angstrom and picosecond); time and coordinates in double precision (the convention has
+// float), since an overlap at rest is smaller than a float's last place; as the recent convention asks,
+// cell_lengths is 0 where nothing is periodic.
+//
+// Dimensions: frame (unlimited), atom (a capacity), spatial = cell_spatial = cell_angular = 3, label = 5.
+//   a frame:            time, cycles, phase, step (double: classic NetCDF has no 64-bit integer), grains,
+//                       wall_offset, wall_velocity, floor_offset, floor_velocity, cell_origin, cell_lengths,
+//                       cell_angles
+//   a frame and grain:  id, type (1 is the scene's first species), radius, coordinates, velocities (float),
+//                       spin (float, rad/s) and, when asked for, orientation (float, x y z w)
+// Grains may appear and vanish: a frame's grains fill the first places, the rest hold id -1 and the format's
+// fill value, by which OVITO knows where a frame ends.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+
+namespace grainreel {
+
+struct TrajectoryInfo {
+    std::string title;
+    std::string program_version;
+    std::vector<std::string> species;
+    std::size_t capacity = 0;  // the most grains a frame can have
+    bool orientation = false;
+    Vec3 cell_origin{0, 0, 0};      // m
+    Vec3 periodic_length{0, 0, 0};  // m, 0 where nothing is periodic
+};
+
+class TrajectoryWriter {
+  public:
+    // Throws RunError when the file cannot be written.
+    TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info);
+    ~TrajectoryWriter();
+
+    // The frame is in the file when this returns; a program killed later leaves it readable. Throws RunError
+    // when it could not be written (disk full); the frames before stay readable.
+    void write(const Frame& frame);
+
+    std::int64_t frames() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+class TrajectoryReader {
+  public:
+    // Throws UserError when the file is missing or not such a trajectory.
+    explicit TrajectoryReader(const std::filesystem::path& path);
+    ~TrajectoryReader();
+
+    std::size_t frames() const;
+    const TrajectoryInfo& info() const;
+
+    // 0 <= index < frames().
+    Frame read(std::size_t index) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel
