@@ -1,1 +1,56 @@
-// Being written.
+#include "engine/state/container_faces.hpp"
+
+#include <cmath>
+
+namespace grainreel {
+
+namespace {
+
+Face plane(const std::string& name, const Vec3& point, const Vec3& normal) {
+    Face face;
+    face.name = name;
+    face.point = point;
+    face.normal = normal;
+    return face;
+}
+
+void add_side_walls(const Container& c, std::vector<Face>& faces) {
+    if (c.shape == Container::Shape::cylinder) {
+        Face wall;
+        wall.kind = Face::Kind::cylinder;
+        wall.name = "wall";
+        wall.radius = c.half_width;
+        faces.push_back(wall);
+        return;
+    }
+    faces.push_back(plane("left wall", {0, -c.half_width, 0}, {0, 1, 0}));
+    faces.push_back(plane("right wall", {0, c.half_width, 0}, {0, -1, 0}));
+    if (c.shape == Container::Shape::wedge && c.half_angle > 0) {
+        const double cosine = std::cos(c.half_angle), sine = std::sin(c.half_angle);
+        faces.push_back(plane("left slant", {0, -c.half_width, c.slant_height}, {0, cosine, sine}));
+        faces.push_back(plane("right slant", {0, c.half_width, c.slant_height}, {0, -cosine, sine}));
+    }
+    if (!c.periodic_depth) {
+        faces.push_back(plane("back", {-c.depth / 2, 0, 0}, {1, 0, 0}));
+        faces.push_back(plane("front", {c.depth / 2, 0, 0}, {-1, 0, 0}));
+    }
+}
+
+}  // namespace
+
+std::vector<Face> container_faces(const Container& container, const Drive& drive) {
+    std::vector<Face> faces;
+    faces.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
+    add_side_walls(container, faces);
+    if (container.lid) faces.push_back(plane("lid", {0, 0, container.height}, {0, 0, -1}));
+    for (Face& face : faces) {
+        face.moves = drive.present && (drive.moves == Drive::Moves::container || face.name == "floor");
+    }
+    return faces;
+}
+
+double period_of_depth(const Container& container) {
+    return container.periodic_depth && container.shape != Container::Shape::cylinder ? container.depth : 0.0;
+}
+
+}  // namespace grainreel

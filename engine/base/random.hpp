@@ -1,0 +1,34 @@
+// Named streams of random numbers, the same on every machine: one stream's use never shifts another's.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+
+namespace grainreel {
+
+enum class Stream : std::uint64_t { diameters = 1, centres = 2 };
+
+class Random {
+public:
+    Random(std::uint64_t seed, Stream stream) {
+        std::seed_seq mix{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
+                          static_cast<std::uint32_t>(stream)};
+        engine_.seed(mix);
+    }
+
+    // In [0, 1), 53 bits. Not std::uniform_real_distribution, whose numbers differ between libraries.
+    double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+    double between(double low, double high) { return low + (high - low) * uniform(); }
+    // Mean 0, deviation 1 (Box & Muller 1958).
+    double normal() {
+        const double u = 1 - uniform(), v = uniform();
+        return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+    }
+
+private:
+    std::mt19937_64 engine_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,19 @@
+// One row of measures from the present state.
+#pragma once
+
+#include "engine/base/clock.hpp"
+#include "engine/measure/measures.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+// start_energy: J, all energy at the start of the drive, for the balance.
+Measures measure(const Scene& scene, const Clock& clock, const Surroundings& around, const Grains& grains,
+                 const StepLoop& loop, std::int64_t step, double start_energy);
+
+// J: kinetic, rotational, gravitational and elastic together.
+double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop, std::int64_t step);
+
+}  // namespace grainreel

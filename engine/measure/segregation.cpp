@@ -1,0 +1,69 @@
+#include "engine/measure/segregation.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
+
+namespace grainreel {
+
+namespace {
+
+using Indices = std::span<std::int32_t>;
+
+// Longest edge of the box around the grains.
+int longest_axis(Indices grains, const std::vector<Vec3>& position) {
+    Vec3 low = position[grains[0]], high = low;
+    for (const std::int32_t i : grains) {
+        low = low.cwiseMin(position[i]);
+        high = high.cwiseMax(position[i]);
+    }
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    return axis;
+}
+
+// Sum over `samples` samples of (share - p)^2.
+double summed_variance(Indices grains, int samples, const std::vector<Vec3>& position,
+                       const std::vector<std::uint8_t>& marked, double p) {
+    if (samples == 1) {
+        double hits = 0;
+        for (const std::int32_t i : grains) hits += marked[i];
+        const double share = hits / static_cast<double>(grains.size());
+        return (share - p) * (share - p);
+    }
+    const int axis = longest_axis(grains, position);
+    const int left = samples / 2;
+    const auto middle = grains.size() * left / samples;
+    // The index settles ties, so that the cut does not depend on the order the grains come in.
+    std::nth_element(grains.begin(), grains.begin() + static_cast<std::ptrdiff_t>(middle), grains.end(),
+                     [&](std::int32_t a, std::int32_t b) {
+                         return std::pair(position[a][axis], a) < std::pair(position[b][axis], b);
+                     });
+    return summed_variance(grains.first(middle), left, position, marked, p) +
+           summed_variance(grains.subspan(middle), samples - left, position, marked, p);
+}
+
+}  // namespace
+
+double lacey_index(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked) {
+    const double count = static_cast<double>(position.size());
+    const double p = std::accumulate(marked.begin(), marked.end(), 0.0) / count;
+    if (p <= 0 || p >= 1) return std::numeric_limits<double>::quiet_NaN();
+    const int samples = std::max(2, static_cast<int>(position.size()) / kLaceySample);
+    std::vector<std::int32_t> grains(position.size());
+    std::iota(grains.begin(), grains.end(), 0);
+    const double variance = summed_variance(grains, samples, position, marked, p) / samples;
+    const double segregated = p * (1 - p);
+    const double random = segregated / (count / samples);
+    return (segregated - variance) / (segregated - random);
+}
+
+double bed_height(std::vector<double>& heights) {
+    if (heights.empty()) return 0;
+    const auto at = heights.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(heights.size() - 1));
+    std::nth_element(heights.begin(), at, heights.end());
+    return *at;
+}
+
+}  // namespace grainreel

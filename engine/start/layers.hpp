@@ -1,0 +1,15 @@
+// Random centres in layers, one a species, big at the bottom (init1 of the original program).
+#pragma once
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/grains.hpp"
+
+namespace grainreel {
+
+// All grains of the scene at rest: ids counting from 0 in the order of the species, diameters drawn from each
+// species' spread, centres at random in the species' layer, at least a quarter radius inside the container.
+// The layers share the container's volume as the species share the solid volume, so all are equally dense; the
+// species with the largest mean diameter lies lowest. Spheres overlap freely: radius growth sorts that out.
+Grains place_in_layers(const Scene& scene);
+
+}  // namespace grainreel

@@ -1,0 +1,142 @@
+#include "engine/start/radius_growth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double kInflation = 1 + 1e-4;     // grains grow a little beyond, then shrink back clear of each other
+constexpr double kFirstShare = 0.5;         // of the gap to the nearest neighbour, for the first radii
+constexpr double kGrowthPerCycle = 0.02;
+constexpr int kStepsPerCycle = 40;
+constexpr std::int64_t kMostCycles = 5000;
+constexpr double kRestitution = 0.3;        // a plastic contact law lets the crowd come to rest
+
+// The scene's laws, plastic and without friction.
+Plan growth_plan(const Plan& plan) {
+    Plan growth = plan;
+    growth.normal = NormalLaw::walton_braun;
+    growth.tangential = TangentialLaw::none;
+    for (auto* table : {&growth.grain, &growth.wall}) {
+        for (PairPlan& pair : *table) {
+            pair.restitution = kRestitution;
+            pair.unloading_stiffness = pair.loading_stiffness / (kRestitution * kRestitution);
+        }
+    }
+    return growth;
+}
+
+// s: a stable step for the stiff, plastic contacts (physics of Verlet, dt < 2/w; here with twelve contacts).
+double growth_step(const Plan& growth, const Grains& grains) {
+    double stiffest = 0;
+    for (const auto* table : {&growth.grain, &growth.wall}) {
+        for (const PairPlan& pair : *table) stiffest = std::max(stiffest, pair.unloading_stiffness);
+    }
+    double lightest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < grains.size(); ++i) lightest = std::min(lightest, grains.mass(i));
+    return 0.3 * std::sqrt(lightest / stiffest);
+}
+
+struct Growing {
+    const Scene& scene;
+    const Surroundings& around;
+    Grains& grains;
+    std::vector<double> wanted;  // by id: m
+
+    double wanted_of(std::size_t i) const { return wanted[grains.id[i]]; }
+    void set_radius(std::size_t i, double r) {
+        grains.set_radius(i, r, scene.species[grains.species[i]].density);
+    }
+};
+
+// First radii: a share of the gap to the nearest neighbour, split as the wanted radii are, and of the walls'.
+void first_radii(Growing& g, double reach) {
+    Cells cells;
+    NeighbourList list;
+    g.grains.reorder(spatial_order(cells, g.grains, reach, g.around.period));
+    list_pairs(cells, g.grains, reach, g.around.period, list);
+    std::vector<double> allowed(g.grains.size());
+    for (std::size_t i = 0; i < allowed.size(); ++i) {
+        allowed[i] = g.wanted_of(i) * kInflation;
+        for (const Face& face : g.around.faces) {
+            const double distance = distance_to(face, Vec3::Zero(), g.grains.place[i].position).distance;
+            allowed[i] = std::min(allowed[i], std::max(distance, 0.1 * g.wanted_of(i)));
+        }
+    }
+    for (std::size_t i = 0; i + 1 < list.start.size(); ++i) {
+        for (std::int32_t slot = list.start[i]; slot < list.start[i + 1]; ++slot) {
+            const std::size_t j = list.partner[slot];
+            Vec3 apart = g.grains.place[j].position - g.grains.place[i].position;
+            apart.x() = nearest_image(apart.x(), g.around.period);
+            const double share = kFirstShare * apart.norm() / (g.wanted_of(i) + g.wanted_of(j));
+            allowed[i] = std::min(allowed[i], std::max(share, 0.1) * g.wanted_of(i));
+            allowed[j] = std::min(allowed[j], std::max(share, 0.1) * g.wanted_of(j));
+        }
+    }
+    for (std::size_t i = 0; i < allowed.size(); ++i) g.set_radius(i, allowed[i]);
+}
+
+// Largest overlap over the smaller wanted radius.
+double largest_overlap(const StepLoop& loop) {
+    double largest = 0;
+    loop.visit_contacts(-1, [&](const ContactView& c) { largest = std::max(largest, c.overlap / c.smaller_radius); });
+    return largest;
+}
+
+}  // namespace
+
+GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings& surroundings, Grains& grains,
+                        Team& team, const std::function<bool(double, std::int64_t)>& watcher) {
+    const Plan growth = growth_plan(plan);
+    const double step = growth_step(growth, grains);
+    const double drag = 0.05 / step;  // overdamped: grains creep apart, they do not fly
+    Surroundings still = surroundings;
+    still.gravity.setZero();
+    Growing g{scene, still, grains, std::vector<double>(grains.size())};
+    for (std::size_t i = 0; i < grains.size(); ++i) g.wanted[grains.id[i]] = grains.place[i].radius;
+    first_radii(g, still.skin);
+
+    const auto loop = make_step_loop(growth, still, grains, team);
+    GrowthReport report;
+    for (;; ++report.cycles) {
+        double smallest_share = 1;
+        for (std::size_t i = 0; i < grains.size(); ++i) {
+            const double full = g.wanted_of(i) * kInflation;
+            const double radius = std::min(full, grains.place[i].radius * (1 + kGrowthPerCycle));
+            smallest_share = std::min(smallest_share, radius / full);
+            g.set_radius(i, radius);
+        }
+        loop->restart();
+        loop->run(0, kStepsPerCycle, step, drag);
+        report.steps += kStepsPerCycle;
+        if (!watcher(smallest_share, report.steps)) {
+            report.finished = false;
+            return report;
+        }
+        if (smallest_share >= 1 && largest_overlap(*loop) < 0.5 * (kInflation - 1)) break;
+        if (report.cycles > kMostCycles) {
+            throw RunError(fmt::format(
+                "{}: the grains still overlap by {:.2g} radii after {} cycles of radius growth; take fewer or smaller "
+                "grains, or a larger container",
+                scene.where("species"), largest_overlap(*loop), report.cycles));
+        }
+    }
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        g.set_radius(i, g.wanted_of(i));
+        grains.motion[i].velocity.setZero();
+        grains.spin[i].rate.setZero();
+        grains.force[i].setZero();
+        grains.torque[i].setZero();
+    }
+    return report;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,133 @@
+#include "engine/start/restart.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "engine/base/binary.hpp"
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '1'};
+
+// What must be equal for a continuation to be the same run: laws, stiffness, step, drive.
+std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
+    std::ostringstream out;
+    write_value(out, plan.normal);
+    write_value(out, plan.tangential);
+    write_value(out, plan.arms);
+    for (const auto* table : {&plan.grain, &plan.wall}) {
+        for (const PairPlan& p : *table) {
+            for (const double v : {p.loading_stiffness, p.unloading_stiffness, p.tangential_stiffness, p.gamma,
+                                   p.friction, p.normal_damping, p.tangential_damping}) {
+                write_value(out, v);
+            }
+        }
+    }
+    write_value(out, plan.clock.step);
+    write_value(out, plan.clock.steps_per_period);
+    for (const double v : {scene.drive.frequency, scene.drive.amplitude, scene.drive.phase, scene.drive.ramp}) {
+        write_value(out, v);
+    }
+    for (const double v : {scene.gravity.x(), scene.gravity.y(), scene.gravity.z()}) write_value(out, v);
+    const std::string bytes = out.str();
+    return XXH64(bytes.data(), bytes.size(), 0);
+}
+
+template <class Stream, class Grain, class Transfer>
+void transfer_grains(Stream& stream, Grain& g, const Transfer& transfer) {
+    transfer(stream, g.id);
+    transfer(stream, g.species);
+    transfer(stream, g.place);
+    transfer(stream, g.motion);
+    transfer(stream, g.spin);
+    transfer(stream, g.force);
+    transfer(stream, g.torque);
+    transfer(stream, g.wall_work);
+    transfer(stream, g.orientation);
+}
+
+UserError cannot_start(const Scene& scene, const std::string& what) {
+    return UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
+}
+
+std::string read_whole(const Scene& scene) {
+    std::ifstream in(scene.start.file, std::ios::binary);
+    if (!in) throw cannot_start(scene, "cannot be read; give the checkpoint.grs or final.csv of an earlier run");
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    return bytes.str();
+}
+
+}  // namespace
+
+void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop) {
+    write_value(out, step);
+    transfer_grains(out, grains, [](std::ostream& o, const auto& values) { write_vector(o, values); });
+    loop.save(out);
+}
+
+void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
+                     const CheckpointHeader& header, const Grains& grains, const StepLoop& loop) {
+    std::ostringstream body;
+    write_value(body, plan_fingerprint(scene, plan));
+    write_value(body, header);
+    write_state(body, header.step, grains, loop);
+    const std::string bytes = body.str();
+    const std::uint64_t sum = XXH64(bytes.data(), bytes.size(), 0);
+
+    const std::filesystem::path temporary = path.string() + ".part";
+    std::ofstream file(temporary, std::ios::binary);
+    file.write(kMagic, sizeof kMagic);
+    write_value(file, sum);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    std::error_code failed;
+    if (file) std::filesystem::rename(temporary, path, failed);
+    if (!file || failed) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw RunError(fmt::format("{}: the checkpoint cannot be written; is the disk full?", path.string()));
+    }
+}
+
+bool is_checkpoint(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    char magic[sizeof kMagic] = {};
+    in.read(magic, sizeof magic);
+    return in && std::memcmp(magic, kMagic, sizeof magic) == 0;
+}
+
+CheckpointHeader load_checkpoint(const Scene& scene, const Plan& plan, Grains& grains, StepLoop* loop) {
+    const std::string bytes = read_whole(scene);
+    constexpr std::size_t prologue = sizeof kMagic + sizeof(std::uint64_t);
+    std::uint64_t sum = 0;
+    if (bytes.size() > prologue) std::memcpy(&sum, bytes.data() + sizeof kMagic, sizeof sum);
+    if (bytes.size() <= prologue || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0 ||
+        sum != XXH64(bytes.data() + prologue, bytes.size() - prologue, 0)) {
+        throw cannot_start(scene, "is damaged or no checkpoint of this version; take another");
+    }
+    std::istringstream in(bytes.substr(prologue));
+    std::uint64_t fingerprint = 0;
+    CheckpointHeader header;
+    std::int64_t step = 0;
+    read_value(in, fingerprint);
+    if (loop && fingerprint != plan_fingerprint(scene, plan)) {
+        throw cannot_start(scene, "was made with other laws, stiffness, step or drive; "
+                                  "use the same scene, or set start.keep_clock = false to start anew from its grains");
+    }
+    read_value(in, header);
+    read_value(in, step);
+    transfer_grains(in, grains, [](std::istream& i, auto& values) { read_vector(i, values); });
+    if (loop) loop->load(in);
+    if (!in) throw cannot_start(scene, "is damaged; take another checkpoint");
+    return header;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,50 @@
+// The container as faces that grains can touch. Every container here is convex, so whole planes serve:
+// a grain in a corner touches two of them, and both contacts are real.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/vector.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// Where the container is: its displacement from rest and its velocity, both at the same time level.
+struct Pose {
+    Vec3 offset{0, 0, 0};    // m
+    Vec3 velocity{0, 0, 0};  // m/s
+};
+
+struct Face {
+    enum class Kind { plane, cylinder };
+    Kind kind = Kind::plane;
+    std::string name;        // "floor", "left slant", ... for messages
+    Vec3 point{0, 0, 0};     // m, on the plane; on the axis of a cylinder (vertical)
+    Vec3 normal{0, 0, 1};    // unit, into the container; unused by a cylinder
+    double radius = 0;       // m, of a cylinder
+    bool moves = false;      // follows the drive
+};
+
+struct FaceDistance {
+    double distance;  // m, from the grain's centre, negative outside
+    Vec3 normal;      // unit, into the container
+};
+
+// physics.md section 4: vertical wall d = y_max - |y|; slant d = [y_max - |y| - (H - z) tan theta] cos theta.
+inline FaceDistance distance_to(const Face& face, const Vec3& offset, const Vec3& centre) {
+    const Vec3 from = centre - face.point - offset;
+    if (face.kind == Face::Kind::plane) return {face.normal.dot(from), face.normal};
+    const double out = std::sqrt(from.x() * from.x() + from.y() * from.y());
+    if (out == 0) return {face.radius, Vec3(1, 0, 0)};
+    return {face.radius - out, Vec3(-from.x() / out, -from.y() / out, 0)};
+}
+
+// The faces of a scene's container at rest; `moves` follows the scene's drive. Front and back are left out
+// when the depth is periodic, the lid when the top is open (the walls then go on upwards without end).
+std::vector<Face> container_faces(const Container& container, const Drive& drive);
+
+// 0 when the depth is not periodic.
+double period_of_depth(const Container& container);
+
+}  // namespace grainreel

@@ -1,0 +1,52 @@
+// The grains as the step loop holds them: arrays in spatial order, reordered at each rebuild of the
+// neighbour list. `id` tells who a grain is; its index does not.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/vector.hpp"
+
+namespace grainreel {
+
+// 32-byte records: one aligned load a grain for each kind of access the contact pass makes.
+struct alignas(32) Place {
+    Vec3 position;  // m
+    double radius;  // m
+};
+struct alignas(32) Motion {
+    Vec3 velocity;        // m/s
+    double inverse_mass;  // 1/kg
+};
+struct alignas(32) Spin {
+    Vec3 rate;               // rad/s
+    double inverse_inertia;  // 1/(kg m2)
+};
+
+struct Grains {
+    std::vector<std::int32_t> id;
+    std::vector<std::int32_t> species;
+    std::vector<Place> place;
+    std::vector<Motion> motion;
+    std::vector<Spin> spin;              // kept, but at rest and unread, in scenes without friction
+    std::vector<Vec3> force;             // N, of the last force evaluation, gravity left out
+    std::vector<Vec3> torque;            // N m
+    // Velocity and spin at the end of the step, predicted from the last force; kept for laws with a dashpot only.
+    std::vector<Vec3> end_velocity, end_spin;
+    std::vector<double> wall_work;       // J, done by moving walls on this grain since the drive started
+    std::vector<Quaternion> orientation; // empty unless asked for
+
+    std::size_t size() const { return id.size(); }
+
+    // A grain at rest; density kg/m3.
+    void add(std::int32_t grain_id, std::int32_t grain_species, const Vec3& position, double radius, double density);
+    // Mass and inertia of a solid sphere follow the radius.
+    void set_radius(std::size_t i, double radius, double density);
+    double mass(std::size_t i) const { return 1 / motion[i].inverse_mass; }
+    double inertia(std::size_t i) const { return 1 / spin[i].inverse_inertia; }
+
+    // order[new index] = old index.
+    void reorder(const std::vector<std::int32_t>& order);
+};
+
+}  // namespace grainreel

@@ -1,0 +1,276 @@
+// The step loop for one pair of contact laws.
+#pragma once
+
+#include <cmath>
+#include <istream>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <utility>
+
+#include "engine/base/binary.hpp"
+#include "engine/base/error.hpp"
+#include "engine/laws/contact_law.hpp"
+#include "engine/step/contact_pass.hpp"
+#include "engine/step/integrate.hpp"
+#include "engine/step/step_loop.hpp"
+#include "engine/step/wall_pass.hpp"
+
+namespace grainreel {
+
+template <class Law>
+class LawLoop final : public StepLoop {
+public:
+    LawLoop(const Plan& plan, const Surroundings& surroundings, Grains& grains, Team& team)
+        : around_(surroundings),
+          grains_(grains),
+          team_(team),
+          pairs_(plan.grain, plan.wall.size(), plan.arms),
+          walls_(plan.wall, surroundings.faces, plan.arms),
+          threads_(team.size()),
+          farthest_(team.size()) {}
+
+    void restart() override {
+        if constexpr (Law::uses_velocity) {
+            grains_.end_velocity.resize(grains_.size());
+            grains_.end_spin.resize(grains_.size());
+        }
+        new_lists(around_.motion.at(-1));
+        pairs_.clear_history();
+        walls_.clear_history();
+    }
+
+    void run(std::int64_t from, std::int64_t count, double step, double drag) override {
+        const double keep = drag > 0 ? std::exp(-drag * step) : 1.0;
+        team_.run([&](int member) {
+            for (std::int64_t n = from; n < from + count; ++n) one_step(member, n, step, keep);
+        });
+    }
+
+    void visit_contacts(std::int64_t at_step, const std::function<void(const ContactView&)>& visit) const override {
+        visit_pairs(visit);
+        visit_walls(around_.motion.at(at_step), visit);
+    }
+
+    void save(std::ostream& out) const override {
+        write_vector(out, pairs_.list.start);
+        write_vector(out, pairs_.list.partner);
+        write_vector(out, pairs_.history);
+        write_vector(out, pairs_.touched);
+        write_vector(out, walls_.list);
+        write_vector(out, walls_.history);
+        write_vector(out, walls_.touched);
+        write_vector(out, listed_at_);
+        write_value(out, listed_pose_);
+    }
+
+    void load(std::istream& in) override {
+        read_vector(in, pairs_.list.start);
+        read_vector(in, pairs_.list.partner);
+        read_vector(in, pairs_.history);
+        read_vector(in, pairs_.touched);
+        read_vector(in, walls_.list);
+        read_vector(in, walls_.history);
+        read_vector(in, walls_.touched);
+        read_vector(in, listed_at_);
+        read_value(in, listed_pose_);
+        if constexpr (Law::uses_velocity) {
+            grains_.end_velocity.resize(grains_.size());
+            grains_.end_spin.resize(grains_.size());
+        }
+        share_out();
+    }
+
+    std::int64_t rebuilds() const override { return rebuilds_; }
+    std::size_t listed_pairs() const override { return pairs_.list.size(); }
+
+private:
+    static constexpr bool rubs = Law::rubs;
+
+    // From step n to n + 1, the part of one thread. A thread touches its own grains only, but for reading
+    // positions and velocities between the second and third barrier, while nobody writes them.
+    void one_step(int member, std::int64_t n, double step, double keep) {
+        const Pose before = around_.motion.at(n), now = around_.motion.at(n + 1);
+        const auto mine = [&] { return std::pair{share_[member], share_[member + 1]}; };
+        {
+            const auto [begin, end] = mine();
+            farthest_[member].squared =
+                kick_and_drift<rubs, Law::uses_velocity>(grains_, listed_at_, around_.gravity, step, begin, end);
+        }
+        team_.barrier();
+        if (lists_expired(now)) {
+            if (team_.size() > 1) team_.barrier();  // nobody may rebuild while another still reads farthest_
+            if (member == 0) rebuild(now);
+            team_.barrier();
+        }
+        const auto [begin, end] = mine();
+        pairs_.find_touching(grains_, begin, end, around_.period, threads_[member]);
+        pairs_.compute(grains_, step, around_.period, end, threads_[member]);
+        team_.barrier();
+        gather<rubs>(threads_, member, begin, end, grains_);
+        walls_.apply(grains_, step, before, now, begin, end);
+        kick<rubs>(grains_, around_.gravity, step, keep, begin, end);
+    }
+
+    bool lists_expired(const Pose& now) const {
+        double squared = 0;
+        for (const Farthest& f : farthest_) squared = std::max(squared, f.squared);
+        const double moved = std::sqrt(squared);
+        const double wall_moved = (now.offset - listed_pose_.offset).norm();
+        return 2 * moved > around_.skin || moved + wall_moved > around_.skin;
+    }
+
+    void rebuild(const Pose& now) {
+        const NeighbourList old_pairs = std::move(pairs_.list);
+        const auto old_history = std::move(pairs_.history);
+        const auto old_touched = std::move(pairs_.touched);
+        const auto old_walls = std::move(walls_.list);
+        const auto old_wall_history = std::move(walls_.history);
+        const auto old_wall_touched = std::move(walls_.touched);
+        new_lists(now);
+        std::vector<std::int32_t> new_index(grains_.size());
+        for (std::size_t i = 0; i < new_index.size(); ++i) new_index[cells_.order()[i]] = static_cast<int>(i);
+        pairs_.clear_history();
+        walls_.clear_history();
+        carry_pairs(old_pairs, old_history, old_touched, new_index);
+        carry_walls(old_walls, old_wall_history, old_wall_touched, new_index);
+        ++rebuilds_;
+    }
+
+    void new_lists(const Pose& pose) {
+        grains_.reorder(spatial_order(cells_, grains_, around_.skin, around_.period));
+        list_pairs(cells_, grains_, around_.skin, around_.period, pairs_.list);
+        walls_.list = list_wall_neighbours(grains_, around_.faces, pose, around_.skin);
+        listed_at_.resize(grains_.size());
+        for (std::size_t i = 0; i < grains_.size(); ++i) listed_at_[i] = grains_.place[i].position;
+        listed_pose_ = pose;
+        share_out();
+    }
+
+    // Ranges of grains for the threads, of about equal work: a grain costs about as much as three listed pairs.
+    void share_out() {
+        const std::int32_t n = static_cast<std::int32_t>(grains_.size());
+        const std::int64_t all = 3 * std::int64_t{n} + pairs_.list.start[n];
+        share_.assign(team_.size() + 1, n);
+        share_[0] = 0;
+        std::int32_t i = 0;
+        for (int t = 1; t < team_.size(); ++t) {
+            while (i < n && (3 * std::int64_t{i} + pairs_.list.start[i]) * team_.size() < all * t) ++i;
+            share_[t] = i;
+        }
+    }
+
+    void carry_pairs(const NeighbourList& old, const std::vector<typename Law::History>& history,
+                     const std::vector<std::uint8_t>& touched, const std::vector<std::int32_t>& new_index) {
+        for (std::size_t i = 0; i + 1 < old.start.size(); ++i) {
+            for (std::int32_t slot = old.start[i]; slot < old.start[i + 1]; ++slot) {
+                if (!touched[slot]) continue;
+                std::int32_t first = new_index[i], second = new_index[old.partner[slot]];
+                auto kept = history[slot];
+                if (first > second) {
+                    std::swap(first, second);
+                    kept.flip();
+                }
+                const auto begin = pairs_.list.partner.begin() + pairs_.list.start[first];
+                const auto end = pairs_.list.partner.begin() + pairs_.list.start[first + 1];
+                const auto found = std::find(begin, end, second);
+                if (found == end) continue;  // they have parted since the last step, by more than the skin
+                const std::size_t place = found - pairs_.list.partner.begin();
+                pairs_.history[place] = kept;
+                pairs_.touched[place] = 1;
+            }
+        }
+    }
+
+    void carry_walls(const std::vector<WallNeighbour>& old, const std::vector<typename Law::History>& history,
+                     const std::vector<std::uint8_t>& touched, const std::vector<std::int32_t>& new_index) {
+        for (std::size_t entry = 0; entry < old.size(); ++entry) {
+            if (!touched[entry]) continue;
+            const std::int32_t grain = new_index[old[entry].grain];
+            const auto lower = [](const WallNeighbour& w, std::int32_t g) { return w.grain < g; };
+            auto found = std::lower_bound(walls_.list.begin(), walls_.list.end(), grain, lower);
+            while (found != walls_.list.end() && found->grain == grain && found->face != old[entry].face) ++found;
+            if (found == walls_.list.end() || found->grain != grain) continue;
+            const std::size_t place = found - walls_.list.begin();
+            walls_.history[place] = history[entry];
+            walls_.touched[place] = 1;
+        }
+    }
+
+    void visit_pairs(const std::function<void(const ContactView&)>& visit) const {
+        for (std::int32_t i = 0; i + 1 < static_cast<std::int32_t>(pairs_.list.start.size()); ++i) {
+            for (std::int32_t slot = pairs_.list.start[i]; slot < pairs_.list.start[i + 1]; ++slot) {
+                if (!pairs_.touched[slot]) continue;
+                const std::int32_t j = pairs_.list.partner[slot];
+                const Place &one = grains_.place[i], &two = grains_.place[j];
+                Vec3 apart = two.position - one.position;
+                apart.x() = nearest_image(apart.x(), around_.period);
+                const double distance = apart.norm();
+                Touch touch{};
+                touch.normal = apart / distance;
+                touch.overlap = one.radius + two.radius - distance;
+                touch.effective_mass = 1 / (grains_.motion[i].inverse_mass + grains_.motion[j].inverse_mass);
+                touch.closing_speed =
+                    touch.normal.dot(grains_.motion[i].velocity - grains_.motion[j].velocity);
+                if (touch.overlap <= 0) continue;
+                visit(view(i, j, touch, std::min(one.radius, two.radius), one.position, one.radius,
+                           pairs_.parameters(grains_, i, j), pairs_.history[slot]));
+            }
+        }
+    }
+
+    void visit_walls(const Pose& pose, const std::function<void(const ContactView&)>& visit) const {
+        for (std::size_t entry = 0; entry < walls_.list.size(); ++entry) {
+            if (!walls_.touched[entry]) continue;
+            const std::int32_t i = walls_.list[entry].grain;
+            const Face& face = around_.faces[walls_.list[entry].face];
+            const Place& place = grains_.place[i];
+            const FaceDistance at = distance_to(face, face.moves ? pose.offset : Vec3::Zero(), place.position);
+            Touch touch{};
+            touch.normal = -at.normal;
+            touch.overlap = place.radius - at.distance;
+            touch.effective_mass = 1 / grains_.motion[i].inverse_mass;
+            const Vec3 wall_velocity = face.moves ? pose.velocity : Vec3::Zero();
+            touch.closing_speed = touch.normal.dot(grains_.motion[i].velocity - wall_velocity);
+            if (touch.overlap <= 0) continue;
+            visit(view(i, -1 - walls_.list[entry].face, touch, place.radius, place.position, place.radius,
+                       walls_.parameters(grains_, i), walls_.history[entry]));
+        }
+    }
+
+    static ContactView view(std::int32_t first, std::int32_t second, const Touch& touch, double smaller_radius,
+                            const Vec3& centre, double radius, const typename Law::Parameters& parameters,
+                            typename Law::History history) {
+        ContactView v{};
+        v.first = first;
+        v.second = second;
+        v.normal = touch.normal;
+        v.overlap = touch.overlap;
+        v.smaller_radius = smaller_radius;
+        v.normal_force = Law::Normal::force(parameters.normal, history.normal, touch);
+        v.tangential = Vec3::Zero();
+        if constexpr (rubs) v.tangential = history.tangential.force;
+        v.stored_energy = Law::stored_energy(parameters, history, touch, v.normal_force);
+        v.point = centre + touch.normal * (radius - 0.5 * touch.overlap);
+        return v;
+    }
+
+    struct alignas(64) Farthest {
+        double squared = 0;  // m2
+    };
+
+    const Surroundings& around_;
+    Grains& grains_;
+    Team& team_;
+    Cells cells_;
+    ContactPass<Law> pairs_;
+    WallPass<Law> walls_;
+    std::vector<ThreadContacts> threads_;
+    std::vector<Farthest> farthest_;   // of each thread, since the lists were made
+    std::vector<std::int32_t> share_;  // thread t owns the grains [share_[t], share_[t + 1])
+    std::vector<Vec3> listed_at_;
+    Pose listed_pose_;
+    std::int64_t rebuilds_ = 0;
+};
+
+}  // namespace grainreel

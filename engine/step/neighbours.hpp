@@ -1,0 +1,43 @@
+// Neighbour lists with a skin: every pair closer than r_i + r_j + skin, once, under the grain with the lower
+// index. Also the grains near a wall. Valid until grains and walls have moved too far for the skin.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/state/container_faces.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/cells.hpp"
+
+namespace grainreel {
+
+struct NeighbourList {
+    std::vector<std::int32_t> start;    // grain i's partners are partner[start[i]] .. partner[start[i + 1]]
+    std::vector<std::int32_t> partner;  // index of the other grain, always above i
+
+    std::size_t size() const { return partner.size(); }
+};
+
+struct WallNeighbour {
+    std::int32_t grain;
+    std::int32_t face;
+};
+
+// x shortened to the nearest image when the depth is periodic; period in m, 0 for none.
+inline double nearest_image(double x, double period) {
+    if (period > 0) {
+        if (x > 0.5 * period) return x - period;
+        if (x < -0.5 * period) return x + period;
+    }
+    return x;
+}
+
+// Wraps positions into the period, then gives the spatial order (order[new] = old) to put the grains in.
+const std::vector<std::int32_t>& spatial_order(Cells& cells, Grains& grains, double skin, double period);
+
+// Both want the grains already in spatial order.
+void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, NeighbourList& list);
+std::vector<WallNeighbour> list_wall_neighbours(const Grains& grains, const std::vector<Face>& faces,
+                                                const Pose& pose, double skin);
+
+}  // namespace grainreel

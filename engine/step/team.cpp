@@ -1,0 +1,98 @@
+#include "engine/step/team.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+namespace grainreel {
+
+namespace {
+
+constexpr int kSpins = 400;  // about 20 us with the pause instruction
+
+void relax() {
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+}
+
+// Returns once `value` is no longer `old`.
+void wait_while(const std::atomic<int>& value, int old) {
+    for (int spin = 0; spin < kSpins; ++spin) {
+        if (value.load(std::memory_order_acquire) != old) return;
+        relax();
+    }
+    while (value.load(std::memory_order_acquire) == old) value.wait(old, std::memory_order_acquire);
+}
+
+// Processors' worth of time the cgroup grants; infinite without a quota.
+double cgroup_quota() {
+    std::ifstream file("/sys/fs/cgroup/cpu.max");
+    std::string quota;
+    double period = 0;
+    if (file >> quota >> period && quota != "max" && period > 0) return std::stod(quota) / period;
+    return INFINITY;
+}
+
+}  // namespace
+
+int usable_processors() {
+    cpu_set_t mask;
+    CPU_ZERO(&mask);
+    int count = static_cast<int>(std::thread::hardware_concurrency());
+    if (sched_getaffinity(0, sizeof mask, &mask) == 0) count = CPU_COUNT(&mask);
+    const double quota = std::ceil(cgroup_quota());
+    if (quota < count) count = static_cast<int>(quota);
+    return std::max(count, 1);
+}
+
+Team::Team(int members) : size_(std::max(members, 1)) {
+    for (int member = 1; member < size_; ++member) threads_.emplace_back([this, member] { serve(member); });
+}
+
+Team::~Team() {
+    round_.store(-1, std::memory_order_release);
+    round_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+}
+
+void Team::run(const std::function<void(int)>& work) {
+    if (size_ == 1) return work(0);
+    work_ = &work;
+    running_.store(size_ - 1, std::memory_order_relaxed);
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+    work(0);
+    for (int left = running_.load(std::memory_order_acquire); left != 0;
+         left = running_.load(std::memory_order_acquire)) {
+        wait_while(running_, left);
+    }
+}
+
+void Team::serve(int member) {
+    for (int seen = 0;;) {
+        wait_while(round_, seen);
+        seen = round_.load(std::memory_order_acquire);
+        if (seen < 0) return;
+        (*work_)(member);
+        if (running_.fetch_sub(1, std::memory_order_acq_rel) == 1) running_.notify_one();
+    }
+}
+
+void Team::barrier() {
+    if (size_ == 1) return;
+    const int generation = generation_.load(std::memory_order_relaxed);
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) == size_ - 1) {
+        arrived_.store(0, std::memory_order_relaxed);
+        generation_.fetch_add(1, std::memory_order_release);
+        generation_.notify_all();
+    } else {
+        wait_while(generation_, generation);
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,42 @@
+// The one place that knows threads: a team that runs a function on all its members, and a barrier for them.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace grainreel {
+
+// How many processors this process may use: its affinity mask, cut by a cgroup quota.
+int usable_processors();
+
+class Team {
+public:
+    explicit Team(int members);  // >= 1; the caller of run() is member 0
+    ~Team();
+    Team(const Team&) = delete;
+    Team& operator=(const Team&) = delete;
+
+    int size() const { return size_; }
+
+    // Calls work(member) on every member and returns when all have come back. `work` must not throw.
+    void run(const std::function<void(int)>& work);
+
+    // Waits until all members are here. Spins for some 20 us, then sleeps, so that a renderer or an encoder on
+    // the same processors gets its turn.
+    void barrier();
+
+private:
+    void serve(int member);
+
+    const int size_;
+    std::vector<std::thread> threads_;
+    const std::function<void(int)>* work_ = nullptr;
+    std::atomic<int> round_{0};    // counts calls of run(); negative: the team is dismissed
+    std::atomic<int> running_{0};  // members still at work besides member 0
+    std::atomic<int> arrived_{0};
+    std::atomic<int> generation_{0};  // of the barrier
+};
+
+}  // namespace grainreel
