@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/measure/measures.hpp"
-#include "engine/output/text_file.hpp"
+#include "engine/base/text_file.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/output/text_file.hpp"
+#include "engine/base/text_file.hpp"
 
 namespace grainreel {
 

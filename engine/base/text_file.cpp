@@ -1,4 +1,4 @@
-#include "engine/output/text_file.hpp"
+#include "engine/base/text_file.hpp"
 
 #include <cerrno>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "engine/output/grain_table.hpp"
+#include "engine/start/grain_table.hpp"
 
 #include <array>
 #include <charconv>
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/output/text_file.hpp"
+#include "engine/base/text_file.hpp"
 
 namespace grainreel {
 
