@@ -1,0 +1,266 @@
+#include "engine/run/simulation.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/energy.hpp"
+#include "engine/measure/measure.hpp"
+#include "engine/start/grain_table.hpp"
+#include "engine/run/health.hpp"
+#include "engine/start/layers.hpp"
+#include "engine/start/radius_growth.hpp"
+#include "engine/start/restart.hpp"
+#include "engine/start/settle.hpp"
+#include "engine/state/wall_motion.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr std::int64_t kStepsPerLook = 200;  // between health checks, at multiples of it
+constexpr double kSkinShare = 0.3;           // of the smallest radius
+
+double smallest_radius(const Scene& scene) {
+    double smallest = scene.species[0].diameter.smallest;
+    for (const Species& s : scene.species) smallest = std::min(smallest, s.diameter.smallest);
+    return 0.5 * smallest;
+}
+
+Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
+    Surroundings around;
+    around.faces = container_faces(scene.container, scene.drive);
+    around.motion = WallMotion(scene.drive, plan.clock);
+    around.gravity = scene.gravity;
+    around.period = period_of_depth(scene.container);
+    around.skin = kSkinShare * smallest_radius(scene);
+    return around;
+}
+
+// A frame's grains, in the frame's order.
+Grains grains_of(const Scene& scene, const Frame& frame) {
+    Grains grains;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const std::size_t s = static_cast<std::size_t>(frame.species[i]);
+        if (s >= scene.species.size()) {
+            throw UserError(fmt::format("{}: '{}' has grains of species {}, but the scene lists only {}; list them all",
+                                        scene.where("start.file"), scene.start.file, s, scene.species.size()));
+        }
+        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i], scene.species[s].density);
+        grains.motion.back().velocity = frame.velocity[i];
+        grains.spin.back().rate = frame.spin[i];
+    }
+    if (!frame.orientation.empty()) grains.orientation = frame.orientation;
+    return grains;
+}
+
+}  // namespace
+
+struct Simulation::Impl {
+    Impl(const Scene& s, const Plan& p, int threads)
+        : scene(s), plan(p), team(threads > 0 ? threads : usable_processors()), around(make_surroundings(s, p)) {}
+
+    Scene scene;
+    Plan plan;
+    Team team;
+    Surroundings around;
+    Grains grains;
+    std::unique_ptr<StepLoop> loop;
+    std::int64_t step = 0;
+    double start_energy = 0;
+    EnergyWatch energy_watch;
+
+    void make_loop() { loop = make_step_loop(plan, around, grains, team); }
+    bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
+    void pack_from_file();
+    void begin_drive();
+    void check_grains_fit() const;
+    void look_at_health();
+};
+
+Simulation::Simulation(const Scene& scene, const Plan& plan, int threads)
+    : impl_(std::make_unique<Impl>(scene, plan, threads)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgress& progress) {
+    grains = place_in_layers(scene);
+    if (scene.output.orientation) grains.orientation.assign(grains.size(), Quaternion::Identity());
+    const GrowthReport growth =
+        grow_radii(scene, plan, around, grains, team, [&](double done, std::int64_t steps) {
+            progress.done = done;
+            progress.steps = steps;
+            return watcher(progress);
+        });
+    return growth.finished;
+}
+
+void Simulation::Impl::pack_from_file() {
+    if (!is_checkpoint(scene.start.file)) {
+        grains = grains_of(scene, read_grain_table(scene.start.file));
+        return;
+    }
+    if (scene.start.keep_clock) {
+        make_loop();
+        const CheckpointHeader header = load_checkpoint(scene, plan, grains, loop.get());
+        step = header.step;
+        start_energy = header.start_energy;
+        return;
+    }
+    const CheckpointHeader header = load_checkpoint(scene, plan, grains, nullptr);
+    // The container starts from rest position and at rest; its grains come along.
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        grains.place[i].position -= header.wall_offset;
+        grains.motion[i].velocity -= header.wall_velocity;
+    }
+}
+
+void Simulation::Impl::check_grains_fit() const {
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        for (const Face& face : around.faces) {
+            if (distance_to(face, Vec3::Zero(), grains.place[i].position).distance > 0) continue;
+            throw UserError(fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; give the "
+                                        "container of the run the file comes from",
+                                        scene.where("start.file"), grains.id[i], scene.start.file, face.name));
+        }
+    }
+}
+
+// Work and balance count from here; the forces belong to the state, so that the first half kick is right.
+void Simulation::Impl::begin_drive() {
+    std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
+    start_energy = total_energy(around, grains, *loop, 0);
+    step = 0;
+}
+
+PackingResult Simulation::pack(const PackingWatcher& watcher) {
+    Impl& m = *impl_;
+    PackingResult result;
+    PackingProgress progress;
+    progress.stage = PackingProgress::Stage::growing;
+    if (m.scene.start.method == Start::Method::layers) {
+        result.finished = m.pack_layers(watcher, progress);
+    } else {
+        m.pack_from_file();
+        if (m.loop) return result;  // goes on where the file stopped
+        m.check_grains_fit();
+        if (m.scene.output.orientation && m.grains.orientation.empty()) {
+            m.grains.orientation.assign(m.grains.size(), Quaternion::Identity());
+        }
+    }
+    m.make_loop();
+    m.loop->restart();
+    if (result.finished) {
+        progress.stage = PackingProgress::Stage::settling;
+        const auto watch = [&](double done, std::int64_t steps) {
+            progress.done = done;
+            progress.steps = steps;
+            return watcher(progress);
+        };
+        const SettleReport settled = settle(m.scene, m.plan, m.around, m.grains, *m.loop, watch);
+        result.finished = settled.finished;
+        result.settled = settled.settled;
+        result.settle_time = static_cast<double>(settled.steps) * m.plan.clock.step;
+        result.kinetic_per_grain = settled.kinetic_per_grain;
+    }
+    m.begin_drive();
+    return result;
+}
+
+void Simulation::Impl::look_at_health() {
+    check_state(health_limits(scene, plan), around, grains, *loop, step);
+    // Round-off and a law's own closed loops must not stop a bed at rest: a hundredth of its weight over a radius.
+    double allowance = 0;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        allowance += 0.01 * grains.mass(i) * around.gravity.norm() * grains.place[i].radius;
+    }
+    energy_watch.check(total_energy(around, grains, *loop, step), wall_work(grains), allowance, plan.clock, step);
+}
+
+void Simulation::advance(std::int64_t target) {
+    Impl& m = *impl_;
+    while (m.step < target) {
+        const std::int64_t next_look = (m.step / kStepsPerLook + 1) * kStepsPerLook;
+        const std::int64_t count = std::min(target, next_look) - m.step;
+        m.loop->run(m.step, count, m.plan.clock.step, 0);
+        m.step += count;
+        if (m.step == next_look) m.look_at_health();
+    }
+}
+
+std::int64_t Simulation::step() const { return impl_->step; }
+std::size_t Simulation::grains() const { return impl_->grains.size(); }
+int Simulation::threads() const { return impl_->team.size(); }
+
+Frame Simulation::frame() const {
+    const Impl& m = *impl_;
+    Frame f;
+    f.step = m.step;
+    f.time = m.plan.clock.time(m.step);
+    f.cycles = m.plan.clock.cycles(m.step);
+    f.phase = m.plan.clock.phase(m.step);
+    const Pose pose = m.around.motion.at(m.step);
+    f.floor_offset = pose.offset;
+    f.floor_velocity = pose.velocity;
+    if (m.scene.drive.moves == Drive::Moves::container) {
+        f.wall_offset = pose.offset;
+        f.wall_velocity = pose.velocity;
+    }
+    const Grains& g = m.grains;
+    std::vector<std::int32_t> by_id(g.size());
+    std::iota(by_id.begin(), by_id.end(), 0);
+    std::sort(by_id.begin(), by_id.end(), [&](std::int32_t a, std::int32_t b) { return g.id[a] < g.id[b]; });
+    for (const std::int32_t i : by_id) {
+        f.id.push_back(g.id[i]);
+        f.species.push_back(g.species[i]);
+        f.radius.push_back(g.place[i].radius);
+        Vec3 x = g.place[i].position;
+        x.x() = nearest_image(x.x(), m.around.period);
+        f.position.push_back(x);
+        f.velocity.push_back(g.motion[i].velocity);
+        f.spin.push_back(g.spin[i].rate);
+        if (!g.orientation.empty()) f.orientation.push_back(g.orientation[i]);
+    }
+    return f;
+}
+
+Measures Simulation::measures() const {
+    const Impl& m = *impl_;
+    return measure(m.scene, m.plan.clock, m.around, m.grains, *m.loop, m.step, m.start_energy);
+}
+
+std::uint64_t Simulation::state_hash() const {
+    std::ostringstream out;
+    write_state(out, impl_->step, impl_->grains, *impl_->loop);
+    const std::string bytes = out.str();
+    return XXH64(bytes.data(), bytes.size(), 0);
+}
+
+std::vector<Simulation::ContactRecord> Simulation::contacts() const {
+    std::vector<ContactRecord> records;
+    impl_->loop->visit_contacts(impl_->step, [&](const ContactView& c) {
+        if (c.normal_force <= 0) return;
+        const std::int32_t second = c.second >= 0 ? impl_->grains.id[c.second] : c.second;
+        records.push_back({impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point});
+    });
+    return records;
+}
+
+void Simulation::save_checkpoint(const std::filesystem::path& path) const {
+    const Impl& m = *impl_;
+    CheckpointHeader header;
+    header.step = m.step;
+    header.start_energy = m.start_energy;
+    if (m.scene.drive.moves == Drive::Moves::container) {
+        header.wall_offset = m.around.motion.at(m.step).offset;
+        header.wall_velocity = m.around.motion.at(m.step).velocity;
+    }
+    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop);
+}
+
+}  // namespace grainreel
