@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# ./movie and ./test in a copy of the tree whose path has spaces, with stand-ins for apt, CMake, Ninja and the
+# program: what is installed, when it is configured, and which words reach the program.
+# shellcheck disable=SC2016
+set -uo pipefail
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT
+chmod 755 "$work"
+tree="$work/a tree" stubs="$work/stubs" calls="$work/calls" failures=0
+mkdir -p "$tree/scenes" "$stubs" "$work/elsewhere"
+cp -r "$repository/.ci" "$repository/movie" "$repository/test" "$tree/"
+touch "$tree/scenes/one.toml" "$work/elsewhere/two.toml"
+
+stub() { printf '#!/bin/bash\n%s\n' "$2" >"$stubs/$1" && chmod 755 "$stubs/$1"; }
+stub apt-get 'echo "apt-get $*" >>"$CALLS"; [[ $* != *install* || -z ${APT_FAILS-} ]]'
+stub dpkg-query 'for p; do [[ $p == -* || $p == \$* || " ${ABSENT-} " == *" $p "* ]] || echo "installed $p"; done'
+stub sudo 'exit 1'
+stub cmake 'echo "cmake $*" >>"$CALLS"; mkdir -p build/release; touch build/release/build.ninja
+{ echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD"; for o; do echo "${o#-D}" | sed "s/=/:BOOL=/"; done; } >build/release/CMakeCache.txt'
+stub ninja 'echo "ninja ${*: -1}" >>"$CALLS"; while [[ $1 != -C ]]; do shift; done
+printf "%s\n" "#!/bin/bash" "printf \"[%s]\" \"\$PWD\" \"\$@\"" >"$2/grainreel"; chmod 755 "$2/grainreel"; echo "ninja: no work to do."'
+stub ctest 'echo "ctest $*" >>"$CALLS"'
+
+run() {  # words of a command; leaves $out, $said (stderr), $status, $did (calls of the stand-ins)
+    : >"$calls" && chmod 666 "$calls"
+    out=$(cd "$work/elsewhere" && CALLS=$calls PATH="$stubs:$PATH" "$@" 2>"$work/said" </dev/null)
+    status=$? said=$(<"$work/said") did=$(<"$calls")
+}
+expect() {  # what, wanted, got
+    [[ $2 == "$3" ]] || { printf 'FAILED %s\n  wanted: %s\n  got:    %s\n' "$1" "$2" "$3"; failures=$((failures + 1)); }
+}
+contains() {  # what, piece, text
+    [[ $3 == *"$2"* ]] || { printf 'FAILED %s\n  no "%s" in: %s\n' "$1" "$2" "$3"; failures=$((failures + 1)); }
+}
+here="[$work/elsewhere]"
+
+run "$tree/movie"
+expect "default scene" "${here}[movie][$tree/scenes/wedge_segregation.toml]" "$out"
+expect "first call" $'cmake --preset release --fresh -DGRAINREEL_TESTS=OFF\nninja grainreel' "$did"
+run "$tree/movie" two.toml --title "a b"
+expect "the caller's folder first" "${here}[movie][two.toml][--title][a b]" "$out"
+expect "second call does not configure" "ninja grainreel" "$did"
+expect "nothing to say" "" "$said"
+run "$tree/movie" scenes/one.toml --no-install --no-film
+expect "then the tree" "${here}[movie][$tree/scenes/one.toml][--no-film]" "$out"
+run "$tree/movie" --duration 1s two.toml --set start.file=x.toml
+expect "scene after options" "${here}[movie][two.toml][--duration][1s][--set][start.file=x.toml]" "$out"
+run "$tree/movie" missing.toml
+expect "a missing scene is the program's to report" "${here}[movie][missing.toml]" "$out"
+
+run env ABSENT="libpng-dev ninja-build" "$tree/movie"
+if ((EUID == 0)); then
+    contains "names what it installs" "Installing with apt: libpng-dev ninja-build" "$said"
+    contains "installs only that" "install --no-install-recommends libpng-dev ninja-build" "$did"
+    run env ABSENT=libpng-dev APT_FAILS=1 "$tree/movie"
+    expect "apt fails" 2 "$status"
+    contains "apt fails: the list" "libpng-dev           libpng" "$said"
+    chmod -R a+rX "$work"
+    run setpriv --reuid=65534 --regid=65534 --clear-groups env ABSENT=libpng-dev "$tree/movie"
+fi
+expect "without root" 2 "$status"
+contains "without root: whom to ask for what" "apt-get install --no-install-recommends libpng-dev" "$said"
+run env ABSENT=libpng-dev "$tree/movie" --no-install
+expect "--no-install" "ninja grainreel" "$did"
+
+run "$tree/test"
+expect "tests are configured once" $'cmake --preset release -DGRAINREEL_TESTS=ON\nninja all\nctest --preset quick' "$did"
+run "$tree/test" --all -R Name
+expect "--all" $'ninja all\nctest --preset all -R Name' "$did"
+run "$tree/movie"
+expect "./movie keeps the tests configured" "ninja grainreel" "$did"
+mv "$tree" "$tree moved"
+run "$tree moved/movie"
+contains "a tree that moved is configured anew" "cmake --preset release --fresh" "$did"
+
+((failures == 0)) && echo "commands: ok"
+exit $((failures > 0))
