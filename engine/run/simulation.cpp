@@ -17,6 +17,7 @@
 #include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/state/wall_motion.hpp"
+#include "engine/step/neighbours.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/step/neighbours.hpp"
 
 namespace grainreel {
 
