@@ -1,1 +1,121 @@
-// Being written.
+#include "render/draw/renderer.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstring>
+
+#include "render/draw/container_drawing.hpp"
+#include "render/draw/spheres.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr gl::Framebuffer::Format srgb_picture{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, false};
+
+// Adds up where the time of one frame goes; does nothing without a place to put it.
+class Stopwatch {
+public:
+    Stopwatch(const gl::Functions& gl, DrawTimes* times) : gl_(gl), times_(times) {}
+    // Everything since the last call, or since the watch was made, belongs to `stage`.
+    void lap(double DrawTimes::* stage) {
+        if (!times_) return;
+        gl_.Finish();
+        const auto now = std::chrono::steady_clock::now();
+        times_->*stage += std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+    }
+
+private:
+    const gl::Functions& gl_;
+    DrawTimes* times_;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+struct Renderer::Impl {
+    Impl(const Scene& s, int raster_threads)
+        : scene(s),
+          palette(make_palette(s.film.background)),
+          port{0, 0, s.film.width, s.film.height},
+          view(fit_view(s.film.camera, framing_points(s), port, 0.03 * s.film.height, s.film.height)),
+          context(gl::make_osmesa_context(raster_threads)),
+          target(context->gl(), port.width, port.height, srgb_picture),
+          shape_painter(context->gl()),
+          sphere_painter(context->gl(), s, port.width, port.height),
+          clear_colour{static_cast<float>(to_linear(s.film.background.red)),
+                       static_cast<float>(to_linear(s.film.background.green)),
+                       static_cast<float>(to_linear(s.film.background.blue)), 1.0f},
+          picture(s.film.width, s.film.height),
+          rows(static_cast<std::size_t>(port.width) * port.height * 4) {}
+
+    Scene scene;
+    Palette palette;
+    Rectangle port;
+    View view;
+    std::unique_ptr<gl::Context> context;
+    gl::Framebuffer target;
+    ShapePainter shape_painter;
+    SpherePainter sphere_painter;
+    ContainerShapes shapes;
+    std::array<float, 4> clear_colour;
+    Picture picture;
+    std::vector<std::uint8_t> rows;
+
+    void draw(const Frame& frame, const std::string& playback, DrawTimes* times);
+    void read_back();
+};
+
+void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawTimes* times) {
+    context->make_current();
+    const gl::Functions& gl = context->gl();
+    Stopwatch watch(gl, times);
+    (void)playback;
+    watch.lap(&DrawTimes::overlay);
+    const View eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
+    sphere_painter.upload(eye, frame);
+    watch.lap(&DrawTimes::upload);
+    sphere_painter.find_nearest(eye);
+    watch.lap(&DrawTimes::spheres);
+    draw_container(scene, eye, frame, palette, scene.film.height, shapes);
+    target.bind();
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    gl.ClearBufferfv(GL_COLOR, 0, clear_colour.data());
+    shape_painter.paint(shapes.behind, port.width, port.height);
+    watch.lap(&DrawTimes::walls);
+    sphere_painter.paint(eye);
+    watch.lap(&DrawTimes::shading);
+    shape_painter.paint(shapes.before, port.width, port.height);
+    watch.lap(&DrawTimes::walls);
+    read_back();
+    watch.lap(&DrawTimes::readback);
+}
+
+void Renderer::Impl::read_back() {
+    const gl::Functions& gl = context->gl();
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, port.width, port.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
+    const std::size_t row = static_cast<std::size_t>(port.width) * 4;
+    for (int y = 0; y < port.height; ++y)
+        std::memcpy(picture.pixel(port.x, port.y + y), rows.data() + row * (port.height - 1 - y), row);
+}
+
+Renderer::Renderer(const Scene& scene, int raster_threads)
+    : impl_(std::make_unique<Impl>(scene, raster_threads)) {}
+
+Renderer::~Renderer() = default;
+
+const Picture& Renderer::draw(const Frame& frame, const std::string& playback) {
+    impl_->draw(frame, playback, nullptr);
+    return impl_->picture;
+}
+
+DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) {
+    DrawTimes times;
+    impl_->draw(frame, playback, &times);
+    return times;
+}
+
+std::string Renderer::gl_description() const { return impl_->context->description(); }
+
+}  // namespace grainreel

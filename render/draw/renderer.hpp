@@ -10,6 +10,12 @@
 
 namespace grainreel {
 
+// ms a frame. Only measured on demand, because OpenGL has to be waited for after each stage.
+struct DrawTimes {
+    double upload = 0, spheres = 0, walls = 0, shading = 0, overlay = 0, readback = 0;
+    double total() const { return upload + spheres + walls + shading + overlay + readback; }
+};
+
 class Renderer {
 public:
     // Makes an off-screen OpenGL context, current on the calling thread: construct, use and destroy it on one
@@ -21,6 +27,9 @@ public:
     const Picture& draw(const Frame& frame, const std::string& playback);
 
     std::string gl_description() const;  // vendor, renderer and version of the context
+
+    // The same picture, and what each of its stages cost.
+    DrawTimes draw_timed(const Frame& frame, const std::string& playback);
 
 private:
     struct Impl;

@@ -1,0 +1,84 @@
+#include "render/draw/container_drawing.hpp"
+
+#include <cmath>
+
+#include "render/draw/drawing_kit.hpp"
+
+namespace grainreel {
+namespace {
+
+// A scale fixed in the lab beside the floor: a long tick where the floor rests and short ones at both ends of
+// its stroke, and a pointer that goes with the floor.
+struct LabMark {
+    Vec3 foot;    // m, where the long tick begins, at rest
+    Vec3 along;   // m, its direction and length
+    Vec3 stroke;  // m, the displacement at the end of the stroke
+};
+
+std::vector<LabMark> lab_marks(const Scene& scene) {
+    if (!scene.drive.present || scene.drive.amplitude <= 0) return {};
+    const Container& container = scene.container;
+    const double thickness = drawn_thickness(container), half = outer_floor_half_width(container);
+    const double front = container.shape == Container::Shape::cylinder ? 0 : 0.5 * container.depth;
+    const Vec3 stroke = scene.drive.amplitude * scene.drive.direction;
+    if (std::abs(scene.drive.direction.z()) >= 0.5)
+        return {{{front, -half - thickness, 0}, {0, -2.2 * thickness, 0}, stroke},
+                {{front, half + thickness, 0}, {0, 2.2 * thickness, 0}, stroke}};
+    return {{{front, 0, -2 * thickness}, {0, 0, -2.2 * thickness}, stroke}};
+}
+
+void draw_lab_marks(const Scene& scene, const Sketches& sketches, Shapes& on) {
+    const double pen = sketches.lab.pen;
+    const Paint ink{sketches.lab.palette.faint_ink, 1}, accent{sketches.lab.palette.accent, 1};
+    const double thickness = drawn_thickness(scene.container);
+    const bool floor_only = scene.drive.moves == Drive::Moves::floor;
+    const Sketch& moving = floor_only ? sketches.floor : sketches.walls;
+    for (const LabMark& mark : lab_marks(scene)) {
+        const Vec3 unit = mark.along.normalized();
+        const Vec3 from = mark.foot, to = mark.foot + mark.along;
+        sketches.lab.line(on, {from, to}, false, 0.8 * pen, ink);
+        for (const double end : {-1.0, 1.0})
+            sketches.lab.line(on, {from + end * mark.stroke, from + 0.45 * mark.along + end * mark.stroke}, false,
+                              0.8 * pen, ink);
+        sketches.lab.line(on, {from - mark.stroke, from + mark.stroke}, false, 0.8 * pen, ink);
+        const Vec3 side = 0.35 * thickness * mark.stroke.normalized();
+        const Vec3 back = mark.foot - 0.9 * thickness * unit;
+        moving.polygon(on, {back - side, back + side, mark.foot}, accent);
+    }
+}
+
+}  // namespace
+
+double drawn_thickness(const Container& container) {
+    return 0.018 * (2 * container.half_width + container.height);
+}
+
+std::vector<Vec3> framing_points(const Scene& scene) {
+    const std::vector<Vec3> corners = scene.container.shape == Container::Shape::cylinder
+                                          ? cylinder_corners(scene.container)
+                                          : prism_corners(scene.container);
+    std::vector<Vec3> points;
+    const Vec3 stroke = scene.drive.present ? Vec3(scene.drive.amplitude * scene.drive.direction) : Vec3(0, 0, 0);
+    for (const double end : {-1.0, 1.0}) {
+        for (const Vec3& corner : corners) points.push_back(corner + end * stroke);
+        for (const LabMark& mark : lab_marks(scene))
+            for (const Vec3& point : {mark.foot, Vec3(mark.foot + mark.along)}) points.push_back(point + end * stroke);
+    }
+    return points;
+}
+
+void draw_container(const Scene& scene, const View& view, const Frame& frame, const Palette& palette,
+                    int picture_height, ContainerShapes& shapes) {
+    shapes.behind.clear();
+    shapes.before.clear();
+    const Sketches sketches{{view, palette, picture_height, frame.wall_offset},
+                            {view, palette, picture_height, frame.floor_offset},
+                            {view, palette, picture_height, Vec3(0, 0, 0)}};
+    if (scene.container.shape == Container::Shape::cylinder)
+        draw_cylinder(scene.container, sketches, shapes);
+    else
+        draw_prism(scene.container, sketches, shapes);
+    draw_lab_marks(scene, sketches, shapes.behind);
+}
+
+}  // namespace grainreel

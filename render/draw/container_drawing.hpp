@@ -1,0 +1,33 @@
+// The container as a cut-away: walls of visible thickness, behind the grains where the eye looks at their inner
+// side and as bare glass edges over the grains where it looks at them from outside.
+//
+// The container is convex and the grains are inside, so no depth test is needed: what lies behind the grains is
+// painted before them, what lies in front after them, and every edge stays smooth.
+#pragma once
+
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/draw/canvas.hpp"
+#include "render/draw/palette.hpp"
+#include "render/draw/view.hpp"
+
+namespace grainreel {
+
+// m: how thick walls, floor and lid are drawn.
+double drawn_thickness(const Container& container);
+
+// Every point that has to stay in the picture: the drawn container at rest and at both ends of its stroke, and
+// the marks beside it.
+std::vector<Vec3> framing_points(const Scene& scene);
+
+struct ContainerShapes {
+    Shapes behind, before;  // to be painted before and after the grains
+};
+
+// picture_height: pixels; line widths follow from it.
+void draw_container(const Scene& scene, const View& view, const Frame& frame, const Palette& palette,
+                    int picture_height, ContainerShapes& shapes);
+
+}  // namespace grainreel

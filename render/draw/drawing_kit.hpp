@@ -1,0 +1,68 @@
+// What the drawings of wedge, box and cylinder share: pens, paints, and points that are projected on the way.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "render/draw/container_drawing.hpp"
+
+namespace grainreel {
+
+// Draws shapes given in metres, in the frame of something that has moved by `offset`.
+class Sketch {
+public:
+    Sketch(const View& view, const Palette& colours, int picture_height, const Vec3& offset)
+        : palette(colours), pen(std::max(1.0, picture_height / 600.0)), view_(view), offset_(offset) {}
+
+    bool faces(const Vec3& point, const Vec3& normal) const { return view_.faces(point + offset_, normal); }
+    const View& view() const { return view_; }
+    const Vec3& offset() const { return offset_; }
+
+    void polygon(Shapes& on, const std::vector<Vec3>& corners, const Paint& paint) const {
+        on.polygon(project(corners), paint);
+    }
+    void line(Shapes& on, const std::vector<Vec3>& points, bool closed, double width, const Paint& paint) const {
+        on.line(project(points), closed, width, paint);
+    }
+
+    // Back: the solid parts behind the grains. Front: glass over them, faint enough to hide nothing.
+    Paint cut() const { return {palette.solid, 1}; }
+    Paint inner_face() const { return {mix(palette.background, palette.solid, 0.30), 1}; }
+    Paint outer_face() const { return {mix(palette.solid, palette.background, 0.30), 1}; }
+    Paint pane() const { return {palette.solid, 0.10}; }
+    Paint edge() const { return {palette.ink, 1}; }
+    Paint far_edge() const { return {mix(palette.solid, palette.ink, 0.35), 1}; }
+    Paint glass_cut() const { return {palette.solid, 0.38}; }
+    Paint glass_face() const { return {palette.solid, 0.05}; }
+    Paint glass_edge() const { return {palette.ink, 0.45}; }
+
+    const Palette& palette;
+    const double pen;  // pixels, the width of a main line
+
+private:
+    std::vector<Pixel> project(const std::vector<Vec3>& points) const {
+        std::vector<Pixel> pixels;
+        pixels.reserve(points.size());
+        for (const Vec3& point : points) pixels.push_back(view_.project(point + offset_));
+        return pixels;
+    }
+    const View& view_;
+    const Vec3 offset_;
+};
+
+// Offsets of the moving parts: the walls (with the lid), and the floor.
+struct Sketches {
+    Sketch walls, floor, lab;
+};
+
+void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
+void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
+
+// Half the width of everything drawn, at the height of the floor's top; m.
+double outer_floor_half_width(const Container& container);
+
+// Corners of the drawn container at rest, walls with thickness.
+std::vector<Vec3> prism_corners(const Container& container);
+std::vector<Vec3> cylinder_corners(const Container& container);
+
+}  // namespace grainreel

@@ -1,0 +1,40 @@
+// Colours of everything that is not a grain, from the background alone, so that they read on light and dark.
+#pragma once
+
+#include <cmath>
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+inline Colour mix(const Colour& a, const Colour& b, double share_of_b) {
+    const auto blend = [&](double x, double y) { return x + (y - x) * share_of_b; };
+    return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue)};
+}
+
+// sRGB (IEC 61966-2-1) to linear light and back, 0 to 1.
+inline double to_linear(double srgb) {
+    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+inline double to_srgb(double linear) {
+    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+struct Palette {
+    Colour background, ink, faint_ink, solid, accent;
+};
+
+inline Palette make_palette(const Colour& background) {
+    const double luminance = 0.2126 * to_linear(background.red) + 0.7152 * to_linear(background.green) +
+                             0.0722 * to_linear(background.blue);
+    const bool light = luminance > 0.18;
+    Palette palette;
+    palette.background = background;
+    palette.ink = light ? Colour{0.11, 0.13, 0.16} : Colour{0.94, 0.95, 0.97};
+    palette.faint_ink = mix(palette.ink, background, light ? 0.28 : 0.22);
+    palette.solid = mix(background, light ? Colour{0.36, 0.42, 0.50} : Colour{0.70, 0.76, 0.84}, 0.62);
+    palette.accent = light ? Colour{0.72, 0.16, 0.10} : Colour{1.0, 0.55, 0.42};
+    return palette;
+}
+
+}  // namespace grainreel

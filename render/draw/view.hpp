@@ -1,0 +1,52 @@
+// The camera: from metres to pixels of the part of the picture that shows the container.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/vector.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// Pixels, from the top left corner of the whole picture.
+struct Rectangle {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+// View coordinates: x right, y up, z away from the eye.
+struct View {
+    Vec3 eye{0, 0, 0};
+    Vec3 right{0, 1, 0}, up{0, 0, 1}, forward{-1, 0, 0};  // orthonormal
+    bool orthographic = false;
+    double focal = 1;           // pixels a unit of x/z (perspective), or pixels a metre (orthographic)
+    double nearest = 0, farthest = 1;  // m: view depths stored as 0 and 1
+    Rectangle port;
+
+    Vec3 to_view(const Vec3& point) const {
+        const Vec3 from = point - eye;
+        return {from.dot(right), from.dot(up), from.dot(forward)};
+    }
+    // Pixels from the top left of the port; meaningful in front of the eye only.
+    Eigen::Vector2d project(const Vec3& point) const {
+        const Vec3 v = to_view(point);
+        const double scale = orthographic ? focal : focal / v.z();
+        return {0.5 * port.width + scale * v.x(), 0.5 * port.height - scale * v.y()};
+    }
+    double pixels_per_metre(const Vec3& at) const { return orthographic ? focal : focal / to_view(at).z(); }
+    // Whether the eye lies on the side of the plane that the normal points to.
+    bool faces(const Vec3& point, const Vec3& normal) const {
+        return orthographic ? normal.dot(forward) < 0 : normal.dot(eye - point) > 0;
+    }
+    View moved_by(const Vec3& offset) const {
+        View view = *this;
+        view.eye += offset;
+        return view;
+    }
+};
+
+// The nearest eye in the camera's direction from which all `points` lie inside the port, `margin` pixels from
+// its border; then magnified by the zoom. picture_height: pixels, what the field of view spans.
+View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Rectangle& port, double margin,
+              int picture_height);
+
+}  // namespace grainreel

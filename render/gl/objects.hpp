@@ -1,0 +1,105 @@
+// OpenGL objects that delete themselves. Each is used on the thread of its context only.
+#pragma once
+
+#include <string>
+
+#include "render/gl/context.hpp"
+
+namespace grainreel::gl {
+
+// A vertex and a fragment shader, compiled and linked. Throws RunError with the compiler's log.
+class Program {
+public:
+    Program(const Functions& gl, const char* name, const std::string& vertex, const std::string& fragment);
+    ~Program();
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    void use() const { gl_.UseProgram(id_); }
+    // For a uniform of the program in use; unused ones are ignored, as OpenGL does.
+    void set(const char* uniform, int value) const { gl_.Uniform1i(place(uniform), value); }
+    void set(const char* uniform, float value) const { gl_.Uniform1f(place(uniform), value); }
+    void set(const char* uniform, float x, float y) const { gl_.Uniform2f(place(uniform), x, y); }
+    void set(const char* uniform, float x, float y, float z) const { gl_.Uniform3f(place(uniform), x, y, z); }
+    void set(const char* uniform, float x, float y, float z, float w) const {
+        gl_.Uniform4f(place(uniform), x, y, z, w);
+    }
+
+private:
+    GLint place(const char* uniform) const { return gl_.GetUniformLocation(id_, uniform); }
+    const Functions& gl_;
+    GLuint id_ = 0;
+};
+
+// A colour texture of a given format to draw into, with a depth buffer when asked.
+class Framebuffer {
+public:
+    struct Format {
+        GLenum internal, format, type;  // of glTexImage2D
+        bool depth = false;             // 32-bit float
+    };
+    // width, height >= 1. Throws RunError when the driver refuses it.
+    Framebuffer(const Functions& gl, int width, int height, const Format& format);
+    ~Framebuffer();
+    Framebuffer(const Framebuffer&) = delete;
+    Framebuffer& operator=(const Framebuffer&) = delete;
+
+    void bind() const;  // also sets the viewport
+    GLuint texture() const { return texture_; }
+
+private:
+    void release();
+    const Functions& gl_;
+    int width_, height_;
+    GLuint id_ = 0, texture_ = 0, depth_ = 0;
+};
+
+// A vertex array without vertices of its own: attributes come from Buffer objects bound to it.
+class VertexArray {
+public:
+    explicit VertexArray(const Functions& gl) : gl_(gl) { gl_.GenVertexArrays(1, &id_); }
+    ~VertexArray() { gl_.DeleteVertexArrays(1, &id_); }
+    VertexArray(const VertexArray&) = delete;
+    VertexArray& operator=(const VertexArray&) = delete;
+    void bind() const { gl_.BindVertexArray(id_); }
+
+private:
+    const Functions& gl_;
+    GLuint id_ = 0;
+};
+
+class Buffer {
+public:
+    explicit Buffer(const Functions& gl) : gl_(gl) { gl_.GenBuffers(1, &id_); }
+    ~Buffer() { gl_.DeleteBuffers(1, &id_); }
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+    void bind() const { gl_.BindBuffer(GL_ARRAY_BUFFER, id_); }
+    void fill(const void* data, std::size_t bytes) const {
+        bind();
+        gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
+    }
+    GLuint id() const { return id_; }
+
+private:
+    const Functions& gl_;
+    GLuint id_ = 0;
+};
+
+// A buffer that shaders read by index: four floats an entry.
+class BufferTexture {
+public:
+    explicit BufferTexture(const Functions& gl);
+    ~BufferTexture() { gl_.DeleteTextures(1, &texture_); }
+    BufferTexture(const BufferTexture&) = delete;
+    BufferTexture& operator=(const BufferTexture&) = delete;
+    const Buffer& buffer() const { return buffer_; }
+    void bind(int unit) const;
+
+private:
+    const Functions& gl_;
+    Buffer buffer_;
+    GLuint texture_ = 0;
+};
+
+}  // namespace grainreel::gl
