@@ -12,10 +12,10 @@ namespace grainreel {
 
 // The numbers of one kind of contact, ready for the laws. SI units.
 struct PairPlan {
-    double effective_mass = 0;      // kg, the lightest pair of these species
-    double loading_stiffness = 0;   // N/m: K1 (Walton-Braun) or kn (spring-dashpot)
-    double unloading_stiffness = 0; // N/m: K2 = K1 / e^2; equals K1 for the spring-dashpot
-    double tangential_stiffness = 0;// N/m: K0 or kt
+    double effective_mass = 0;        // kg, the lightest pair of these species
+    double loading_stiffness = 0;     // N/m: K1 (Walton-Braun) or kn (spring-dashpot)
+    double unloading_stiffness = 0;   // N/m: K2 = K1 / e^2; equals K1 for the spring-dashpot
+    double tangential_stiffness = 0;  // N/m: K0 or kt
     double gamma = 0;
     double restitution = 1;
     double friction = 0;
@@ -36,16 +36,16 @@ struct Plan {
     std::vector<PairPlan> wall;   // one a species
 
     Clock clock;
-    std::int64_t steps = 0;              // of vibration
+    std::int64_t steps = 0;  // of vibration
     std::int64_t settle_steps_limit = 0;
-    std::string step_reason;             // which condition binds the step
-    double impact_speed = 0;             // m/s, v* of the stiffness rule
-    double expected_overlap = 0;         // largest expected overlap over the smaller diameter
+    std::string step_reason;      // which condition binds the step
+    double impact_speed = 0;      // m/s, v* of the stiffness rule
+    double expected_overlap = 0;  // largest expected overlap over the smaller diameter
 
-    std::int64_t trajectory_every = 0;   // steps; 0: none
-    std::int64_t measures_every = 0;     // steps
-    double bed_height = 0;               // m, expected, at a solid fraction of 0.6
-    std::vector<std::string> warnings;   // each one line, with place and remedy
+    std::int64_t trajectory_every = 0;  // steps; 0: none
+    std::int64_t measures_every = 0;    // steps
+    double bed_height = 0;              // m, expected, at a solid fraction of 0.6
+    std::vector<std::string> warnings;  // each one line, with place and remedy
 
     const PairPlan& between(std::size_t a, std::size_t b) const { return grain[a * wall.size() + b]; }
 };

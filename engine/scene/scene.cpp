@@ -10,7 +10,9 @@
 
 namespace grainreel {
 
-double Container::floor_half_width() const { return half_width_at(0); }
+double Container::floor_half_width() const {
+    return half_width_at(0);
+}
 
 double Container::half_width_at(double z) const {
     if (shape != Shape::wedge) return half_width;
@@ -24,7 +26,9 @@ double Container::volume() const {
     return depth * (slanted * mean_width + (height - slanted) * 2 * half_width);
 }
 
-double Drive::speed() const { return amplitude * 2 * std::numbers::pi * frequency; }
+double Drive::speed() const {
+    return amplitude * 2 * std::numbers::pi * frequency;
+}
 
 double Drive::g_level(double gravity) const {
     const double omega = 2 * std::numbers::pi * frequency;

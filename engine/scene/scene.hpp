@@ -49,13 +49,13 @@ enum class LeverArms { contact_plane, radius };
 
 // One kind of contact: between two species, or a species and the walls.
 struct PairContact {
-    double restitution = 0.9;                 // in (0, 1]
-    double friction = 0.5;                    // >= 0, may be infinite
-    std::optional<double> stiffness;          // N/m: K1 or kn; the plan chooses it when empty
-    double tangential_ratio = 0.8;            // K0 / K1, or kt / kn
-    double gamma = 1.0 / 3.0;                 // exponent of Walton's incremental slip
-    std::optional<double> normal_damping;     // 1/s, force = value * m_eff * v; from the restitution when empty
-    std::optional<double> tangential_damping; // 1/s, likewise; half of the normal damping when empty
+    double restitution = 0.9;              // in (0, 1]
+    double friction = 0.5;                 // >= 0, may be infinite
+    std::optional<double> stiffness;       // N/m: K1 or kn; the plan chooses it when empty
+    double tangential_ratio = 0.8;         // K0 / K1, or kt / kn
+    double gamma = 1.0 / 3.0;              // exponent of Walton's incremental slip
+    std::optional<double> normal_damping;  // 1/s, force = value * m_eff * v; from the restitution when empty
+    std::optional<double> tangential_damping;  // 1/s, likewise; half of the normal damping when empty
 };
 
 struct Contact {
@@ -69,13 +69,13 @@ struct Contact {
 struct Container {
     enum class Shape { wedge, box, cylinder };
     Shape shape = Shape::wedge;
-    double half_width = 0;      // m, along y: y_max, at and above the slanted part; the radius of a cylinder
-    double depth = 0;           // m, along x (front to back); unused by a cylinder
-    double height = 0;          // m, floor to lid or rim
-    double half_angle = 0;      // rad, slanted walls against the vertical; wedge only
-    double slant_height = 0;    // m, H: height of the slanted part; wedge only
+    double half_width = 0;    // m, along y: y_max, at and above the slanted part; the radius of a cylinder
+    double depth = 0;         // m, along x (front to back); unused by a cylinder
+    double height = 0;        // m, floor to lid or rim
+    double half_angle = 0;    // rad, slanted walls against the vertical; wedge only
+    double slant_height = 0;  // m, H: height of the slanted part; wedge only
     bool lid = true;
-    bool periodic_depth = false;  // no front and back walls: what leaves at one enters at the other
+    bool periodic_depth = false;      // no front and back walls: what leaves at one enters at the other
     double floor_half_width() const;  // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
     double volume() const;            // m3, floor to height
     // m, the free half-width at height z above the floor.
@@ -85,11 +85,11 @@ struct Container {
 struct Drive {
     enum class Moves { container, floor };
     bool present = false;
-    double frequency = 0;         // Hz
-    double amplitude = 0;         // m
-    Vec3 direction{0, 0, 1};      // unit
-    double phase = 0;             // turns, of the sine at t = 0
-    double ramp = 3;              // periods over which the amplitude grows; >= 3, or 0 for none
+    double frequency = 0;     // Hz
+    double amplitude = 0;     // m
+    Vec3 direction{0, 0, 1};  // unit
+    double phase = 0;         // turns, of the sine at t = 0
+    double ramp = 3;          // periods over which the amplitude grows; >= 3, or 0 for none
     Moves moves = Moves::container;
     double g_level(double gravity) const;  // Gamma = a (2 pi f)^2 / g; infinite without gravity
     double speed() const;                  // m/s, a 2 pi f
@@ -98,55 +98,57 @@ struct Drive {
 struct Start {
     enum class Method { layers, file };
     Method method = Method::layers;
-    std::string file;            // path: checkpoint of an earlier run, or its final.csv
-    bool keep_clock = false;     // go on at the file's step and phase; needs a checkpoint, same step and drive
-    double settle_limit = 5;     // s, of settling at most
+    std::string file;         // path: checkpoint of an earlier run, or its final.csv
+    bool keep_clock = false;  // go on at the file's step and phase; needs a checkpoint, same step and drive
+    double settle_limit = 5;  // s, of settling at most
     double settle_damping = 10;  // 1/s, extra drag on every grain while settling only; 0 for none
 };
 
 struct Run {
-    double duration = 10;            // s, of vibration (or of simulated time without a drive)
+    double duration = 10;  // s, of vibration (or of simulated time without a drive)
     std::uint64_t seed = 1;
-    int threads = 0;                 // 0: as many as the machine gives
-    std::optional<double> step;      // s; the plan chooses it when empty
-    double overlap = 0.01;           // wanted largest overlap over the smaller diameter
+    int threads = 0;                       // 0: as many as the machine gives
+    std::optional<double> step;            // s; the plan chooses it when empty
+    double overlap = 0.01;                 // wanted largest overlap over the smaller diameter
     std::optional<int> steps_per_contact;  // the plan chooses by restitution when empty
 };
 
 // What is kept on disk beside the film.
 struct Output {
-    std::optional<double> trajectory_interval;  // s between frames; one period when empty (1/30 s without drive)
-    std::optional<double> measures_interval;    // s between rows; 1/8 of a period when empty
-    bool orientation = false;                   // keep orientations in the trajectory
-    bool contacts = false;                      // write contacts.nc beside it
+    std::optional<double>
+        trajectory_interval;  // s between frames; one period when empty (1/30 s without drive)
+    std::optional<double> measures_interval;  // s between rows; 1/8 of a period when empty
+    bool orientation = false;                 // keep orientations in the trajectory
+    bool contacts = false;                    // write contacts.nc beside it
     bool trajectory = true;
 };
 
 struct FilmSegment {
     enum class Kind { motion, locked };
     Kind kind = Kind::motion;
-    std::optional<double> duration;  // s simulated; at most one segment has none and takes what the others leave
-    double playback = 1;             // motion: simulated seconds a second of film (0.1 = ten times slower)
-    int every = 1;                   // locked: one frame every 1, 2 or 4 periods ...
-    double phase = 0;                // ... at this phase, turns
+    std::optional<double>
+        duration;         // s simulated; at most one segment has none and takes what the others leave
+    double playback = 1;  // motion: simulated seconds a second of film (0.1 = ten times slower)
+    int every = 1;        // locked: one frame every 1, 2 or 4 periods ...
+    double phase = 0;     // ... at this phase, turns
 };
 
 struct Camera {
-    double azimuth = 20;     // degrees, about z: 0 looks along -x at the wide face, positive goes to the right
-    double elevation = 10;   // degrees above the horizon
+    double azimuth = 20;    // degrees, about z: 0 looks along -x at the wide face, positive goes to the right
+    double elevation = 10;  // degrees above the horizon
     double field_of_view = 25;  // degrees, vertical; 0 for orthographic
-    double zoom = 1;         // over the automatic framing
-    bool follow = false;     // true: the container's own frame, false: the lab's
+    double zoom = 1;            // over the automatic framing
+    bool follow = false;        // true: the container's own frame, false: the lab's
 };
 
 struct Film {
     int width = 1920, height = 1080;
-    double rate = 30;  // frames a second of film
-    std::string title; // shown on the frame
+    double rate = 30;   // frames a second of film
+    std::string title;  // shown on the frame
     std::vector<FilmSegment> segments;
     Camera camera;
     Colour background{1, 1, 1};
-    int quality = 20;            // x264 crf
+    int quality = 20;  // x264 crf
     std::string preset = "veryfast";
 };
 
@@ -163,14 +165,17 @@ struct Scene {
     Output output;
     Film film;
 
-    // Where each value was written, by its key path ("species[1].count"); for messages found later than reading.
+    // Where each value was written, by its key path ("species[1].count"); for messages found later than
+    // reading.
     std::string file;
     std::map<std::string, Location> written;
     // "file:line:column" of the key, of its nearest written parent, or of the file alone.
     std::string where(const std::string& key) const;
 
     std::int64_t grains() const;  // sum of the counts
-    const PairContact& between(std::size_t a, std::size_t b) const { return contact.grain[a * species.size() + b]; }
+    const PairContact& between(std::size_t a, std::size_t b) const {
+        return contact.grain[a * species.size() + b];
+    }
 };
 
 }  // namespace grainreel

@@ -1,0 +1,19 @@
+// Sizes of the bed that follow from the scene alone.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+double mean_cube(const SizeSpread& diameter);  // m3, the mean of d^3
+double solid_volume(const Scene& scene);       // m3, of all grains together
+double total_mass(const Scene& scene);         // kg
+
+// m, how high the container is filled when the grains lie at this solid fraction; its height at most.
+double fill_height(const Scene& scene, double solid_fraction);
+
+// m, what carries the bed sideways: the smaller of width and depth, the width alone when the depth is
+// periodic.
+double bed_width(const Scene& scene);
+
+}  // namespace grainreel

@@ -1,0 +1,127 @@
+// What can be wrong between values that are right by themselves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/scene/key_path.hpp"
+#include "engine/scene/reader_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+// The densest share of the container that growing spheres in layers reaches without jamming: random packings
+// of equal spheres end at 0.64, and one that can still be sheared near 0.55.
+constexpr double most_solid = 0.55;
+
+[[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
+    throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
+}
+
+void check_names(const Scene& scene) {
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        const std::string key = fmt::format("species[{}].name", i);
+        const std::string& name = scene.species[i].name;
+        if (name.empty()) fail(scene, key, "must not be empty; write for example \"small\"");
+        if (name == "wall")
+            fail(scene, key, "must not be \"wall\", which stands for the container; choose another");
+        if (!names.insert(name).second)
+            fail(scene, key, fmt::format("\"{}\" is taken; choose another", name));
+    }
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    if (scene.grains() > most)
+        throw UserError(fmt::format("{}: {} grains are more than the {} that can be numbered; use fewer",
+                                    scene.where("species"), scene.grains(), most));
+}
+
+void check_wedge(const Scene& scene) {
+    const Container& c = scene.container;
+    if (c.shape != Container::Shape::wedge) return;
+    if (c.half_angle >= std::numbers::pi / 2)
+        fail(scene, "container.half_angle",
+             fmt::format("must be less than 90 deg, but is {:.6g} deg",
+                         c.half_angle * 180 / std::numbers::pi));
+    if (c.slant_height > c.height)
+        fail(scene, "container.slant_height",
+             fmt::format(
+                 "is {:.6g} m, more than the height of the container, {:.6g} m; lower it or raise the height",
+                 c.slant_height, c.height));
+    const double taken = c.slant_height * std::tan(c.half_angle);
+    if (c.floor_half_width() < 0)
+        fail(
+            scene, "container.half_width",
+            fmt::format(
+                "is {:.6g} m, but the slanted walls take {:.6g} m on each side and would cross; widen it, or "
+                "reduce half_angle or slant_height",
+                c.half_width, taken));
+}
+
+void check_grain_sizes(const Scene& scene) {
+    const Container& c = scene.container;
+    struct Extent {
+        double size;
+        const char* key;
+    };
+    std::vector<Extent> extents{{c.height, "height"}};
+    const bool wedge = c.shape == Container::Shape::wedge;
+    const bool cylinder = c.shape == Container::Shape::cylinder;
+    extents.push_back({2 * c.half_width, cylinder ? "diameter" : wedge ? "half_width" : "width"});
+    if (!cylinder) extents.push_back({c.depth, "depth"});
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        const double largest = scene.species[i].diameter.largest;
+        for (const Extent& extent : extents)
+            if (largest > extent.size)
+                fail(scene, fmt::format("species[{}].diameter", i),
+                     fmt::format("of {:.6g} m does not fit in the container, {:.6g} m across (container.{}); "
+                                 "use smaller "
+                                 "grains or a larger container",
+                                 largest, extent.size, extent.key));
+        if (c.periodic_depth && c.depth < 4 * largest)
+            fail(scene, "container.depth",
+                 fmt::format(
+                     "of {:.6g} m is too short to be periodic, less than 4 diameters of \"{}\", {:.6g} m; "
+                     "lengthen it",
+                     c.depth, scene.species[i].name, 4 * largest));
+    }
+}
+
+void check_room(const Scene& scene) {
+    if (scene.start.method != Start::Method::layers) return;
+    const double solid = solid_volume(scene);
+    const double room = scene.container.volume();
+    if (solid > most_solid * room)
+        throw UserError(fmt::format(
+            "{}: {} grains of {:.4g} m3 fill {:.1f} % of the container's {:.4g} m3, more than the "
+            "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
+            scene.where("species"), scene.grains(), solid, 100 * solid / room, room, 100 * most_solid));
+}
+
+void check_drive(const Scene& scene) {
+    const Drive& drive = scene.drive;
+    if (!drive.present || drive.moves == Drive::Moves::container) return;
+    const double stroke = 2 * drive.amplitude * std::abs(drive.direction.z());
+    if (stroke >= scene.container.height)
+        fail(scene, "drive.moves",
+             fmt::format(
+                 "is \"floor\", whose stroke of {:.6g} m is not less than the container's height, {:.6g} m; "
+                 "reduce the amplitude",
+                 stroke, scene.container.height));
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+    check_names(scene);
+    check_wedge(scene);
+    check_grain_sizes(scene);
+    check_room(scene);
+    check_drive(scene);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,258 @@
+#include "engine/scene/keys.hpp"
+
+#include <cmath>
+
+namespace grainreel {
+namespace {
+
+struct Fallback {
+    std::string literal, note;
+};
+Fallback required() {
+    return {"", "required"};
+}
+Fallback literal(const char* text) {
+    return {text, ""};
+}
+Fallback note(const char* text) {
+    return {"", text};
+}
+
+const Range any{};
+const Range positive{0, std::numeric_limits<double>::infinity(), true, false};
+const Range not_negative{0, std::numeric_limits<double>::infinity(), false, false};
+const Range not_negative_or_infinite{0, std::numeric_limits<double>::infinity(), false, true};
+const Range share{0, 1, true, false};
+
+Key entry(std::string path, KeyKind kind, Fallback fallback, const char* about) {
+    Key key;
+    key.path = std::move(path);
+    key.kind = kind;
+    key.fallback = std::move(fallback.literal);
+    key.fallback_note = std::move(fallback.note);
+    key.about = about;
+    return key;
+}
+
+Key quantity(std::string path, Dimension dimension, const Range& range, Fallback fallback,
+             const char* about) {
+    Key key = entry(std::move(path), KeyKind::quantity, std::move(fallback), about);
+    key.dimension = dimension;
+    key.range = range;
+    return key;
+}
+
+Key integer(std::string path, double low, double high, Fallback fallback, const char* about) {
+    Key key = entry(std::move(path), KeyKind::integer, std::move(fallback), about);
+    key.range = {low, high, false, false};
+    return key;
+}
+
+Key choice(std::string path, std::vector<std::string> choices, Fallback fallback, const char* about) {
+    Key key = entry(std::move(path), KeyKind::choice, std::move(fallback), about);
+    key.choices = std::move(choices);
+    return key;
+}
+
+Key of_dimension(Key key, Dimension dimension, const Range& range) {
+    key.dimension = dimension;
+    key.range = range;
+    return key;
+}
+
+using Keys = std::vector<Key>;
+constexpr double most_grains = 2147483647;
+
+void add_species(Keys& keys) {
+    keys.push_back(
+        entry("title", KeyKind::text, note("the file's name"), "Shown on the film unless it has its own."));
+    keys.push_back(of_dimension(entry("gravity", KeyKind::gravity, literal("9.81"),
+                                      "Downwards along -z; or a vector [x, y, z]; 0 for none."),
+                                Dimension::acceleration, not_negative));
+    keys.push_back(
+        entry("species[].name", KeyKind::text, required(), "For the legend and for [[contact.pair]]."));
+    keys.push_back(integer("species[].count", 1, most_grains, required(), "How many grains."));
+    keys.push_back(of_dimension(entry("species[].diameter", KeyKind::diameter, required(),
+                                      "One length, or a spread: { min, max } or { mean, deviation }."),
+                                Dimension::length, positive));
+    keys.push_back(quantity("species[].diameter.min", Dimension::length, positive, note("none"),
+                            "Smallest of evenly spread diameters."));
+    keys.push_back(
+        quantity("species[].diameter.max", Dimension::length, positive, note("none"), "Largest of them."));
+    keys.push_back(quantity("species[].diameter.mean", Dimension::length, positive, note("none"),
+                            "Mean of normally spread diameters."));
+    keys.push_back(quantity("species[].diameter.deviation", Dimension::length, positive, note("none"),
+                            "Their standard deviation; cut off at two of them."));
+    keys.push_back(quantity("species[].density", Dimension::density, positive, note("required, or `mass`"),
+                            "Of the solid."));
+    keys.push_back(quantity("species[].mass", Dimension::mass, positive, note("none"),
+                            "Of a grain of mean diameter, instead of the density."));
+    keys.push_back(entry("species[].colour", KeyKind::colour, note("Okabe-Ito colours in order"),
+                         "\"#rrggbb\" or a name: black, white, grey, orange, sky-blue, green, yellow, blue, "
+                         "vermilion, purple."));
+}
+
+// The numbers of one kind of contact; `inherited` words where the default comes from for walls and pairs.
+void add_pair_keys(Keys& keys, const std::string& table, const char* inherited) {
+    const auto fallback = [&](Fallback own) { return inherited == nullptr ? own : note(inherited); };
+    const auto add = [&](const char* name, Dimension dimension, const Range& range, Fallback own,
+                         const char* about) {
+        keys.push_back(quantity(table + "." + name, dimension, range, fallback(std::move(own)), about));
+    };
+    add("restitution", Dimension::number, share, literal("0.9"),
+        "Speed after over speed before a normal impact.");
+    add("friction", Dimension::number, not_negative_or_infinite, literal("0.5"),
+        "Coulomb's µ; 0 for none, inf to never slip.");
+    add("stiffness", Dimension::stiffness, positive, note("chosen by the plan"),
+        "Of the loading branch: K1 (walton-braun) or kn (spring-dashpot).");
+    add("tangential_ratio", Dimension::number, positive, note("0.8; 2/7 for linear-spring"),
+        "Tangential over normal stiffness.");
+    add("gamma", Dimension::number, not_negative, note("1/3"),
+        "Exponent of incremental-slip: 1/3 resembles Mindlin, 1 or 2 plastic contacts.");
+    add("normal_damping", Dimension::rate, not_negative, note("from the restitution"),
+        "spring-dashpot only, instead of the restitution: force = value x effective mass x speed.");
+    add("tangential_damping", Dimension::rate, not_negative, note("half the normal damping"),
+        "spring-dashpot with linear-spring only.");
+}
+
+void add_contact(Keys& keys) {
+    keys.push_back(choice("contact.law", {"walton-braun", "spring-dashpot"}, literal("\"walton-braun\""),
+                          "Normal force: latching spring, or linear spring with a dashpot."));
+    keys.push_back(choice("contact.friction_law", {"incremental-slip", "linear-spring", "none"},
+                          note("incremental-slip; linear-spring for spring-dashpot"),
+                          "Tangential force; none leaves out friction, spin and torque."));
+    keys.push_back(
+        choice("contact.arms", {"contact-plane", "radius"}, literal("\"contact-plane\""),
+               "Lever arms of the tangential force; radius, as in the seed, loses angular momentum."));
+    add_pair_keys(keys, "contact", nullptr);
+    add_pair_keys(keys, "contact.wall", "as in [contact]");
+    keys.push_back(entry("contact.pair[].between", KeyKind::species_pair, required(),
+                         "Two names of species, or one and \"wall\"."));
+    add_pair_keys(keys, "contact.pair[]", "as in [contact] or [contact.wall]");
+}
+
+void add_container(Keys& keys) {
+    keys.push_back(choice("container.shape", {"wedge", "box", "cylinder"}, required(),
+                          "The origin is the middle of the floor; x along the depth, y across, z up."));
+    keys.push_back(
+        quantity("container.height", Dimension::length, positive, required(), "Floor to lid or rim."));
+    keys.push_back(quantity("container.depth", Dimension::length, positive, note("required; wedge, box"),
+                            "Front to back, along x."));
+    keys.push_back(quantity("container.half_width", Dimension::length, positive, note("required; wedge"),
+                            "At and above the slanted part, from the middle to the wall."));
+    keys.push_back(quantity("container.half_angle", Dimension::angle, positive, note("required; wedge"),
+                            "Between slanted wall and the vertical."));
+    keys.push_back(quantity("container.slant_height", Dimension::length, positive, note("required; wedge"),
+                            "Height of the slanted part."));
+    keys.push_back(
+        quantity("container.width", Dimension::length, positive, note("required; box"), "Along y."));
+    keys.push_back(
+        quantity("container.diameter", Dimension::length, positive, note("required; cylinder"), "Inside."));
+    keys.push_back(choice("container.top", {"lid", "open"}, literal("\"lid\""), "Sealed, or open above."));
+    keys.push_back(
+        choice("container.outlet", {"closed"}, literal("\"closed\""), "Open outlets are not modelled yet."));
+    keys.push_back(entry("container.periodic_depth", KeyKind::flag, literal("false"),
+                         "No front and back walls: what leaves at one enters at the other."));
+}
+
+void add_drive(Keys& keys) {
+    keys.push_back(quantity("drive.frequency", Dimension::frequency, positive, required(), "f."));
+    keys.push_back(quantity("drive.g_level", Dimension::number, positive, note("required, or `amplitude`"),
+                            "Γ = a (2πf)² / g."));
+    keys.push_back(quantity("drive.amplitude", Dimension::length, positive, note("from `g_level`"),
+                            "a, half of the stroke."));
+    keys.push_back(
+        entry("drive.direction", KeyKind::vector, literal("[0, 0, 1]"), "Of the motion; any length."));
+    keys.push_back(quantity("drive.phase", Dimension::phase, any, literal("0"),
+                            "Of the sine at t = 0, \"90 deg\" or 0.25 turns."));
+    keys.push_back(quantity("drive.ramp", Dimension::number, not_negative, literal("3"),
+                            "Periods over which the amplitude grows: 3 or more, or 0 for a sudden start."));
+    keys.push_back(
+        choice("drive.moves", {"container", "floor"}, literal("\"container\""), "What oscillates."));
+}
+
+void add_run(Keys& keys) {
+    keys.push_back(choice("start.method", {"layers", "file"}, literal("\"layers\""),
+                          "Grow and settle layers, the first species of the largest grains at the bottom; or "
+                          "go on from a file."));
+    keys.push_back(entry("start.file", KeyKind::text, note("required; file"),
+                         "Checkpoint or final.csv of an earlier run, relative to the scene's folder."));
+    keys.push_back(entry("start.keep_clock", KeyKind::flag, literal("false"),
+                         "Go on at the checkpoint's step and phase; file only."));
+    keys.push_back(quantity("start.settle_limit", Dimension::time, positive, literal("\"5 s\""),
+                            "Settling ends here at the latest; layers only."));
+    keys.push_back(quantity("start.settle_damping", Dimension::rate, not_negative, literal("\"10 1/s\""),
+                            "Drag on every grain while settling only; layers only."));
+    keys.push_back(quantity("run.duration", Dimension::time, positive, literal("\"10 s\""),
+                            "Of vibration; without a drive, of simulated time."));
+    keys.push_back(integer("run.seed", 0, 9007199254740992.0, literal("1"), "Of every random choice."));
+    keys.push_back(integer("run.threads", 0, 1024, literal("0"), "0: as many as the machine gives."));
+    keys.push_back(quantity("run.step", Dimension::time, positive, note("chosen by the plan"),
+                            "With a drive shortened so that a multiple of 8 steps makes a period."));
+    keys.push_back(quantity("run.overlap", Dimension::number, {0, 0.1, true, false}, literal("0.01"),
+                            "Wanted largest overlap over the smaller diameter; sets the stiffness."));
+    keys.push_back(integer("run.steps_per_contact", 4, 1000000,
+                           note("12 or more by restitution; 40 for spring-dashpot"),
+                           "Steps in one free impact."));
+    keys.push_back(entry("output.trajectory", KeyKind::flag, literal("true"), "Keep trajectory.nc."));
+    keys.push_back(quantity("output.trajectory_interval", Dimension::time, positive,
+                            note("one period; 1/30 s without a drive"), "Between its frames."));
+    keys.push_back(quantity("output.measures_interval", Dimension::time, positive,
+                            note("1/8 period; 10 ms without a drive"), "Between rows of measures.csv."));
+    keys.push_back(
+        entry("output.orientation", KeyKind::flag, literal("false"), "Orientations in the trajectory."));
+    keys.push_back(
+        entry("output.contacts", KeyKind::flag, literal("false"), "Contacts and forces in contacts.nc."));
+}
+
+void add_film(Keys& keys) {
+    keys.push_back(
+        entry("film.size", KeyKind::picture_size, literal("\"1920x1080\""), "Width and height, pixels."));
+    keys.push_back(
+        quantity("film.rate", Dimension::number, {1, 240, false, false}, literal("30"), "Frames a second."));
+    keys.push_back(entry("film.title", KeyKind::text, note("`title`"), "Shown on the frame."));
+    keys.push_back(integer("film.quality", 0, 51, literal("20"), "x264's crf: 18 near-lossless, 23 small."));
+    keys.push_back(choice(
+        "film.preset",
+        {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
+        literal("\"veryfast\""), "x264's preset: slower makes smaller files."));
+    keys.push_back(entry("film.background", KeyKind::colour, literal("\"#ffffff\""), "As species.colour."));
+    keys.push_back(quantity("film.camera.azimuth", Dimension::degrees, any, literal("20"),
+                            "About z; 0 looks along -x at the wide face, positive goes to the right."));
+    keys.push_back(quantity("film.camera.elevation", Dimension::degrees, {-90, 90, false, false},
+                            literal("10"), "Above the horizon."));
+    keys.push_back(quantity("film.camera.field_of_view", Dimension::degrees, {0, 120, false, false},
+                            literal("25"), "Vertical; 0 for orthographic."));
+    keys.push_back(quantity("film.camera.zoom", Dimension::number, positive, literal("1"),
+                            "Over the automatic framing."));
+    keys.push_back(
+        entry("film.camera.follow", KeyKind::flag, literal("false"), "Stand in the container's own frame."));
+    keys.push_back(choice("film.segment[].kind", {"motion", "locked"}, literal("\"motion\""),
+                          "Even in time, or one frame every so many periods at a fixed phase."));
+    keys.push_back(quantity("film.segment[].duration", Dimension::time, positive,
+                            note("what the others leave"), "Simulated time; one segment may go without."));
+    keys.push_back(quantity("film.segment[].playback", Dimension::number, positive, literal("1"),
+                            "motion: simulated seconds a second of film; 0.1 is ten times slower."));
+    keys.push_back(
+        integer("film.segment[].every", 1, 4, literal("1"), "locked: periods a frame, 1, 2 or 4."));
+    keys.push_back(quantity("film.segment[].phase", Dimension::phase, any, literal("0"),
+                            "locked: \"90 deg\" or 0.25 turns."));
+}
+
+}  // namespace
+
+const std::vector<Key>& scene_keys() {
+    static const Keys keys = [] {
+        Keys all;
+        add_species(all);
+        add_contact(all);
+        add_container(all);
+        add_drive(all);
+        add_run(all);
+        add_film(all);
+        return all;
+    }();
+    return keys;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,106 @@
+#include "engine/scene/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/plan_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double most_steps = 9.2e18;                                         // of a signed 64-bit count
+constexpr double frames_without_drive = 1.0 / 30, rows_without_drive = 0.01;  // s
+
+void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
+    const auto keep_overlap = [&](const PairPlan& pair, const Species& a, const Species* b) {
+        plan.expected_overlap = std::max(plan.expected_overlap, expected_overlap(scene, bed, pair, a, b));
+    };
+    const std::size_t count = scene.species.size();
+    for (std::size_t a = 0; a < count; ++a) {
+        const Species& first = scene.species[a];
+        for (std::size_t b = 0; b < count; ++b) {
+            plan.grain.push_back(b < a
+                                     ? plan.grain[b * count + a]
+                                     : plan_pair(scene, bed, scene.between(a, b), first, &scene.species[b]));
+            keep_overlap(plan.grain.back(), first, &scene.species[b]);
+        }
+        plan.wall.push_back(plan_pair(scene, bed, scene.contact.wall[a], first, nullptr));
+        keep_overlap(plan.wall.back(), first, nullptr);
+    }
+}
+
+// `seconds` in steps; `key` is the place to complain about.
+std::int64_t count_steps(const Scene& scene, double seconds, double step, const char* key) {
+    const double steps = seconds / step;
+    if (steps > most_steps)
+        throw UserError(fmt::format(
+            "{}: {:.4g} s in steps of {:.4g} s make {:.3g} steps, more than a 64-bit count holds; "
+            "shorten it or lengthen run.step",
+            scene.where(key), seconds, step, steps));
+    return std::llround(steps);
+}
+
+// Rounds the step down so that a multiple of 8 makes one period: then its phases, halves and quarters are
+// steps.
+Clock plan_clock(const Scene& scene, double step) {
+    Clock clock;
+    clock.step = step;
+    if (!scene.drive.present) return clock;
+    // A step that was so rounded before comes back as it was, hence the hair of tolerance.
+    const double eighths = std::max(1.0, std::ceil(1 / (8 * scene.drive.frequency * step) * (1 - 1e-12)));
+    clock.steps_per_period = 8 * count_steps(scene, eighths, 1, "drive.frequency");
+    clock.step = 1 / (scene.drive.frequency * static_cast<double>(clock.steps_per_period));
+    clock.initial_phase = scene.drive.phase;
+    return clock;
+}
+
+void plan_output(const Scene& scene, Plan& plan) {
+    const Output& output = scene.output;
+    const std::int64_t period = plan.clock.steps_per_period;
+    const auto every = [&](const std::optional<double>& interval, std::int64_t driven, double without,
+                           const char* key) {
+        if (!interval && period > 0) return driven;
+        return std::max<std::int64_t>(1,
+                                      count_steps(scene, interval.value_or(without), plan.clock.step, key));
+    };
+    if (output.trajectory)
+        plan.trajectory_every =
+            every(output.trajectory_interval, period, frames_without_drive, "output.trajectory_interval");
+    plan.measures_every =
+        every(output.measures_interval, period / 8, rows_without_drive, "output.measures_interval");
+}
+
+}  // namespace
+
+Plan make_plan(const Scene& scene) {
+    Plan plan;
+    plan.normal = scene.contact.normal;
+    plan.tangential = scene.contact.tangential;
+    plan.arms = scene.contact.arms;
+    plan.moving_walls = scene.drive.present && scene.drive.amplitude > 0;
+
+    const BedPlan bed = plan_bed(scene);
+    plan.bed_height = bed.height;
+    plan.impact_speed = bed.impact_speed;
+    plan_contacts(scene, bed, plan);
+
+    const StepChoice step = plan_step(scene, plan);
+    plan.step_reason = step.reason;
+    plan.clock = plan_clock(scene, step.step);
+    plan.steps = count_steps(scene, scene.run.duration, plan.clock.step, "run.duration");
+    if (plan.steps == 0)
+        throw UserError(
+            fmt::format("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
+                        scene.where("run.duration"), scene.run.duration, plan.clock.step));
+    if (scene.start.method == Start::Method::layers)
+        plan.settle_steps_limit =
+            count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");
+    plan_output(scene, plan);
+    plan.warnings = plan_warnings(scene, plan, bed, step);
+    return plan;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,59 @@
+// The plan's chapters: what the bed is like, the contacts' numbers, the step. Internal to make_plan.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/plan.hpp"
+
+namespace grainreel {
+
+constexpr double settled_solid_fraction = 0.6;
+
+// What the whole bed is like, and how hard it is shaken.
+struct BedPlan {
+    double gravity = 0;    // m/s2
+    double g_level = 0;    // Gamma; 0 without a drive or without gravity
+    double frequency = 0;  // Hz; 0 without a drive
+    double height = 0;     // m, at a solid fraction of 0.6
+    double layers = 1;     // of grains of mean diameter
+    double largest_density = 0;
+    double carried_height = 0;  // m, min(height, twice the width): what presses on the floor (Janssen)
+    double drop_speed = 0;      // m/s, of the highest fall while settling; 0 when nothing settles
+    double impact_speed = 0;    // m/s, v*
+};
+BedPlan plan_bed(const Scene& scene);
+
+// Two grains that may touch, or a grain and a wall (second mass infinite): the smallest, mean and largest of
+// each species. Sizes in m, masses in kg.
+struct Touching {
+    double diameter;  // of the smaller
+    double distance;  // between centres, or to the wall
+    double effective_mass;
+};
+std::vector<Touching> extremes(const Species& a, const Species* b);  // b: nullptr for a wall
+double mean_effective_mass(const Species& a, const Species* b);
+
+// Stiffness, damping and times of one kind of contact. `key`: its place, for messages.
+PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Species& a,
+                   const Species* b);
+
+// Largest overlap over the smaller diameter that impacts and weight are expected to cause.
+double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const Species& a,
+                        const Species* b);
+
+// Steps in a free impact: enough that plain velocity Verlet keeps the restitution within 0.005.
+int steps_per_contact(NormalLaw law, double restitution);
+
+struct StepChoice {
+    double step = 0;    // s
+    double stable = 0;  // s, above which Verlet diverges
+    std::string reason;
+};
+StepChoice plan_step(const Scene& scene, const Plan& plan);
+
+// Lines for the user: what will run, but not as one may wish.
+std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
+                                       const StepChoice& step);
+
+}  // namespace grainreel

@@ -1,0 +1,155 @@
+// What will run, but perhaps not as one wishes. Failures that cannot stop a run are said before it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/scene/plan_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double alarming_overlap = 0.02;  // over the smaller diameter; 1 % is the usual aim
+constexpr double alarming_size_ratio = 10;
+
+class Warnings {
+  public:
+    explicit Warnings(const Scene& scene) : scene_(scene) {}
+    void add(const char* key, const std::string& what) {
+        lines_.push_back(fmt::format("{}: {}", scene_.where(key), what));
+    }
+    std::vector<std::string> take() { return std::move(lines_); }
+
+  private:
+    const Scene& scene_;
+    std::vector<std::string> lines_;
+};
+
+void warn_of_drive(const Scene& scene, const BedPlan& bed, Warnings& warnings) {
+    const Drive& drive = scene.drive;
+    if (!drive.present) return;
+    const bool upright = drive.direction.x() == 0 && drive.direction.y() == 0;
+    if (upright && bed.gravity > 0 && bed.g_level < 1)
+        warnings.add(
+            "drive",
+            fmt::format("gamma is {:.3g}, below 1: the bed stays on the floor and nothing will move; raise "
+                        "g_level or amplitude",
+                        bed.g_level));
+    if (drive.ramp / drive.frequency > scene.run.duration)
+        warnings.add("drive.ramp",
+                     fmt::format("the drive grows over {:.4g} s, longer than the run of {:.4g} s, and never "
+                                 "reaches its amplitude; lengthen the run or shorten the ramp",
+                                 drive.ramp / drive.frequency, scene.run.duration));
+    const bool elastic = std::any_of(
+        scene.contact.grain.begin(), scene.contact.grain.end(),
+        [](const PairContact& pair) { return pair.restitution == 1 && !pair.normal_damping.value_or(0); });
+    if (elastic)
+        warnings.add("contact",
+                     "restitution 1 loses no energy, so the drive heats the grains without limit; lower it");
+}
+
+void warn_of_softness(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
+    if (plan.expected_overlap > std::max(alarming_overlap, 1.001 * scene.run.overlap))
+        warnings.add(
+            "contact.stiffness",
+            fmt::format(
+                "overlaps of {:.2g} of a diameter are expected, more than {:.2g}; raise the stiffness",
+                plan.expected_overlap, std::max(alarming_overlap, scene.run.overlap)));
+    double slowest = 0, tunnelling = std::numeric_limits<double>::infinity();
+    const std::size_t count = scene.species.size();
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = a; b <= count; ++b) {
+            const PairPlan& pair = b < count ? plan.between(a, b) : plan.wall[a];
+            slowest = std::max(slowest, pair.contact_time);
+            for (const Touching& t : extremes(scene.species[a], b < count ? &scene.species[b] : nullptr))
+                tunnelling =
+                    std::min(tunnelling, t.distance * std::sqrt(pair.loading_stiffness / t.effective_mass));
+        }
+    }
+    const double fastest = std::max(bed.impact_speed, bed.drop_speed);
+    if (fastest > 0.5 * tunnelling)
+        warnings.add(
+            "contact.stiffness",
+            fmt::format(
+                "grains at {:.3g} m/s may pass through each other, which happens from {:.3g} m/s on; raise "
+                "the stiffness",
+                fastest, tunnelling));
+    if (bed.gravity > 0 && bed.frequency * bed.layers * slowest > 0.2)
+        warnings.add(
+            "contact.stiffness",
+            fmt::format(
+                "a wave needs {:.2g} of a period to cross the bed, which then behaves like a soft body; "
+                "raise the stiffness",
+                bed.frequency * bed.layers * slowest));
+}
+
+void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, const StepChoice& step,
+                  Warnings& warnings) {
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+    for (const Species& s : scene.species) {
+        smallest = std::min(smallest, s.diameter.smallest);
+        largest = std::max(largest, s.diameter.largest);
+    }
+    const double travelled = std::max(bed.impact_speed, bed.drop_speed) * plan.clock.step;
+    if (travelled > 0.1 * smallest / 2)
+        warnings.add(
+            "run.step",
+            fmt::format("a grain may cross {:.2g} of the smallest radius in one step; shorten the step",
+                        travelled / (smallest / 2)));
+    if (largest > alarming_size_ratio * smallest)
+        warnings.add(
+            "species",
+            fmt::format("the largest grain is {:.3g} times the smallest: the step follows the small and "
+                        "the search for neighbours the big, so this will be slow",
+                        largest / smallest));
+    if (plan.clock.step > step.stable)
+        warnings.add(
+            "run.step",
+            fmt::format("{:.4g} s is above the stable limit of {:.4g} s: the run will blow up; shorten "
+                        "the step or leave it out",
+                        plan.clock.step, step.stable));
+    if (!scene.run.step && !scene.run.steps_per_contact) return;
+    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall}) {
+        for (const PairPlan& pair : *pairs) {
+            const int wanted = steps_per_contact(plan.normal, pair.restitution);
+            const double actual = pair.contact_time / plan.clock.step;
+            if (actual > wanted * (1 - 1e-9)) continue;
+            warnings.add(
+                scene.run.step ? "run.step" : "run.steps_per_contact",
+                fmt::format(
+                    "a contact lasts {:.3g} steps where {} are wanted, so that restitution {:.3g} will not "
+                    "be kept; shorten the step or leave it out",
+                    actual, wanted, pair.restitution));
+            return;
+        }
+    }
+}
+
+void warn_of_film(const Scene& scene, Warnings& warnings) {
+    double shown = 0;
+    for (const FilmSegment& segment : scene.film.segments) {
+        if (!segment.duration) return;
+        shown += *segment.duration;
+    }
+    if (!scene.film.segments.empty() && shown < scene.run.duration * (1 - 1e-6))
+        warnings.add(
+            "film.segment",
+            fmt::format("the film shows the first {:.4g} s of {:.4g} s; leave out one duration to show "
+                        "the rest",
+                        shown, scene.run.duration));
+}
+
+}  // namespace
+
+std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
+                                       const StepChoice& step) {
+    Warnings warnings(scene);
+    warn_of_drive(scene, bed, warnings);
+    warn_of_softness(scene, plan, bed, warnings);
+    warn_of_step(scene, plan, bed, step, warnings);
+    warn_of_film(scene, warnings);
+    return warnings.take();
+}
+
+}  // namespace grainreel

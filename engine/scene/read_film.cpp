@@ -1,0 +1,136 @@
+// Film: picture, camera, and which stretches of time it shows.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "engine/scene/colours.hpp"
+#include "engine/scene/reader_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr std::int64_t least_pixels = 64, most_pixels = 8192;
+
+void read_size(Document& document, Film& film) {
+    const char* path = "film.size";
+    if (!document.has(path)) return;
+    std::array<std::int64_t, 2> size{0, 0};
+    std::string shown = "something else";
+    if (document.is_array(path)) {
+        size = document.two_integers(path).value_or(size);
+        shown = fmt::format("[{}, {}]", size[0], size[1]);
+    } else if (const auto text = document.text(path)) {
+        shown = "\"" + *text + "\"";
+        const char* end = text->data() + text->size();
+        const auto width = std::from_chars(text->data(), end, size[0]);
+        if (width.ptr != end && *width.ptr == 'x') {
+            const auto height = std::from_chars(width.ptr + 1, end, size[1]);
+            if (height.ptr != end) size[1] = 0;
+        }
+    }
+    const auto wrong = [](std::int64_t pixels) { return pixels < least_pixels || pixels > most_pixels; };
+    if (wrong(size[0]) || wrong(size[1]))
+        document.fail(path,
+                      fmt::format("must be width x height, each from {} to {} pixels, but is {}; write for "
+                                  "example \"1920x1080\"",
+                                  least_pixels, most_pixels, shown));
+    film.width = static_cast<int>(size[0]);
+    film.height = static_cast<int>(size[1]);
+}
+
+void read_camera(Document& document, Camera& camera) {
+    camera.azimuth = document.quantity("film.camera.azimuth").value_or(camera.azimuth);
+    camera.elevation = document.quantity("film.camera.elevation").value_or(camera.elevation);
+    camera.field_of_view = document.quantity("film.camera.field_of_view").value_or(camera.field_of_view);
+    camera.zoom = document.quantity("film.camera.zoom").value_or(camera.zoom);
+    camera.follow = document.flag("film.camera.follow").value_or(camera.follow);
+}
+
+FilmSegment read_segment(Document& document, const Scene& scene, const std::string& table) {
+    using Kind = FilmSegment::Kind;
+    FilmSegment segment;
+    segment.kind = chosen<Kind>(document, table + ".kind",
+                                {{"motion", Kind::motion}, {"locked", Kind::locked}}, Kind::motion);
+    segment.duration = document.quantity(table + ".duration");
+    if (segment.kind == Kind::motion) {
+        document.refuse(table + ".every", "a segment in motion has a 'playback'");
+        document.refuse(table + ".phase", "a segment in motion shows every phase");
+        segment.playback = document.quantity(table + ".playback").value_or(segment.playback);
+        return segment;
+    }
+    document.refuse(table + ".playback", "a locked segment has 'every' and 'phase'");
+    if (!scene.drive.present)
+        document.fail(table + ".kind",
+                      "is \"locked\", but nothing oscillates; add [drive] or write \"motion\"");
+    segment.every = static_cast<int>(document.integer(table + ".every").value_or(segment.every));
+    if (segment.every == 3) document.fail(table + ".every", "must be 1, 2 or 4, but is 3");
+    segment.phase = document.quantity(table + ".phase").value_or(segment.phase);
+    return segment;
+}
+
+// Without segments in the scene: slow motion at both ends, 4 s of film each but a tenth of the run at most,
+// and one frame a period between. Slow enough for 8 frames a period, or ten times slower if that is slower.
+std::vector<FilmSegment> default_segments(const Scene& scene) {
+    FilmSegment motion;
+    if (!scene.drive.present) return {motion};
+    motion.playback = std::min(0.1, scene.film.rate / (8 * scene.drive.frequency));
+    motion.duration = std::min(4 * motion.playback, 0.1 * scene.run.duration);
+    FilmSegment between;
+    between.kind = FilmSegment::Kind::locked;
+    return {motion, between, motion};
+}
+
+// The durations that are given must fit in the run. A run made shorter on the command line shortens them too:
+// to half of the run when a segment takes the rest, else to all of it.
+void fit_segments(Document& document, Scene& scene) {
+    double given = 0;
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < scene.film.segments.size(); ++i) {
+        const FilmSegment& segment = scene.film.segments[i];
+        given += segment.duration.value_or(0);
+        if (!segment.duration && ++open > 1)
+            document.fail(
+                fmt::format("film.segment[{}].duration", i),
+                "is missing, and of an earlier segment too; only one may take what the others leave");
+    }
+    const double duration = scene.run.duration;
+    const double room = duration * (1 + 1e-9);  // rounding of sums
+    if (open > 0 ? given < duration : given <= room) return;
+    if (!document.from_command_line("run.duration"))
+        document.fail("film.segment",
+                      fmt::format("shows {:.6g} s{}, but the run has {:.6g} s; shorten the segments or "
+                                  "lengthen run.duration",
+                                  given, open > 0 ? " and more" : "", duration));
+    const double scale = (open > 0 ? 0.5 : 1.0) * duration / given;
+    for (FilmSegment& segment : scene.film.segments)
+        if (segment.duration) *segment.duration *= scale;
+}
+
+}  // namespace
+
+void read_film(Document& document, Scene& scene) {
+    Film& film = scene.film;
+    read_size(document, film);
+    film.rate = document.quantity("film.rate").value_or(film.rate);
+    film.title = document.text("film.title").value_or(scene.title);
+    film.quality = static_cast<int>(document.integer("film.quality").value_or(film.quality));
+    film.preset = document.text("film.preset").value_or(film.preset);
+    if (const auto text = document.text("film.background")) {
+        const auto colour = parse_colour(*text);
+        if (!colour)
+            document.fail(
+                "film.background",
+                fmt::format("must be a colour, but is \"{}\"; write for example \"white\" or \"#ffffff\"",
+                            *text));
+        film.background = *colour;
+    }
+    read_camera(document, film.camera);
+    for (std::size_t i = 0; i < document.size("film.segment"); ++i)
+        film.segments.push_back(read_segment(document, scene, fmt::format("film.segment[{}]", i)));
+    if (film.segments.empty()) film.segments = default_segments(scene);
+    fit_segments(document, scene);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,38 @@
+// Quantities with units, "2 mm" or "25 Hz", over the udunits2 library.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace grainreel {
+
+// What a quantity measures. Angles come in three: in rad, in turns (phases of the drive), in degrees
+// (camera).
+enum class Dimension {
+    length,
+    time,
+    frequency,
+    rate,
+    angle,
+    phase,
+    degrees,
+    density,
+    mass,
+    stiffness,
+    acceleration,
+    number,
+};
+
+struct DimensionText {
+    const char* unit;     // what plain numbers are in, as udunits writes it; "1" for a pure number
+    const char* noun;     // "a length"
+    const char* example;  // "\"5 mm\"", as a scene would say it
+};
+const DimensionText& text_of(Dimension dimension);
+
+// The value of `text` in the dimension's unit. Throws UserError, whose line lacks the place and the name of
+// the key: "must be a length, but \"2 s\" is a time; write for example \"5 mm\"". Safe from several threads.
+double parse_quantity(std::string_view text, Dimension dimension);
+
+}  // namespace grainreel

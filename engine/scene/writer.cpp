@@ -1,0 +1,242 @@
+#include "engine/scene/writer.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/scene/colours.hpp"
+
+namespace grainreel {
+namespace {
+
+// The shortest decimals that read back to the same bits, and that TOML takes for a float.
+std::string number(double value) {
+    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+    std::string text = fmt::format("{}", value);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text;
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            result += '\\';
+            result += c;
+        } else if (byte < 0x20 || byte == 0x7f) {
+            result += fmt::format("\\u{:04x}", byte);
+        } else {
+            result += c;
+        }
+    }
+    return result + "\"";
+}
+
+std::string vector(const Vec3& v) {
+    return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
+}
+
+class SceneText {
+  public:
+    void table(const char* name) { text_ += fmt::format("\n[{}]\n", name); }
+    void element(const char* name) { text_ += fmt::format("\n[[{}]]\n", name); }
+    void comment(const std::string& words) { text_ += "# " + words + "\n"; }
+    void put(const char* key, const std::string& value) { text_ += fmt::format("{} = {}\n", key, value); }
+    void put(const char* key, double value) { put(key, number(value)); }
+    void put(const char* key, const std::optional<double>& value) {
+        if (value) put(key, *value);
+    }
+    void whole(const char* key, std::int64_t value) { put(key, fmt::format("{}", value)); }
+    void flag(const char* key, bool value) { put(key, std::string(value ? "true" : "false")); }
+    void words(const char* key, const std::string& value) { put(key, quoted(value)); }
+    std::string take() { return std::move(text_); }
+
+  private:
+    std::string text_;
+};
+
+void write_species(SceneText& out, const Species& species) {
+    out.element("species");
+    out.words("name", species.name);
+    out.whole("count", species.count);
+    const SizeSpread& d = species.diameter;
+    switch (d.kind) {
+        case SizeSpread::Kind::fixed:
+            out.put("diameter", d.mean);
+            break;
+        case SizeSpread::Kind::uniform:
+            out.put("diameter",
+                    fmt::format("{{ min = {}, max = {} }}", number(d.smallest), number(d.largest)));
+            break;
+        case SizeSpread::Kind::normal:
+            out.put("diameter",
+                    fmt::format("{{ mean = {}, deviation = {} }}", number(d.mean), number(d.deviation)));
+            break;
+    }
+    out.put("density", species.density);
+    out.words("colour", colour_text(species.colour));
+}
+
+void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, const PairPlan& plan,
+                const std::string& other, const Species& species) {
+    const Contact& contact = scene.contact;
+    out.element("contact.pair");
+    out.put("between", fmt::format("[{}, {}]", quoted(species.name), quoted(other)));
+    if (pair.normal_damping) {
+        out.put("normal_damping", pair.normal_damping);
+    } else {
+        out.put("restitution", pair.restitution);
+    }
+    if (!pair.stiffness) out.comment(fmt::format("chosen for: {}", plan.stiffness_reason));
+    out.put("stiffness", plan.loading_stiffness);
+    if (contact.tangential == TangentialLaw::none) return;
+    out.put("friction", pair.friction);
+    out.put("tangential_ratio", pair.tangential_ratio);
+    if (contact.tangential == TangentialLaw::incremental_slip) out.put("gamma", pair.gamma);
+    out.put("tangential_damping", pair.tangential_damping);
+}
+
+void write_contact(SceneText& out, const Scene& scene, const Plan& plan) {
+    const Contact& contact = scene.contact;
+    out.table("contact");
+    out.words("law", contact.normal == NormalLaw::walton_braun ? "walton-braun" : "spring-dashpot");
+    switch (contact.tangential) {
+        case TangentialLaw::incremental_slip:
+            out.words("friction_law", "incremental-slip");
+            break;
+        case TangentialLaw::linear_spring:
+            out.words("friction_law", "linear-spring");
+            break;
+        case TangentialLaw::none:
+            out.words("friction_law", "none");
+            break;
+    }
+    if (contact.tangential != TangentialLaw::none)
+        out.words("arms", contact.arms == LeverArms::contact_plane ? "contact-plane" : "radius");
+    const std::size_t count = scene.species.size();
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = a; b < count; ++b)
+            write_pair(out, scene, scene.between(a, b), plan.between(a, b), scene.species[b].name,
+                       scene.species[a]);
+        write_pair(out, scene, contact.wall[a], plan.wall[a], "wall", scene.species[a]);
+    }
+}
+
+void write_container(SceneText& out, const Container& container) {
+    out.table("container");
+    switch (container.shape) {
+        case Container::Shape::wedge:
+            out.words("shape", "wedge");
+            out.put("half_angle", container.half_angle);
+            out.put("slant_height", container.slant_height);
+            out.put("half_width", container.half_width);
+            break;
+        case Container::Shape::box:
+            out.words("shape", "box");
+            out.put("width", 2 * container.half_width);
+            break;
+        case Container::Shape::cylinder:
+            out.words("shape", "cylinder");
+            out.put("diameter", 2 * container.half_width);
+            break;
+    }
+    if (container.shape != Container::Shape::cylinder) {
+        out.put("depth", container.depth);
+        out.flag("periodic_depth", container.periodic_depth);
+    }
+    out.put("height", container.height);
+    out.words("top", container.lid ? "lid" : "open");
+    out.words("outlet", "closed");
+}
+
+void write_drive(SceneText& out, const Scene& scene) {
+    const Drive& drive = scene.drive;
+    if (!drive.present) return;
+    out.table("drive");
+    out.put("frequency", drive.frequency);
+    out.comment(fmt::format("g level {:.6g}", drive.g_level(scene.gravity.norm())));
+    out.put("amplitude", drive.amplitude);
+    out.put("direction", vector(drive.direction));
+    out.put("phase", drive.phase);
+    out.put("ramp", drive.ramp);
+    out.words("moves", drive.moves == Drive::Moves::container ? "container" : "floor");
+}
+
+void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
+    const Start& start = scene.start;
+    out.table("start");
+    if (start.method == Start::Method::layers) {
+        out.words("method", "layers");
+        out.put("settle_limit", start.settle_limit);
+        out.put("settle_damping", start.settle_damping);
+    } else {
+        out.words("method", "file");
+        out.words("file", start.file);
+        out.flag("keep_clock", start.keep_clock);
+    }
+    const Run& run = scene.run;
+    out.table("run");
+    out.put("duration", run.duration);
+    out.whole("seed", static_cast<std::int64_t>(run.seed));
+    out.whole("threads", run.threads);
+    if (!run.step) out.comment(fmt::format("chosen for: {}", plan.step_reason));
+    out.put("step", plan.clock.step);
+    out.put("overlap", run.overlap);
+
+    const Output& output = scene.output;
+    out.table("output");
+    out.flag("trajectory", output.trajectory);
+    if (output.trajectory) {
+        out.put("trajectory_interval", static_cast<double>(plan.trajectory_every) * plan.clock.step);
+        out.flag("orientation", output.orientation);
+    }
+    out.put("measures_interval", static_cast<double>(plan.measures_every) * plan.clock.step);
+    out.flag("contacts", output.contacts);
+}
+
+void write_film(SceneText& out, const Film& film) {
+    out.table("film");
+    out.put("size", fmt::format("[{}, {}]", film.width, film.height));
+    out.put("rate", film.rate);
+    out.words("title", film.title);
+    out.whole("quality", film.quality);
+    out.words("preset", film.preset);
+    out.words("background", colour_text(film.background));
+    out.table("film.camera");
+    out.put("azimuth", film.camera.azimuth);
+    out.put("elevation", film.camera.elevation);
+    out.put("field_of_view", film.camera.field_of_view);
+    out.put("zoom", film.camera.zoom);
+    out.flag("follow", film.camera.follow);
+    for (const FilmSegment& segment : film.segments) {
+        out.element("film.segment");
+        const bool motion = segment.kind == FilmSegment::Kind::motion;
+        out.words("kind", motion ? "motion" : "locked");
+        out.put("duration", segment.duration);
+        if (motion) {
+            out.put("playback", segment.playback);
+        } else {
+            out.whole("every", segment.every);
+            out.put("phase", segment.phase);
+        }
+    }
+}
+
+}  // namespace
+
+std::string resolved_scene(const Scene& scene, const Plan& plan) {
+    SceneText out;
+    out.comment("Every value as it was used, in SI units; phases in turns, the camera in degrees.");
+    out.words("title", scene.title);
+    out.put("gravity", vector(scene.gravity));
+    for (const Species& species : scene.species) write_species(out, species);
+    write_contact(out, scene, plan);
+    write_container(out, scene.container);
+    write_drive(out, scene);
+    write_run(out, scene, plan);
+    write_film(out, scene.film);
+    return out.take();
+}
+
+}  // namespace grainreel
