@@ -71,11 +71,10 @@ void Encoder::open_file() {
     av_dict_set(&context->metadata, "title", settings_.title.c_str(), 0);
     av_dict_set(&context->metadata, "comment", settings_.comment.c_str(), 0);
 
-    // Each fragment reaches the disk whole as soon as it ends. Negative offsets let pictures that are shown
-    // out of coding order start at time 0 without an edit list, which needs a finished film.
+    // Each fragment reaches the disk whole as soon as it ends.
     context->flags |= AVFMT_FLAG_FLUSH_PACKETS;
     Options options;
-    options.set("movflags", "frag_keyframe+empty_moov+default_base_moof+negative_cts_offsets");
+    options.set("movflags", "frag_keyframe+empty_moov+default_base_moof");
     options.set("frag_duration", std::to_string(fragment_microseconds));
     int code = avio_open(&context->pb, ffmpeg_url(settings_.path).c_str(), AVIO_FLAG_WRITE);
     if (code >= 0) code = avformat_write_header(context, options.get());

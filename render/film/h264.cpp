@@ -25,12 +25,31 @@ void set_picture(AVCodecContext& codec, const H264Settings& settings) {
     codec.chroma_sample_location = AVCHROMA_LOC_LEFT;
 }
 
-// What a kill loses is what the encoder holds back: look-ahead, B-frames, a frame a thread. A third of a
-// second of look-ahead keeps that below a second at any rate.
-void set_groups(AVCodecContext& codec, Options& options, double rate) {
+// What a kill loses is what the encoder holds back: look-ahead, B-frames twice (x264 looks ahead for them in
+// a thread of its own) and a frame a thread. This is about a second; slow films hold nothing back.
+void set_groups(AVCodecContext& codec, Options& options, const H264Settings& settings) {
+    const double rate = av_q2d(settings.rate);
     codec.gop_size = std::max(1, static_cast<int>(rate));
     codec.flags |= AV_CODEC_FLAG_CLOSED_GOP | AV_CODEC_FLAG_GLOBAL_HEADER;
-    options.set("rc-lookahead", std::to_string(std::clamp(static_cast<int>(rate / 3), 1, 10)));
+    if (rate < 15) {
+        codec.max_b_frames = 0;
+        options.set("rc-lookahead", "0");
+        options.set("x264-params", "sync-lookahead=0");
+    } else {
+        if (settings.preset != "ultrafast")
+            codec.max_b_frames = 3;  // the slowest presets would take up to 16
+        options.set("rc-lookahead", std::to_string(std::min(10, static_cast<int>(rate / 3))));
+    }
+}
+
+// x264 itself prints to the terminal when it does not know a preset, past FFmpeg's log.
+void check_preset(const std::string& preset) {
+    static const std::vector<std::string> presets{"ultrafast", "superfast", "veryfast", "faster",
+                                                  "fast",      "medium",    "slow",     "slower",
+                                                  "veryslow",  "placebo"};
+    if (std::find(presets.begin(), presets.end(), preset) == presets.end())
+        throw RunError(
+            fmt::format("film: x264 has no preset \"{}\"; take one of {}", preset, fmt::join(presets, ", ")));
 }
 
 // OpenH264 knows no constant quality: bits a pixel that halve for every 6 of crf, 0.1 at crf 23.
@@ -61,7 +80,8 @@ CodecPtr open_h264(const H264Settings& settings, const std::vector<std::string>&
     set_picture(*codec, settings);
     codec->thread_count = settings.threads;
     if (std::string(encoder->name) == "libx264") {
-        set_groups(*codec, options, av_q2d(settings.rate));
+        check_preset(settings.preset);
+        set_groups(*codec, options, settings);
         options.set("crf", std::to_string(settings.crf));
         options.set("preset", settings.preset);
     } else {

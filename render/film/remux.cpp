@@ -42,8 +42,14 @@ int open_output(const AVFormatContext& input, const std::filesystem::path& path,
 int copy_packets(AVFormatContext& input, AVFormatContext& output) {
     const PacketPtr packet(av_packet_alloc());
     if (!packet) return AVERROR(ENOMEM);
+    // A fragmented file cannot say that its first picture comes some frames of coding order late; this one
+    // can.
+    std::int64_t start = AV_NOPTS_VALUE;
     int code = 0;
     while ((code = av_read_frame(&input, packet.get())) >= 0) {
+        if (start == AV_NOPTS_VALUE) start = packet->pts;
+        packet->pts -= start;
+        packet->dts -= start;
         av_packet_rescale_ts(packet.get(), input.streams[0]->time_base, output.streams[0]->time_base);
         packet->pos = -1;
         code = av_write_frame(&output, packet.get());

@@ -1,0 +1,58 @@
+#include "render/film/bounded_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+namespace grainreel {
+namespace {
+
+TEST(BoundedQueue, KeepsOrderAndNeverHoldsMoreThanItsCapacity) {
+    constexpr int count = 20'000, capacity = 3;
+    BoundedQueue<int> queue(capacity);
+    std::atomic<int> in = 0;
+    std::thread producer([&] {
+        for (int i = 0; i < count; ++i) {
+            ASSERT_TRUE(queue.push(i));
+            ++in;
+        }
+        queue.close();
+    });
+    int out = 0, most = 0;
+    while (const std::optional<int> item = queue.pop()) {
+        ASSERT_EQ(*item, out++);
+        most = std::max(most, in - out);  // what went in for good and was not yet taken out
+        if (out % 1000 == 0) std::this_thread::yield();
+    }
+    producer.join();
+    EXPECT_EQ(out, count);
+    EXPECT_LE(most, capacity);
+}
+
+TEST(BoundedQueue, CloseLetsOutWhatIsInsideAndTakesNothingMore) {
+    BoundedQueue<int> queue(3);
+    queue.push(1);
+    queue.push(2);
+    queue.close();
+    EXPECT_FALSE(queue.push(3));
+    EXPECT_EQ(queue.pop(), 1);
+    EXPECT_EQ(queue.pop(), 2);
+    EXPECT_EQ(queue.pop(), std::nullopt);
+}
+
+TEST(BoundedQueue, CancelThrowsAwayWhatIsInsideAndWakesBothSides) {
+    BoundedQueue<std::unique_ptr<int>> full(1), empty(1);
+    full.push(std::make_unique<int>(1));
+    std::thread producer([&] { EXPECT_FALSE(full.push(std::make_unique<int>(2))); });
+    std::thread consumer([&] { EXPECT_EQ(empty.pop(), std::nullopt); });
+    full.cancel();
+    empty.cancel();
+    producer.join();
+    consumer.join();
+    EXPECT_EQ(full.pop(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace grainreel

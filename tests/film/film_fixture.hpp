@@ -1,0 +1,129 @@
+// A folder that goes away, pictures to film, and a drawer without OpenGL.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "render/film/film_maker.hpp"
+
+namespace grainreel::test {
+
+class FilmTest : public ::testing::Test {
+  protected:
+    FilmTest() {
+        std::string name = (std::filesystem::temp_directory_path() / "grainreel-film-XXXXXX").string();
+        folder = mkdtemp(name.data());
+    }
+    ~FilmTest() override { std::filesystem::remove_all(folder); }
+
+    std::filesystem::path folder;
+};
+
+// While it lives no file of this process grows beyond `bytes`: a full disk for everyone.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+  private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+inline Picture flat(int width, int height, int red, int green, int blue) {
+    Picture picture(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            std::uint8_t* p = picture.pixel(x, y);
+            p[0] = static_cast<std::uint8_t>(red);
+            p[1] = static_cast<std::uint8_t>(green);
+            p[2] = static_cast<std::uint8_t>(blue);
+            p[3] = 255;
+        }
+    return picture;
+}
+
+// A soft orange ball on white that moves to the right, back to the left edge after 32 frames.
+inline Picture ball(int width, int height, int number) {
+    Picture picture = flat(width, height, 255, 255, 255);
+    const double radius = height / 3.0, cx = width * (number % 32 + 0.5) / 32, cy = height / 2.0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double light = 1 - std::hypot(x - cx, y - cy) / radius;
+            if (light <= 0) continue;
+            picture.pixel(x, y)[0] = static_cast<std::uint8_t>(255 - 25 * light);
+            picture.pixel(x, y)[1] = static_cast<std::uint8_t>(255 - 96 * light);
+            picture.pixel(x, y)[2] = static_cast<std::uint8_t>(255 - 255 * light);
+        }
+    return picture;
+}
+
+// Nothing that an encoder could make small.
+inline Picture noise(int width, int height, int number) {
+    Picture picture(width, height);
+    std::uint32_t state = 12345u + static_cast<std::uint32_t>(number);
+    for (std::uint8_t& byte : picture.rgba) {
+        state = state * 1664525u + 1013904223u;
+        byte = static_cast<std::uint8_t>(state >> 24);
+    }
+    return picture;
+}
+
+// Draws whatever `paint` gives for a frame.
+class PaintingDrawer final : public Drawer {
+  public:
+    explicit PaintingDrawer(std::function<Picture(const Frame&)> paint) : paint_(std::move(paint)) {}
+    const Picture& draw(const Frame& frame, const std::string&) override { return picture_ = paint_(frame); }
+    std::string description() const override { return "painted"; }
+
+  private:
+    std::function<Picture(const Frame&)> paint_;
+    Picture picture_;
+};
+
+inline DrawerMaker painting(std::function<Picture(const Frame&)> paint) {
+    return [paint = std::move(paint)] { return std::make_unique<PaintingDrawer>(paint); };
+}
+
+// A grey that tells frames apart: neighbours differ by at least 7 levels, and it comes back after 37 frames.
+inline int grey_of(std::int64_t step) {
+    return 2 + static_cast<int>(step * 15 % 37) * 7 % 259 % 252;
+}
+
+inline Scene small_scene(int width = 96, int height = 64) {
+    Scene scene;
+    scene.name = "teaching";
+    scene.title = "Γ = 3, big and small";
+    scene.film.width = width;
+    scene.film.height = height;
+    scene.run.duration = 10;
+    return scene;
+}
+
+inline std::shared_ptr<Frame> frame_at(std::int64_t step, double interval = 0.1) {
+    auto frame = std::make_shared<Frame>();
+    frame->step = step;
+    frame->time = static_cast<double>(step) * interval;
+    return frame;
+}
+
+}  // namespace grainreel::test

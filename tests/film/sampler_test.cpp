@@ -1,0 +1,189 @@
+#include "render/film/sampler.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+FilmSegment motion(std::optional<double> duration, double playback) {
+    FilmSegment s;
+    s.duration = duration;
+    s.playback = playback;
+    return s;
+}
+
+FilmSegment locked(std::optional<double> duration, int every, double phase) {
+    FilmSegment s;
+    s.kind = FilmSegment::Kind::locked;
+    s.duration = duration;
+    s.every = every;
+    s.phase = phase;
+    return s;
+}
+
+Film film_of(std::vector<FilmSegment> segments, double rate = 30) {
+    Film film;
+    film.rate = rate;
+    film.segments = std::move(segments);
+    return film;
+}
+
+Clock clock_of(double frequency, std::int64_t steps_per_period, double initial_phase = 0) {
+    return {1 / (frequency * static_cast<double>(steps_per_period)), steps_per_period, initial_phase};
+}
+
+Drive drive_of(double frequency) {
+    Drive drive;
+    drive.present = true;
+    drive.frequency = frequency;
+    return drive;
+}
+
+TEST(FilmSchedule, MotionTakesTheStepNearestToEachFramesTime) {
+    const Clock clock{7e-5, 0, 0};  // no drive; the frame interval is no whole number of steps
+    const std::int64_t steps = 20'000;
+    const double playback = 0.3, rate = 25;
+    const std::vector<Shot> shots = film_schedule(film_of({motion({}, playback)}, rate), clock, steps);
+    const auto count = static_cast<std::size_t>(std::floor(clock.time(steps) * rate / playback)) + 1;
+    ASSERT_THAT(shots, SizeIs(count));
+    for (std::size_t k = 0; k < count; ++k) {
+        const double wanted = static_cast<double>(k) * playback / rate;
+        EXPECT_LE(std::abs(clock.time(shots[k].step) - wanted), 0.5 * clock.step * (1 + 1e-9)) << k;
+    }
+    EXPECT_LE(shots.back().step, steps);
+}
+
+TEST(FilmSchedule, WithoutSegmentsTheFilmIsInRealTime) {
+    const Clock clock{1e-4, 0, 0};
+    const std::vector<Shot> shots = film_schedule(film_of({}), clock, 20'000);
+    ASSERT_THAT(shots, SizeIs(2 * 30 + 1));
+    EXPECT_EQ(shots.front().step, 0);
+    EXPECT_EQ(shots.back().step, 20'000);
+}
+
+TEST(FilmSchedule, LockedShotsHaveTheAskedPhaseOfTheDriveExactly) {
+    for (const double initial : {0.0, 0.25, 0.9}) {
+        for (const int every : {1, 2, 4}) {
+            const Clock clock = clock_of(20, 1600, initial);
+            const double phase = 0.375;
+            const std::vector<Shot> shots =
+                film_schedule(film_of({locked({}, every, phase)}), clock, 100 * 1600 - 1);
+            ASSERT_THAT(shots, SizeIs(static_cast<std::size_t>(100 / every)));
+            EXPECT_LT(shots.front().step, 1600);
+            for (std::size_t k = 0; k < shots.size(); ++k) {
+                EXPECT_NEAR(clock.phase(shots[k].step), phase, 1e-12);
+                EXPECT_EQ(shots[k].step, shots[0].step + static_cast<std::int64_t>(k) * every * 1600);
+            }
+        }
+    }
+}
+
+TEST(FilmSchedule, ALockedPhaseIsRoundedToAWholeStep) {
+    const Clock clock = clock_of(10, 8);
+    EXPECT_EQ(film_schedule(film_of({locked({}, 1, 0.3)}), clock, 80).front().step, std::llround(0.3 * 8));
+    // 0.99 of 8 steps rounds to 8: the phase 0 of the next period, which is the step 0 of this one.
+    EXPECT_EQ(film_schedule(film_of({locked({}, 1, 0.99)}), clock, 80).front().step, 0);
+}
+
+TEST(FilmSchedule, SegmentsFollowEachOtherAndTheOpenOneTakesTheRest) {
+    const Clock clock = clock_of(20, 1000);
+    const std::int64_t steps = 10 * 20 * 1000;
+    const std::vector<Shot> shots =
+        film_schedule(film_of({motion(0.5, 0.1), locked({}, 2, 0.25), motion(1.0, 0.2)}), clock, steps);
+    std::vector<std::vector<double>> times(3);
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        if (i > 0) {
+            ASSERT_GT(shots[i].step, shots[i - 1].step);
+            ASSERT_GE(shots[i].segment, shots[i - 1].segment);
+        }
+        times[static_cast<std::size_t>(shots[i].segment)].push_back(clock.time(shots[i].step));
+    }
+    // 0.5 s at 1/10 speed: 5 s of film, its last instant belongs to the next segment. Then every second of
+    // the 170 periods between 0.5 s and 9 s. Then 1 s at 1/5 speed, both ends included.
+    EXPECT_THAT(times[0], SizeIs(5 * 30));
+    EXPECT_THAT(times[1], SizeIs(170 / 2));
+    EXPECT_THAT(times[2], SizeIs(5 * 30 + 1));
+    EXPECT_NEAR(times[1].front(), 0.5 + 0.25 / 20, 1e-9);
+    EXPECT_NEAR(times[2].front(), 9.0, 1e-9);
+    EXPECT_EQ(shots.back().step, steps);
+}
+
+TEST(FilmSchedule, NothingIsTakenBeyondTheRun) {
+    const Clock clock = clock_of(20, 1000);
+    const std::vector<Shot> shots =
+        film_schedule(film_of({motion(1.0, 1), locked(5.0, 1, 0), motion({}, 0.1)}), clock, 50'000);
+    ASSERT_FALSE(shots.empty());
+    EXPECT_LE(shots.back().step, 50'000);
+    EXPECT_EQ(shots.back().step, 50'000);  // a whole number of periods: the last locked shot is the last step
+}
+
+TEST(FilmSchedule, SlowerThanTheStepsStillRisesStrictly) {
+    const Clock clock{1e-3, 0, 0};
+    const std::vector<Shot> shots = film_schedule(film_of({motion({}, 0.01)}), clock, 10);
+    ASSERT_THAT(shots, SizeIs(11));
+    for (std::size_t k = 0; k < shots.size(); ++k) EXPECT_EQ(shots[k].step, static_cast<std::int64_t>(k));
+}
+
+TEST(FilmSchedule, ALockWithoutADriveIsTheUsersMistake) {
+    try {
+        film_schedule(film_of({motion(1.0, 1), locked({}, 1, 0)}), Clock{1e-4, 0, 0}, 100'000);
+        FAIL() << "no error";
+    } catch (const UserError& error) {
+        EXPECT_STREQ(error.what(),
+                     "film segment 2 is locked to the drive's phase, but nothing is driven; give the "
+                     "scene a drive, or make it a motion segment");
+    }
+}
+
+TEST(PosterTime, IsTheEndOfTheLastLockedSegmentOrLateInTheFilm) {
+    EXPECT_DOUBLE_EQ(poster_time(film_of({motion(1.0, 0.1), locked({}, 1, 0), motion(2.0, 0.1)}), 10), 8);
+    EXPECT_DOUBLE_EQ(poster_time(film_of({motion({}, 1)}), 10), 0.8 * 10);
+    EXPECT_DOUBLE_EQ(poster_time(film_of({}), 10), 0.8 * 10);
+}
+
+TEST(PlaybackCaption, SaysHowTimeRuns) {
+    const Drive drive = drive_of(20);
+    EXPECT_EQ(playback_caption(motion({}, 1), drive, 30), "real time");
+    EXPECT_EQ(playback_caption(motion({}, 0.1), drive, 30), "slow motion, 1/10 speed");
+    EXPECT_EQ(playback_caption(motion({}, 1 / 30.0), drive, 30), "slow motion, 1/30 speed");
+    EXPECT_EQ(playback_caption(motion({}, 0.4), drive, 30), "slow motion, 1/2.5 speed");
+    EXPECT_EQ(playback_caption(motion({}, 0.35), drive, 30), "slow motion, 0.35 speed");
+    EXPECT_EQ(playback_caption(motion({}, 4), drive, 30), "time lapse, 4× speed");
+    EXPECT_EQ(playback_caption(locked({}, 1, 0.25), drive, 30),
+              "1 frame a period at phase 0.25 (plays 1.5×)");
+    EXPECT_EQ(playback_caption(locked({}, 4, 0), drive, 30), "1 frame every 4 periods at phase 0 (plays 6×)");
+}
+
+TEST(StrobeWarnings, GiveTheApparentMotion) {
+    // F = 30 frames per simulated second against f = 31 Hz: k = 1, a slow beat of 1 Hz.
+    EXPECT_THAT(
+        strobe_warnings(film_of({motion({}, 1)}), drive_of(31)),
+        ElementsAre("film segment 1 shows 0.968 frames a period: the 31 Hz drive will seem to move at 1 Hz; "
+                    "lock it to a phase, or set its playback to 0.121 or less"));
+    // F = 15: f = 20 lies nearest to 1 F; |20 - 15| = 5. And F = 60: nearest is 0 F, so 20 itself.
+    EXPECT_THAT(
+        strobe_warnings(film_of({motion(1.0, 2), locked(1.0, 1, 0), motion({}, 0.5)}), drive_of(20)),
+        ElementsAre(
+            HasSubstr("film segment 1 shows 0.75 frames a period: the 20 Hz drive will seem to move at 5 Hz"),
+            HasSubstr("film segment 3 shows 3 frames a period: the 20 Hz drive will seem to move at 20 Hz")));
+}
+
+TEST(StrobeWarnings, AreSilentFromEightFramesAPeriodAndWithoutADrive) {
+    EXPECT_THAT(strobe_warnings(film_of({motion({}, 30 / (8 * 20.0))}), drive_of(20)), IsEmpty());
+    EXPECT_THAT(strobe_warnings(film_of({motion({}, 30 / (7.9 * 20.0))}), drive_of(20)), SizeIs(1));
+    EXPECT_THAT(strobe_warnings(film_of({locked({}, 1, 0)}), drive_of(20)), IsEmpty());
+    EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), Drive{}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace grainreel
