@@ -10,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-constexpr gl::Framebuffer::Format srgb_picture{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, false};
+constexpr gl::TextureFormat srgb_picture{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
 
 // Adds up where the time of one frame goes; does nothing without a place to put it.
 class Stopwatch {
@@ -73,10 +73,10 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawT
     (void)playback;
     watch.lap(&DrawTimes::overlay);
     const View eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
+    sphere_painter.find_visible(eye, frame);
+    watch.lap(&DrawTimes::spheres);
     sphere_painter.upload(eye, frame);
     watch.lap(&DrawTimes::upload);
-    sphere_painter.find_nearest(eye);
-    watch.lap(&DrawTimes::spheres);
     draw_container(scene, eye, frame, palette, scene.film.height, shapes);
     target.bind();
     gl.Enable(GL_FRAMEBUFFER_SRGB);

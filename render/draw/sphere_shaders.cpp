@@ -15,76 +15,23 @@ uniform vec2 centre;   // pixels, of the port, from the bottom left
 uniform float focal;   // pixels a unit of slope
 vec2 slope_at(vec2 pixel) { return (pixel - centre) / focal; }
 
-// Distance along z at which the line of sight meets the sphere, or -1. The discriminant comes from the point of
-// closest approach, which keeps its digits when the sphere is small and far away (Haines et al. 2019).
-float meet(vec4 sphere, vec2 slope) {
-    vec3 ray = vec3(slope, 1.0);
-    float along, square;
-    vec3 miss;
+// Distance along z at which the lines of sight through four pixel positions meet the sphere, or a very long way.
+// The discriminant comes from the point of closest approach (see visibility.cpp).
+vec4 meet(vec4 sphere, vec4 pixel_x, vec4 pixel_y) {
+    vec4 x = (pixel_x - centre.x) / focal, y = (pixel_y - centre.y) / focal;
     if (orthographic != 0) {
-        along = sphere.z;
-        square = 1.0;
-        miss = vec3(sphere.xy - slope, 0.0);
-    } else {
-        square = dot(ray, ray);
-        along = dot(sphere.xyz, ray) / square;
-        miss = sphere.xyz - along * ray;
+        vec4 dx = sphere.x - x, dy = sphere.y - y;
+        vec4 rest = sphere.w * sphere.w - (dx * dx + dy * dy);
+        return mix(sphere.z - sqrt(max(rest, 0.0)), vec4(2e30), lessThan(rest, vec4(0.0)));
     }
-    float rest = sphere.w * sphere.w - dot(miss, miss);
-    if (rest < 0.0) return -1.0;
-    float half_chord = sqrt(rest / square);
-    float entry = along - half_chord;
-    return entry > 0.0 ? entry : along + half_chord;  // from within, the far side
-}
-)";
-
-// An octagon around the silhouette: seen from the eye the sphere is exactly the circle in which the tangent
-// cone cuts the plane through its centre across the line of sight. Where the octagon would reach the eye's
-// plane the whole picture is taken instead, so a sphere close up never vanishes.
-const char* const nearest_vertex = R"(
-layout(location = 0) in vec4 sphere;
-uniform vec2 size;  // pixels
-flat out vec4 grain;
-flat out uint number;
-void main() {
-    grain = sphere;
-    number = uint(gl_InstanceID + 1);
-    float angle = 0.78539816 * float(gl_VertexID);
-    vec2 turn = 1.0824 * vec2(cos(angle), sin(angle));  // 1 / cos(pi / 8): around the circle
-    vec2 scale = 2.0 * focal / size;
-    if (orthographic != 0) {
-        gl_Position = vec4((sphere.xy + sphere.w * turn) * scale, 0.0, 1.0);
-        return;
-    }
-    float away = length(sphere.xyz);
-    vec3 axis = sphere.xyz / away;
-    float ratio = min(sphere.w / away, 0.9999);
-    float reach = sphere.w / sqrt(1.0 - ratio * ratio);
-    float nearest = sphere.z - 1.0824 * reach * sqrt(max(0.0, 1.0 - axis.z * axis.z));
-    if (sphere.z + sphere.w <= 0.0) {
-        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // behind the eye
-    } else if (nearest < 0.01 * away || ratio > 0.999) {
-        gl_Position = vec4(2.0 * turn, 0.0, 1.0);
-    } else {
-        vec3 side = normalize(cross(axis, abs(axis.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
-        vec3 other = cross(axis, side);
-        vec3 corner = sphere.xyz + reach * (turn.x * side + turn.y * other);
-        gl_Position = vec4(corner.xy * scale, 0.0, corner.z);
-    }
-}
-)";
-
-// A miss writes the farthest depth, which fails the depth test: cheaper than discard.
-const char* const nearest_fragment = R"(
-flat in vec4 grain;
-flat in uint number;
-uniform vec2 depth_range;  // m, stored as 0 and 1
-out uint seen;
-void main() {
-    float away = meet(grain, slope_at(gl_FragCoord.xy));
-    seen = number;
-    gl_FragDepth = away < 0.0 ? 1.0
-        : clamp((away - depth_range.x) / (depth_range.y - depth_range.x), 0.0, 0.9999999);
+    vec4 inverse = 1.0 / (x * x + y * y + 1.0);
+    vec4 along = (sphere.x * x + sphere.y * y + sphere.z) * inverse;
+    vec4 dx = sphere.x - along * x, dy = sphere.y - along * y, dz = sphere.z - along;
+    vec4 rest = sphere.w * sphere.w - (dx * dx + dy * dy + dz * dz);
+    vec4 half_chord = sqrt(max(rest, 0.0) * inverse);
+    vec4 entry = along - half_chord;
+    vec4 away = mix(along + half_chord, entry, greaterThan(entry, vec4(0.0)));  // from within, the far side
+    return mix(away, vec4(2e30), lessThan(min(rest, away), vec4(0.0)));
 }
 )";
 
@@ -96,18 +43,18 @@ void main() {
 }
 )";
 
-// Where all four neighbours show the same grain one sample at the centre serves. Elsewhere the grains seen
-// around are met again at eight points of the pixel: exact silhouettes and lines of intersection, and each
-// grain is lit once, at the mean of its points.
+// Away from edges one sample at the pixel's centre serves. On an edge the grains that the pixel and its
+// neighbours show are met again at eight points: exact silhouettes and lines of intersection, and each grain is
+// lit once, at the mean of its points. All spelt out in vectors of four: indexed arrays are slow on llvmpipe.
 const char* const light_fragment = R"(
 uniform usampler2D seen;
 uniform samplerBuffer spheres, crowding, colours;
 uniform vec3 world_up;  // in view coordinates
 out vec4 result;
 
-const vec2 points[8] = vec2[8](
-    vec2(0.0625, -0.1875), vec2(-0.0625, 0.1875), vec2(0.3125, 0.0625), vec2(-0.1875, -0.3125),
-    vec2(-0.3125, 0.3125), vec2(-0.4375, -0.0625), vec2(0.1875, 0.4375), vec2(0.4375, -0.4375));
+const uint EDGE = 0x80000000u;
+const vec4 X1 = vec4(0.0625, -0.0625, 0.3125, -0.1875), Y1 = vec4(-0.1875, 0.1875, 0.0625, -0.3125);
+const vec4 X2 = vec4(-0.3125, -0.4375, 0.1875, 0.4375), Y2 = vec4(0.3125, -0.0625, 0.4375, -0.4375);
 
 vec3 lit(int i, vec4 sphere, vec2 slope) {
     vec3 ray = orthographic != 0 ? vec3(0.0, 0.0, 1.0) : vec3(slope, 1.0);
@@ -134,48 +81,60 @@ vec3 lit(int i, vec4 sphere, vec2 slope) {
     return texelFetch(colours, i).rgb * (ambient + key) * mix(RIM, 1.0, edge) + shine;
 }
 
+struct Nearest {
+    vec4 away1, away2;    // at the eight points
+    vec4 owner1, owner2;  // which candidate is nearest there
+};
+
+void compete(inout Nearest best, uint grain, float candidate) {
+    vec4 sphere = texelFetch(spheres, int(grain) - 1);
+    vec4 away1 = meet(sphere, gl_FragCoord.x + X1, gl_FragCoord.y + Y1);
+    vec4 away2 = meet(sphere, gl_FragCoord.x + X2, gl_FragCoord.y + Y2);
+    bvec4 closer1 = lessThan(away1, best.away1), closer2 = lessThan(away2, best.away2);
+    best.away1 = mix(best.away1, away1, closer1);
+    best.away2 = mix(best.away2, away2, closer2);
+    best.owner1 = mix(best.owner1, vec4(candidate), closer1);
+    best.owner2 = mix(best.owner2, vec4(candidate), closer2);
+}
+
+uint at(ivec2 pixel, ivec2 last) { return texelFetch(seen, clamp(pixel, ivec2(0), last), 0).x & ~EDGE; }
+
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
-    ivec2 last = textureSize(seen, 0) - 1;
-    uint own = texelFetch(seen, here, 0).x;
-    uint left = texelFetch(seen, ivec2(max(here.x - 1, 0), here.y), 0).x;
-    uint right = texelFetch(seen, ivec2(min(here.x + 1, last.x), here.y), 0).x;
-    uint below = texelFetch(seen, ivec2(here.x, max(here.y - 1, 0)), 0).x;
-    uint above = texelFetch(seen, ivec2(here.x, min(here.y + 1, last.y)), 0).x;
+    uint mark = texelFetch(seen, here, 0).x;
+    if (mark == 0u) discard;
+    uint own = mark & ~EDGE, left = 0u, right = 0u, below = 0u, above = 0u;
+    Nearest best = Nearest(vec4(1e30), vec4(1e30), vec4(0.0), vec4(0.0));
+    if (mark != own) {
+        ivec2 last = textureSize(seen, 0) - 1;
+        left = at(here - ivec2(1, 0), last);
+        right = at(here + ivec2(1, 0), last);
+        below = at(here - ivec2(0, 1), last);
+        above = at(here + ivec2(0, 1), last);
+        left = left == own ? 0u : left;
+        right = right == own || right == left ? 0u : right;
+        below = below == own || below == left || below == right ? 0u : below;
+        above = above == own || above == left || above == right || above == below ? 0u : above;
+        if (own != 0u) compete(best, own, 1.0);
+        if (left != 0u) compete(best, left, 2.0);
+        if (right != 0u) compete(best, right, 3.0);
+        if (below != 0u) compete(best, below, 4.0);
+        if (above != 0u) compete(best, above, 5.0);
+    }
     result = vec4(0.0);
-    if ((own | left | right | below | above) == 0u) return;
-    if (own == left && own == right && own == below && own == above) {
-        int i = int(own) - 1;
-        result = vec4(lit(i, texelFetch(spheres, i), slope_at(gl_FragCoord.xy)), 1.0);
-        return;
-    }
-    uint grain[5] = uint[5](own, left, right, below, above);
-    if (left == own) grain[1] = 0u;
-    if (right == own || right == left) grain[2] = 0u;
-    if (below == own || below == left || below == right) grain[3] = 0u;
-    if (above == own || above == left || above == right || above == below) grain[4] = 0u;
-    float nearest[8] = float[8](1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 1e30);
-    int winner[8] = int[8](-1, -1, -1, -1, -1, -1, -1, -1);
-    for (int k = 0; k < 5; ++k) {
-        if (grain[k] == 0u) continue;
-        vec4 sphere = texelFetch(spheres, int(grain[k]) - 1);
-        for (int s = 0; s < 8; ++s) {
-            float away = meet(sphere, slope_at(gl_FragCoord.xy + points[s]));
-            bool closer = away >= 0.0 && away < nearest[s];
-            nearest[s] = closer ? away : nearest[s];
-            winner[s] = closer ? k : winner[s];
+    float candidate = 1.0;
+    while (candidate < 5.5) {
+        uint grain = candidate < 1.5 ? own : candidate < 2.5 ? left : candidate < 3.5 ? right : candidate < 4.5 ? below : above;
+        vec4 won1 = vec4(equal(best.owner1, vec4(candidate))), won2 = vec4(equal(best.owner2, vec4(candidate)));
+        float hits = dot(won1, vec4(1.0)) + dot(won2, vec4(1.0));
+        vec2 middle = vec2(dot(won1, X1) + dot(won2, X2), dot(won1, Y1) + dot(won2, Y2)) / max(hits, 1.0);
+        if (mark == own) { hits = 8.0; middle = vec2(0.0); }
+        if (hits > 0.0 && grain != 0u) {
+            int i = int(grain) - 1;
+            vec3 colour = lit(i, texelFetch(spheres, i), slope_at(gl_FragCoord.xy + middle));
+            result += vec4(colour, 1.0) * (hits * 0.125);
         }
-    }
-    for (int k = 0; k < 5; ++k) {
-        if (grain[k] == 0u) continue;
-        vec2 sum = vec2(0.0);
-        float hits = 0.0;
-        for (int s = 0; s < 8; ++s)
-            if (winner[s] == k) { sum += points[s]; hits += 1.0; }
-        if (hits == 0.0) continue;
-        int i = int(grain[k]) - 1;
-        vec3 colour = lit(i, texelFetch(spheres, i), slope_at(gl_FragCoord.xy + sum / hits));
-        result += vec4(colour, 1.0) * (hits / 8.0);
+        candidate = mark == own ? 6.0 : candidate + 1.0;
     }
 }
 )";
@@ -191,10 +150,6 @@ std::string light_constants() {
 }
 
 }  // namespace
-
-ShaderPair nearest_grain_shaders() {
-    return {std::string(header) + nearest_vertex, std::string(header) + nearest_fragment};
-}
 
 ShaderPair grain_light_shaders() {
     return {std::string("#version 330 core\n") + light_vertex,

@@ -1,4 +1,4 @@
-// GLSL of the two sphere passes.
+// GLSL that lights the grains.
 #pragma once
 
 #include <string>
@@ -9,9 +9,7 @@ struct ShaderPair {
     std::string vertex, fragment;
 };
 
-// First pass: which grain is seen at each pixel's centre, and its depth.
-ShaderPair nearest_grain_shaders();
-// Second pass: light for every pixel that a grain covers, once; several samples only where grains meet.
+// Light for every pixel that a grain covers, once; several samples only where grains meet.
 ShaderPair grain_light_shaders();
 
 }  // namespace grainreel

@@ -1,13 +1,14 @@
-// The grains: exact spheres, each pixel lit once.
+// The grains: found pixel by pixel on the processor, then lit by OpenGL, each pixel once.
 #pragma once
 
-#include <optional>
+#include <array>
 #include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/density_field.hpp"
 #include "render/draw/view.hpp"
+#include "render/draw/visibility.hpp"
 #include "render/gl/objects.hpp"
 
 namespace grainreel {
@@ -17,29 +18,25 @@ public:
     // width, height: pixels of the port.
     SpherePainter(const gl::Functions& gl, const Scene& scene, int width, int height);
 
+    void find_visible(const View& view, const Frame& frame);
     void upload(const View& view, const Frame& frame);
-    void find_nearest(const View& view) const;  // first pass, into a buffer of its own
-    // Second pass, over what the bound framebuffer of the port's size already holds.
+    // Over what the bound framebuffer of the port's size already holds.
     void paint(const View& view) const;
 
 private:
-    struct Box {
-        float x0, y0, x1, y1;  // clip coordinates
-    };
-    void set_camera(const gl::Program& program, const View& view) const;
-    std::optional<Box> covered(const View& view, const Frame& frame) const;
+    void upload_visibility() const;
 
     const gl::Functions& gl_;
     const int width_, height_;
     std::vector<std::array<float, 4>> palette_;  // linear colour by species
     DensityField density_;
-    gl::Program nearest_, light_;
-    gl::Framebuffer seen_;
-    gl::VertexArray instances_, none_;
+    Visibility visibility_;
+    gl::Program light_;
+    gl::Texture seen_;
+    gl::VertexArray none_;
     gl::BufferTexture spheres_, crowding_, colours_;
+    std::vector<ViewSphere> view_spheres_;
     std::vector<std::array<float, 4>> staging_;
-    std::size_t count_ = 0;
-    std::optional<Box> box_;  // where grains are; nothing when none is in sight
 };
 
 }  // namespace grainreel

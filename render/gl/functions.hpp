@@ -61,6 +61,7 @@ namespace grainreel::gl {
     F(PFNGLTEXBUFFERPROC, TexBuffer)                           \
     F(PFNGLTEXIMAGE2DPROC, TexImage2D)                         \
     F(PFNGLTEXPARAMETERIPROC, TexParameteri)                   \
+    F(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                   \
     F(PFNGLUNIFORM1FPROC, Uniform1f)                           \
     F(PFNGLUNIFORM1IPROC, Uniform1i)                           \
     F(PFNGLUNIFORM2FPROC, Uniform2f)                           \

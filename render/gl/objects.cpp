@@ -58,34 +58,23 @@ Program::Program(const Functions& gl, const char* name, const std::string& verte
 
 Program::~Program() { gl_.DeleteProgram(id_); }
 
-Framebuffer::Framebuffer(const Functions& gl, int width, int height, const Format& format)
-    : gl_(gl), width_(width), height_(height) {
-    gl_.GenTextures(1, &texture_);
-    gl_.BindTexture(GL_TEXTURE_2D, texture_);
+Texture::Texture(const Functions& gl, int width, int height, const TextureFormat& format) : gl_(gl) {
+    gl_.GenTextures(1, &id_);
+    gl_.BindTexture(GL_TEXTURE_2D, id_);
     gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal), width, height, 0, format.format,
                    format.type, nullptr);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_.GenFramebuffers(1, &id_);
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, id_);
-    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
-    if (format.depth) {
-        gl_.GenRenderbuffers(1, &depth_);
-        gl_.BindRenderbuffer(GL_RENDERBUFFER, depth_);
-        gl_.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
-        gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
-    }
-    if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
-    release();
-    throw RunError(fmt::format("OpenGL refuses a picture of {}x{}; ask for a smaller one", width, height));
 }
 
-Framebuffer::~Framebuffer() { release(); }
-
-void Framebuffer::release() {
+Framebuffer::Framebuffer(const Functions& gl, int width, int height, const TextureFormat& format)
+    : gl_(gl), width_(width), height_(height), texture_(gl, width, height, format) {
+    gl_.GenFramebuffers(1, &id_);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, id_);
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
+    if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
     gl_.DeleteFramebuffers(1, &id_);
-    gl_.DeleteTextures(1, &texture_);
-    if (depth_) gl_.DeleteRenderbuffers(1, &depth_);
+    throw RunError(fmt::format("OpenGL refuses a picture of {}x{}; ask for a smaller one", width, height));
 }
 
 void Framebuffer::bind() const {

@@ -31,27 +31,41 @@ private:
     GLuint id_ = 0;
 };
 
-// A colour texture of a given format to draw into, with a depth buffer when asked.
+// Arguments of glTexImage2D.
+struct TextureFormat {
+    GLenum internal, format, type;
+};
+
+// A picture read texel by texel, without filtering; its contents are undefined at first.
+class Texture {
+public:
+    Texture(const Functions& gl, int width, int height, const TextureFormat& format);
+    ~Texture() { gl_.DeleteTextures(1, &id_); }
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
+    GLuint id() const { return id_; }
+
+private:
+    const Functions& gl_;
+    GLuint id_ = 0;
+};
+
+// A texture to draw into.
 class Framebuffer {
 public:
-    struct Format {
-        GLenum internal, format, type;  // of glTexImage2D
-        bool depth = false;             // 32-bit float
-    };
     // width, height >= 1. Throws RunError when the driver refuses it.
-    Framebuffer(const Functions& gl, int width, int height, const Format& format);
-    ~Framebuffer();
+    Framebuffer(const Functions& gl, int width, int height, const TextureFormat& format);
+    ~Framebuffer() { gl_.DeleteFramebuffers(1, &id_); }
     Framebuffer(const Framebuffer&) = delete;
     Framebuffer& operator=(const Framebuffer&) = delete;
 
     void bind() const;  // also sets the viewport
-    GLuint texture() const { return texture_; }
 
 private:
-    void release();
     const Functions& gl_;
-    int width_, height_;
-    GLuint id_ = 0, texture_ = 0, depth_ = 0;
+    const int width_, height_;
+    Texture texture_;
+    GLuint id_ = 0;
 };
 
 // A vertex array without vertices of its own: attributes come from Buffer objects bound to it.
