@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/measures.hpp"
 #include "engine/base/text_file.hpp"
+#include "engine/measure/measures.hpp"
 
 namespace grainreel {
 

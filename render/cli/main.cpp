@@ -1,1 +1,40 @@
-int main() { return 0; }
+#include <cstdio>
+#include <exception>
+#include <optional>
+
+#include "engine/base/error.hpp"
+#include "render/cli/movie.hpp"
+#include "render/cli/options.hpp"
+#include "render/cli/reporter.hpp"
+#include "render/cli/stop_signal.hpp"
+
+namespace {
+
+constexpr int run_failed = 1, user_mistake = 2;
+
+int run(const grainreel::Options& options, grainreel::Reporter& reporter) {
+    try {
+        return grainreel::make_movie(options, reporter);
+    } catch (const grainreel::UserError& mistake) {
+        reporter.error(mistake.what());
+        return user_mistake;
+    } catch (const std::exception& failure) {
+        reporter.error(failure.what());
+        return run_failed;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    grainreel::install_signal_handlers();
+    try {
+        const std::optional<grainreel::Options> options = grainreel::parse_options(argc, argv);
+        if (!options) return 0;
+        grainreel::Reporter reporter(options->report);
+        return run(*options, reporter);
+    } catch (const grainreel::UserError& mistake) {
+        std::fprintf(stderr, "error: %s\n", mistake.what());
+        return user_mistake;
+    }
+}

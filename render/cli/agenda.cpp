@@ -1,0 +1,46 @@
+#include "render/cli/agenda.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace grainreel {
+
+namespace {
+
+constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+// The first multiple of `every` that is not below `step` (which is not negative).
+std::int64_t next_multiple(std::int64_t every, std::int64_t step) {
+    return every > 0 ? (step + every - 1) / every * every : never;
+}
+
+}  // namespace
+
+Agenda::Agenda(std::vector<Shot> shots, std::int64_t trajectory_every, std::int64_t measures_every,
+               std::int64_t first, std::int64_t last)
+    : shots_(std::move(shots)),
+      trajectory_every_(trajectory_every),
+      measures_every_(measures_every),
+      first_(first),
+      last_(last),
+      at_(first) {
+    std::erase_if(shots_, [&](const Shot& shot) { return shot.step < first || shot.step > last; });
+}
+
+std::optional<Stop> Agenda::next() {
+    if (at_ > last_) return std::nullopt;
+    const std::int64_t shot = shot_ < shots_.size() ? shots_[shot_].step : never;
+    const std::int64_t trajectory = next_multiple(trajectory_every_, at_);
+    const std::int64_t measures = at_ == first_ ? first_ : next_multiple(measures_every_, at_);
+
+    Stop stop;
+    stop.step = std::min({shot, trajectory, measures, last_});
+    while (shot_ < shots_.size() && shots_[shot_].step == stop.step)
+        stop.segments.push_back(shots_[shot_++].segment);
+    stop.trajectory = trajectory == stop.step;
+    stop.measures = measures == stop.step || stop.step == last_;
+    at_ = stop.step + 1;
+    return stop;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,261 @@
+#include "render/cli/check.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/bed.hpp"
+#include "render/cli/thread_plan.hpp"
+#include "render/film/sampler.hpp"
+
+namespace grainreel {
+namespace {
+
+// What the estimates assume; measured on one 2-core x86-64 machine, good to a factor of two.
+constexpr double steps_a_second = 8e6;         // grains x steps, a thread
+constexpr double seconds_a_frame = 0.15;       // drawing and encoding at 1920x1080
+constexpr double film_bytes_a_second = 1.2e6;  // at 1920x1080, crf 20
+constexpr double engine_bytes_a_grain = 600;
+constexpr double bytes_a_pixel = 40;     // of pictures on their way from the renderer to the encoder
+constexpr double trajectory_bytes = 64;  // a grain and frame: id, type, radius, x in double, v, spin
+constexpr double orientation_bytes = 16;
+constexpr double measures_bytes = 400;  // a row
+constexpr double full_hd = 1920.0 * 1080;
+constexpr double assumed_settling = 0.6;  // s, simulated
+
+std::string length(double metres) {
+    const double size = std::abs(metres);
+    if (size >= 1) return fmt::format("{:.4g} m", metres);
+    if (size >= 1e-3 || size == 0) return fmt::format("{:.4g} mm", metres * 1e3);
+    return fmt::format("{:.3g} um", metres * 1e6);
+}
+
+std::string span(double seconds) {
+    if (seconds >= 5400) return fmt::format("{:.1f} h", seconds / 3600);
+    if (seconds >= 90) return fmt::format("{:.1f} min", seconds / 60);
+    if (seconds >= 0.1) return fmt::format("{:.3g} s", seconds);
+    return seconds >= 1e-3 ? fmt::format("{:.3g} ms", seconds * 1e3)
+                           : fmt::format("{:.3g} us", seconds * 1e6);
+}
+
+std::string bytes(double size) {
+    constexpr std::array<const char*, 5> units{"B", "kB", "MB", "GB", "TB"};
+    std::size_t unit = 0;
+    for (; size >= 1000 && unit + 1 < units.size(); ++unit) size /= 1000;
+    return fmt::format("{:.3g} {}", size, units[unit]);
+}
+
+// 1234567 as "1,234,567".
+std::string grouped(std::int64_t count) {
+    std::string digits = fmt::format("{}", count);
+    for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
+    return digits;
+}
+
+// Lines of a name and a text, the texts below each other.
+class Listing {
+  public:
+    explicit Listing(std::ostream& out) : out_(out) {}
+    void line(std::string_view name, const std::string& text) { fmt::print(out_, "{:<13}{}\n", name, text); }
+    void gap() { out_ << '\n'; }
+
+  private:
+    std::ostream& out_;
+};
+
+std::string diameter_text(const SizeSpread& d) {
+    switch (d.kind) {
+        case SizeSpread::Kind::fixed:
+            return length(d.mean);
+        case SizeSpread::Kind::uniform:
+            return fmt::format("{} to {}", length(d.smallest), length(d.largest));
+        case SizeSpread::Kind::normal:
+            break;
+    }
+    return fmt::format("{} +- {}", length(d.mean), length(d.deviation));
+}
+
+std::string container_text(const Container& c) {
+    const std::string top = c.lid ? "closed by a lid" : "open above";
+    switch (c.shape) {
+        case Container::Shape::wedge:
+            return fmt::format(
+                "wedge, {:.4g} deg from the vertical up to {}, width {} at the floor and {} above, depth "
+                "{}{}, "
+                "height {}, {}",
+                c.half_angle * 180 / std::numbers::pi, length(c.slant_height),
+                length(2 * c.floor_half_width()), length(2 * c.half_width), length(c.depth),
+                c.periodic_depth ? " (periodic)" : "", length(c.height), top);
+        case Container::Shape::box:
+            return fmt::format("box, width {}, depth {}{}, height {}, {}", length(2 * c.half_width),
+                               length(c.depth), c.periodic_depth ? " (periodic)" : "", length(c.height), top);
+        case Container::Shape::cylinder:
+            break;
+    }
+    return fmt::format("cylinder, diameter {}, height {}, {}", length(2 * c.half_width), length(c.height),
+                       top);
+}
+
+std::string drive_text(const Scene& scene) {
+    const Drive& d = scene.drive;
+    if (!d.present) return "none";
+    const double g = scene.gravity.norm();
+    const std::string level = g > 0 ? fmt::format(", gamma {:.4g}", d.g_level(g)) : "";
+    const std::string along = d.direction == Vec3(0, 0, 1)
+                                  ? "up and down"
+                                  : fmt::format("along ({:.3g}, {:.3g}, {:.3g})", d.direction.x(),
+                                                d.direction.y(), d.direction.z());
+    const std::string ramp = d.ramp > 0 ? fmt::format("grows over {:.3g} periods", d.ramp) : "starts at once";
+    return fmt::format("{} {}, {:.4g} Hz, amplitude {}{}, top speed {:.3g} m/s, {}",
+                       d.moves == Drive::Moves::container ? "container" : "floor", along, d.frequency,
+                       length(d.amplitude), level, d.speed(), ramp);
+}
+
+void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
+    list.line("scene", fmt::format("{} ({})", scene.title, scene.file));
+    list.line("grains", fmt::format("{}, {:.3g} kg", grouped(scene.grains()), total_mass(scene)));
+    for (const Species& s : scene.species)
+        list.line("", fmt::format("{} {} of {}, {:.4g} kg/m3", grouped(s.count), s.name,
+                                  diameter_text(s.diameter), s.density));
+    list.line("container", container_text(scene.container));
+    list.line("bed", fmt::format("about {} high at rest, {:.0f} % of the container's height",
+                                 length(plan.bed_height), 100 * plan.bed_height / scene.container.height));
+    list.line("gravity", fmt::format("{:.4g} m/s2", scene.gravity.norm()));
+    list.line("drive", drive_text(scene));
+}
+
+void print_model(const Scene& scene, const Plan& plan, Listing& list) {
+    std::vector<std::string> in, out;
+    in.push_back(plan.normal == NormalLaw::walton_braun ? "normal force: Walton-Braun latching spring"
+                                                        : "normal force: linear spring and dashpot");
+    const bool rubs = plan.tangential != TangentialLaw::none;
+    if (plan.tangential == TangentialLaw::incremental_slip)
+        in.push_back("friction: Walton's incremental slip");
+    if (plan.tangential == TangentialLaw::linear_spring)
+        in.push_back("friction: linear spring with Coulomb's cap");
+    (rubs ? in : out).push_back("spin and torque");
+    if (!rubs) out.push_back("friction");
+    (scene.gravity.norm() > 0 ? in : out).push_back("gravity");
+    (plan.moving_walls ? in : out).push_back("moving walls");
+    for (const char* absent : {"air", "cohesion", "rolling resistance", "wear and breakage"})
+        out.push_back(absent);
+    if (plan.normal == NormalLaw::walton_braun) out.push_back("restitution that depends on speed");
+    list.line("modelled", fmt::format("{}", fmt::join(in, ", ")));
+    list.line("left out", fmt::format("{}", fmt::join(out, ", ")));
+}
+
+void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
+    std::size_t widest = 8;
+    for (const Species& s : scene.species) widest = std::max(widest, 2 * s.name.size() + 3);
+    fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6}{:>10}{:>12}{:>11}\n", "contacts", "", widest,
+               "stiffness", "chosen for", "e", "friction", "duration", "steps");
+    const auto row = [&](const std::string& name, const PairPlan& pair) {
+        fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6.3g}{:>10.3g}{:>12}{:>11.1f}\n", "", name, widest,
+                   fmt::format("{:.3g} N/m", pair.loading_stiffness), pair.stiffness_reason, pair.restitution,
+                   pair.friction, span(pair.contact_time), pair.contact_time / plan.clock.step);
+    };
+    for (std::size_t a = 0; a < scene.species.size(); ++a) {
+        for (std::size_t b = a; b < scene.species.size(); ++b)
+            row(scene.species[a].name + " - " + scene.species[b].name, plan.between(a, b));
+        row(scene.species[a].name + " - wall", plan.wall[a]);
+    }
+}
+
+void print_time(const Scene& scene, const Plan& plan, Listing& list) {
+    const std::int64_t period = plan.clock.steps_per_period;
+    list.line("step",
+              fmt::format("{}{}, chosen for: {}", span(plan.clock.step),
+                          period > 0 ? fmt::format(", {} a period", grouped(period)) : "", plan.step_reason));
+    list.line("steps", fmt::format("{} for {}", grouped(plan.steps), span(plan.clock.time(plan.steps))));
+    list.line("start",
+              scene.start.method == Start::Method::file
+                  ? "from " + scene.start.file
+                  : fmt::format("layers, then settling for {} at most", span(scene.start.settle_limit)));
+    list.line(
+        "overlap",
+        fmt::format("{:.2g} % of the smaller diameter at most expected, from impacts at {:.3g} m/s and the "
+                    "weight of the bed",
+                    100 * plan.expected_overlap, plan.impact_speed));
+}
+
+struct FilmCost {
+    std::size_t frames = 0;
+    double seconds = 0;  // to draw and encode
+    double playing = 0;  // s
+    double pixels = 0;   // over those of 1920x1080
+};
+
+FilmCost film_cost(const Scene& scene, const Plan& plan) {
+    FilmCost cost;
+    const Film& film = scene.film;
+    cost.frames = film_schedule(film, plan.clock, plan.steps).size();
+    cost.playing = static_cast<double>(cost.frames) / film.rate;
+    cost.pixels = static_cast<double>(film.width) * film.height / full_hd;
+    cost.seconds = static_cast<double>(cost.frames) * seconds_a_frame * cost.pixels;
+    return cost;
+}
+
+void print_files(const Scene& scene, const Plan& plan, const FilmCost& film, Listing& list) {
+    list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {} frames, plays for {}", scene.film.width,
+                                  scene.film.height, scene.film.rate, film.frames, span(film.playing)));
+    for (const FilmSegment& segment : scene.film.segments)
+        list.line("", fmt::format("{}: {}", segment.duration ? span(*segment.duration) : "the rest",
+                                  playback_caption(segment, scene.drive, scene.film.rate)));
+    list.line("files", fmt::format("film about {}", bytes(film.playing * film_bytes_a_second * film.pixels)));
+    const auto grains = static_cast<double>(scene.grains());
+    if (plan.trajectory_every > 0) {
+        const std::int64_t frames = plan.steps / plan.trajectory_every + 1;
+        const double size = trajectory_bytes + (scene.output.orientation ? orientation_bytes : 0);
+        list.line("", fmt::format("trajectory {}, {} frames, one every {}",
+                                  bytes(static_cast<double>(frames) * grains * size), grouped(frames),
+                                  span(plan.clock.time(plan.trajectory_every))));
+    }
+    const std::int64_t rows = plan.steps / plan.measures_every + 1;
+    list.line("", fmt::format("measures {}, {} rows, one every {}",
+                              bytes(static_cast<double>(rows) * measures_bytes), grouped(rows),
+                              span(plan.clock.time(plan.measures_every))));
+}
+
+void print_cost(const Scene& scene, const Plan& plan, const FilmCost& film, Listing& list) {
+    const auto grains = static_cast<double>(scene.grains());
+    const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
+    list.line("memory",
+              fmt::format("about {}", bytes(grains * engine_bytes_a_grain + pixels * bytes_a_pixel)));
+    const double settling =
+        std::min(static_cast<double>(plan.settle_steps_limit), assumed_settling / plan.clock.step);
+    const double work = grains * (static_cast<double>(plan.steps) + settling);
+    const int threads = scene.run.threads > 0 ? scene.run.threads : available_processors();
+    const double engine = work / steps_a_second;
+    list.line("cost", fmt::format("{:.2g} grain-steps, {} of one thread at {:.2g} a second", work,
+                                  span(engine), steps_a_second));
+    list.line("", fmt::format("{} of one thread for the film, at {} a frame", span(film.seconds),
+                              span(seconds_a_frame * film.pixels)));
+    list.line("", fmt::format("together about {} on {} thread{}", span((engine + film.seconds) / threads),
+                              threads, threads == 1 ? "" : "s"));
+}
+
+}  // namespace
+
+void print_plan(const Scene& scene, const Plan& plan, std::ostream& out) {
+    Listing list(out);
+    print_setup(scene, plan, list);
+    list.gap();
+    print_model(scene, plan, list);
+    list.gap();
+    print_contacts(scene, plan, out);
+    print_time(scene, plan, list);
+    list.gap();
+    const FilmCost film = film_cost(scene, plan);
+    print_files(scene, plan, film, list);
+    print_cost(scene, plan, film, list);
+    std::vector<std::string> warnings = plan.warnings;
+    for (std::string& line : strobe_warnings(scene.film, scene.drive)) warnings.push_back(std::move(line));
+    if (!warnings.empty()) list.gap();
+    for (const std::string& line : warnings) list.line("warning", line);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,133 @@
+#include "render/cli/options.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "engine/base/error.hpp"
+#include "render/cli/version.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Form = ReporterOptions::Form;
+
+// A word as the shell would need it typed.
+std::string quoted(const std::string& word) {
+    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string result = "'";
+    for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
+    return result + "'";
+}
+
+// An option that stands for a key of the scene.
+void add_key(CLI::App& verb, Options& options, const char* flag, const char* key, const char* type,
+             const char* about) {
+    verb.add_option_function<std::string>(
+            flag,
+            [&options, key](const std::string& value) {
+                options.sets.push_back(fmt::format("{}={}", key, value));
+            },
+            about)
+        ->type_name(type);
+}
+
+void add_scene(CLI::App& verb, Options& options) {
+    verb.add_option("SCENE", options.scene, "The scene, a TOML file; docs/scenes.md lists its keys")
+        ->required();
+    verb.add_option_function<std::vector<std::string>>(
+            "--set",
+            [&options](const std::vector<std::string>& values) {
+                options.sets.insert(options.sets.end(), values.begin(), values.end());
+            },
+            "Give a key of the scene another value, as in --set drive.frequency=\"25 Hz\"; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    add_key(verb, options, "--size", "film.size", "WxH", "Size of the film in pixels [1920x1080]");
+    add_key(verb, options, "--fps", "film.rate", "N", "Frames a second of film [30]");
+    add_key(verb, options, "--duration", "run.duration", "TIME", "Simulated time of vibration, as in 10s");
+    add_key(verb, options, "--threads", "run.threads", "N", "Processors to keep busy [as many as there are]");
+    add_key(verb, options, "--seed", "run.seed", "N", "Of every random choice [1]");
+}
+
+void add_reporting(CLI::App& verb, Options& options) {
+    const std::map<std::string, Form> forms = {
+        {"auto", Form::automatic}, {"json", Form::json}, {"none", Form::none}};
+    verb.add_option_function<std::string>(
+            "--progress",
+            [&options, forms](const std::string& form) { options.report.form = forms.at(form); },
+            "auto: a line that redraws on a terminal and comes now and then in a pipe; json: one object a "
+            "line; none")
+        ->type_name("auto|json|none")
+        ->check(CLI::IsMember({"auto", "json", "none"}));
+    verb.add_flag("--quiet", options.report.quiet, "Say nothing on stderr but errors");
+    verb.add_flag("--verbose", options.report.verbose, "Say more on stderr");
+}
+
+void add_movie(CLI::App& app, Options& options) {
+    CLI::App& movie = *app.add_subcommand("movie", "Run a scene and make its film");
+    add_scene(movie, options);
+    CLI::Option* out =
+        movie
+            .add_option_function<std::string>(
+                "--out", [&options](const std::string& folder) { options.out = folder; },
+                "Folder of the run [output/ and the scene's name, numbered when that is taken]")
+            ->type_name("DIR");
+    movie.add_flag("--force", options.force, "Replace the run in --out, once the new one is complete")
+        ->needs(out);
+    movie.add_flag("--frames", options.frames, "Keep every frame of the film as frames/*.png too");
+    movie.add_flag("!--no-film", options.film, "Leave out the film; with --frames, keep the pictures alone");
+    add_reporting(movie, options);
+    movie.footer(
+        "The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the film so that it\n"
+        "plays and keeps the end state; a second one stops at once.\n"
+        "Exit status: 0 done, 1 the run failed, 2 a mistake in the scene or the options, 130 Ctrl-C,\n"
+        "143 SIGTERM.");
+    movie.callback([&options] { options.verb = Options::Verb::movie; });
+}
+
+void add_check(CLI::App& app, Options& options) {
+    CLI::App& check =
+        *app.add_subcommand("check", "Read a scene and print the plan: laws, stiffness, step, cost");
+    add_scene(check, options);
+    check.add_flag("--quiet", options.report.quiet, "No warnings on stderr");
+    check.callback([&options] { options.verb = Options::Verb::check; });
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, const char* const* argv) {
+    Options options;
+    for (int i = 0; i < argc; ++i) options.command += (i == 0 ? "" : " ") + quoted(argv[i]);
+    if (const char* base = std::getenv("GRAINREEL_OUTPUT"); base != nullptr && *base != '\0')
+        options.base = base;
+
+    CLI::App app("One scene file becomes a film of vibrated grains and the numbers behind it.", "grainreel");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", version_text());
+    app.get_formatter()->column_width(28);
+    app.footer(
+        "Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
+        "More about a verb:  grainreel movie --help");
+    add_movie(app, options);
+    add_check(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+        app.exit(help);  // prints to stdout
+        return std::nullopt;
+    } catch (const CLI::ParseError& mistake) {
+        throw UserError(fmt::format("{}; see grainreel --help", mistake.what()));
+    }
+    return options;
+}
+
+}  // namespace grainreel

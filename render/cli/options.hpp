@@ -1,0 +1,35 @@
+// The command line: words in, options out.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/cli/reporter.hpp"
+
+namespace grainreel {
+
+struct Options {
+    enum class Verb { movie, check };
+    Verb verb = Verb::movie;
+    std::filesystem::path scene;
+    // What --set, then --size, --fps, --duration, --threads and --seed say, as assignments for the scene's
+    // reader; of two for one key the later wins.
+    std::vector<std::string> sets;
+
+    std::optional<std::filesystem::path> out;
+    std::filesystem::path base = "output";  // of runs without --out; $GRAINREEL_OUTPUT when that is set
+    bool force = false;
+    bool film = true;
+    bool frames = false;
+    ReporterOptions report;
+
+    std::string command;  // as typed, for run.json
+};
+
+// Throws UserError for words it cannot make sense of. Empty when the words asked for help or the version,
+// which then has been printed to stdout.
+std::optional<Options> parse_options(int argc, const char* const* argv);
+
+}  // namespace grainreel

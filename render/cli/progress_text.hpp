@@ -1,0 +1,32 @@
+// How far a run has come, in words for people and in JSON for programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace grainreel {
+
+struct Progress {
+    enum class Stage { growing, settling, vibrating };
+    Stage stage = Stage::growing;
+    double done = 0;                              // of this stage, 0 to 1
+    double time = 0, end = 0;                     // s simulated, while vibrating
+    double particle_steps_per_second = 0;         // 0: not known yet
+    std::int64_t frames = 0, frames_planned = 0;  // of the film; planned 0: no film
+    double elapsed = 0;                           // s of wall time since the run began
+    double remaining = -1;                        // s of wall time; negative: not known yet
+};
+
+std::string to_string(Progress::Stage stage);
+
+// "vibrating  3.20 of 10.00 s   12.4 M particle-steps/s   frame 96 of 300   1 min 05 s left", cut to `width`
+// columns from its end, whole parts at a time.
+std::string progress_line(const Progress& progress, int width);
+
+// One object, one line, without the line's end.
+std::string progress_json(const Progress& progress);
+
+// "45 s", "1 min 05 s", "2 h 03 min".
+std::string duration_text(double seconds);
+
+}  // namespace grainreel

@@ -1,0 +1,37 @@
+#include "render/cli/stop_signal.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+
+namespace grainreel {
+
+namespace {
+
+std::atomic<int> first_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free);  // what a handler may touch
+
+extern "C" void on_stop(int signal) {
+    int none = 0;
+    if (!first_signal.compare_exchange_strong(none, signal)) ::_exit(128 + signal);
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+    struct sigaction action {};
+    action.sa_handler = on_stop;
+    action.sa_flags = SA_RESTART;  // files are being written: no call of theirs is to fail for it
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+int stop_signal() {
+    return first_signal;
+}
+
+}  // namespace grainreel

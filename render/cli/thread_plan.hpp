@@ -1,0 +1,19 @@
+// How many threads each part gets, planned together so that engine, rasteriser and encoder share the machine.
+#pragma once
+
+namespace grainreel {
+
+struct ThreadPlan {
+    int engine = 1;
+    int raster = 1;   // of the software rasteriser, beside the drawing thread
+    int encoder = 1;  // of x264
+};
+
+// What this process may use: its affinity mask, cut by a cgroup's quota, at least 1.
+int available_processors();
+
+// processors: as many as the run may keep busy. With a film, about a third of the work is drawing and
+// encoding.
+ThreadPlan plan_threads(int processors, bool film);
+
+}  // namespace grainreel

@@ -1,0 +1,84 @@
+#include "render/cli/version.hpp"
+
+#include <cairo.h>
+#include <pango/pango.h>
+#include <png.h>
+#include <toml++/toml.h>
+#include <xxhash.h>
+
+#include <fmt/format.h>
+#include <spdlog/version.h>
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/avutil.h>
+#include <libswscale/swscale.h>
+}
+
+#include "build_info.hpp"
+#include "engine/output/netcdf_file.hpp"
+
+namespace grainreel {
+
+namespace {
+
+std::string three(unsigned major, unsigned minor, unsigned patch) {
+    return fmt::format("{}.{}.{}", major, minor, patch);
+}
+
+std::string ffmpeg(unsigned version) {
+    return three(AV_VERSION_MAJOR(version), AV_VERSION_MINOR(version), AV_VERSION_MICRO(version));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+    const unsigned xxhash = XXH_versionNumber();
+    return {
+        {"Eigen", three(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+        {"NetCDF", netcdf_version()},
+        {"FFmpeg", av_version_info()},
+        {"libavformat", ffmpeg(avformat_version())},
+        {"libavcodec", ffmpeg(avcodec_version())},
+        {"libswscale", ffmpeg(swscale_version())},
+        {"libpng", png_get_libpng_ver(nullptr)},
+        {"Pango", pango_version_string()},
+        {"cairo", cairo_version_string()},
+        {"toml++", three(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+        {"nlohmann-json",
+         three(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+        {"CLI11", CLI11_VERSION},
+        {"fmt", three(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+        {"spdlog", three(SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
+        {"xxHash", three(xxhash / 10000, xxhash / 100 % 100, xxhash % 100)},
+    };
+}
+
+std::string vector_instructions() {
+#if defined(__AVX512F__)
+    return "AVX-512";
+#elif defined(__AVX2__)
+    return "AVX2";
+#elif defined(__SSE2__)
+    return "x86-64 baseline (SSE2)";
+#elif defined(__ARM_NEON)
+    return "NEON";
+#else
+    return "none";
+#endif
+}
+
+std::string version_text() {
+    std::string text = fmt::format("grainreel {} (commit {})\ncompiler   {}\nflags      {}\nvectors    {}\n",
+                                   build_info::version, build_info::commit, build_info::compiler,
+                                   build_info::flags, vector_instructions());
+    text += "libraries\n";
+    for (const auto& [name, version] : library_versions()) text += fmt::format("  {:<15}{}\n", name, version);
+    return text;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,19 @@
+// What this program was made from, for --version and run.json.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grainreel {
+
+// Name and version of every library in use, shared ones as loaded.
+std::vector<std::pair<std::string, std::string>> library_versions();
+
+// The vector instructions the engine was compiled for.
+std::string vector_instructions();
+
+// Several lines: the program, its commit, compiler and libraries.
+std::string version_text();
+
+}  // namespace grainreel
