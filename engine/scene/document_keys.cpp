@@ -135,8 +135,9 @@ void Document::check_entry(const std::string& path, const toml::node& node) cons
         if (!node.is_table()) fail(path, fmt::format("must be a table; write [{}] above its keys", path));
         return check_table(path, *node.as_table());
     }
-    throw UserError(fmt::format("{}: unknown key '{}' in {}; {}", place(path), name_of(path), table_of(path),
-                                advice_for_unknown_key(path)));
+    const std::string table = table_of(path);
+    throw UserError(fmt::format("{}: unknown key '{}' {} {}; {}", place(path), name_of(path),
+                                table.front() == '[' ? "in" : "at", table, advice_for_unknown_key(path)));
 }
 
 void Document::check_all_read() const {
@@ -144,7 +145,8 @@ void Document::check_all_read() const {
 }
 
 void Document::check_read(const std::string& path, const toml::node& node) const {
-    if (find_key(path) != nullptr && read_.count(path) == 0)
+    const bool is_value = find_key(path) != nullptr && !(node.is_table() && is_table_path(path));
+    if (is_value && read_.count(path) == 0)
         fail(path, "is of no use here: nothing in this scene needs it; remove it");
     if (const toml::table* table = node.as_table()) {
         for (const auto& entry : *table) check_read(join_path(path, entry.first.str()), entry.second);

@@ -149,8 +149,8 @@ void add_container(Keys& keys) {
     keys.push_back(
         quantity("container.diameter", Dimension::length, positive, note("required; cylinder"), "Inside."));
     keys.push_back(choice("container.top", {"lid", "open"}, literal("\"lid\""), "Sealed, or open above."));
-    keys.push_back(
-        choice("container.outlet", {"closed"}, literal("\"closed\""), "Open outlets are not modelled yet."));
+    keys.push_back(entry("container.outlet", KeyKind::text, literal("\"closed\""),
+                         "Only \"closed\": open outlets are not modelled yet."));
     keys.push_back(entry("container.periodic_depth", KeyKind::flag, literal("false"),
                          "No front and back walls: what leaves at one enters at the other."));
 }

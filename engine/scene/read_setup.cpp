@@ -109,7 +109,10 @@ void read_container(Document& document, Scene& scene) {
     }
     container.height = document.required_quantity("container.height");
     container.lid = chosen<bool>(document, "container.top", {{"lid", true}, {"open", false}}, true);
-    document.text("container.outlet");
+    if (const auto outlet = document.text("container.outlet"); outlet && *outlet != "closed")
+        document.fail(
+            "container.outlet",
+            fmt::format("is \"{}\", but open outlets are not modelled yet; write \"closed\"", *outlet));
 }
 
 void read_drive(Document& document, Scene& scene) {

@@ -23,6 +23,7 @@ struct Location {
 
 struct Colour {
     double red = 0, green = 0, blue = 0;  // sRGB, 0 to 1
+    bool operator==(const Colour&) const = default;
 };
 
 // Diameters of one species, m. `uniform`: evenly between smallest and largest. `normal`: mean and deviation,
@@ -32,6 +33,7 @@ struct SizeSpread {
     Kind kind = Kind::fixed;
     double smallest = 0, largest = 0;  // m; both equal the diameter when fixed
     double mean = 0, deviation = 0;    // m; deviation only with `normal`
+    bool operator==(const SizeSpread&) const = default;
 };
 
 struct Species {
@@ -40,6 +42,7 @@ struct Species {
     SizeSpread diameter;
     double density = 0;  // kg/m3; from the mass at the mean diameter when the scene gives a mass
     Colour colour;
+    bool operator==(const Species&) const = default;
 };
 
 enum class NormalLaw { walton_braun, spring_dashpot };
@@ -56,6 +59,7 @@ struct PairContact {
     double gamma = 1.0 / 3.0;              // exponent of Walton's incremental slip
     std::optional<double> normal_damping;  // 1/s, force = value * m_eff * v; from the restitution when empty
     std::optional<double> tangential_damping;  // 1/s, likewise; half of the normal damping when empty
+    bool operator==(const PairContact&) const = default;
 };
 
 struct Contact {
@@ -64,6 +68,7 @@ struct Contact {
     LeverArms arms = LeverArms::contact_plane;
     std::vector<PairContact> grain;  // species x species, symmetric, row-major
     std::vector<PairContact> wall;   // one a species
+    bool operator==(const Contact&) const = default;
 };
 
 struct Container {
@@ -80,6 +85,7 @@ struct Container {
     double volume() const;            // m3, floor to height
     // m, the free half-width at height z above the floor.
     double half_width_at(double z) const;
+    bool operator==(const Container&) const = default;
 };
 
 struct Drive {
@@ -93,6 +99,7 @@ struct Drive {
     Moves moves = Moves::container;
     double g_level(double gravity) const;  // Gamma = a (2 pi f)^2 / g; infinite without gravity
     double speed() const;                  // m/s, a 2 pi f
+    bool operator==(const Drive&) const = default;
 };
 
 struct Start {
@@ -102,6 +109,7 @@ struct Start {
     bool keep_clock = false;  // go on at the file's step and phase; needs a checkpoint, same step and drive
     double settle_limit = 5;  // s, of settling at most
     double settle_damping = 10;  // 1/s, extra drag on every grain while settling only; 0 for none
+    bool operator==(const Start&) const = default;
 };
 
 struct Run {
@@ -111,6 +119,7 @@ struct Run {
     std::optional<double> step;            // s; the plan chooses it when empty
     double overlap = 0.01;                 // wanted largest overlap over the smaller diameter
     std::optional<int> steps_per_contact;  // the plan chooses by restitution when empty
+    bool operator==(const Run&) const = default;
 };
 
 // What is kept on disk beside the film.
@@ -121,6 +130,7 @@ struct Output {
     bool orientation = false;                 // keep orientations in the trajectory
     bool contacts = false;                    // write contacts.nc beside it
     bool trajectory = true;
+    bool operator==(const Output&) const = default;
 };
 
 struct FilmSegment {
@@ -131,6 +141,7 @@ struct FilmSegment {
     double playback = 1;  // motion: simulated seconds a second of film (0.1 = ten times slower)
     int every = 1;        // locked: one frame every 1, 2 or 4 periods ...
     double phase = 0;     // ... at this phase, turns
+    bool operator==(const FilmSegment&) const = default;
 };
 
 struct Camera {
@@ -139,6 +150,7 @@ struct Camera {
     double field_of_view = 25;  // degrees, vertical; 0 for orthographic
     double zoom = 1;            // over the automatic framing
     bool follow = false;        // true: the container's own frame, false: the lab's
+    bool operator==(const Camera&) const = default;
 };
 
 struct Film {
@@ -150,6 +162,7 @@ struct Film {
     Colour background{1, 1, 1};
     int quality = 20;  // x264 crf
     std::string preset = "veryfast";
+    bool operator==(const Film&) const = default;
 };
 
 struct Scene {

@@ -137,7 +137,9 @@ double parse_quantity(std::string_view text, Dimension dimension) {
     if (!unit) throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", text, unit_text));
     const std::optional<double> scale = UnitSystem::factor(unit, unit_system().parse(wanted.unit));
     if (!scale) throw fail(fmt::format("\"{}\"{}", text, other_dimension(unit)));
-    return value * *scale;
+    // 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off.
+    const double parts = std::round(1 / *scale);
+    return parts > 1 && std::abs(parts * *scale - 1) < 1e-13 ? value / parts : value * *scale;
 }
 
 }  // namespace grainreel

@@ -160,7 +160,8 @@ void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
     };
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         for (std::size_t b = a; b < scene.species.size(); ++b)
-            row(scene.species[a].name + " - " + scene.species[b].name, plan.between(a, b));
+            if (a != b || scene.species[a].count > 1)  // a single grain never meets its like
+                row(scene.species[a].name + " - " + scene.species[b].name, plan.between(a, b));
         row(scene.species[a].name + " - wall", plan.wall[a]);
     }
 }
