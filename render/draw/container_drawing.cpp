@@ -67,6 +67,11 @@ std::vector<Vec3> framing_points(const Scene& scene) {
     return points;
 }
 
+View frame_container(const Scene& scene, const PictureLayout& layout) {
+    return fit_view(scene.film.camera, framing_points(scene), layout.port, type_scale(scene.film).margin,
+                    scene.film.height);
+}
+
 void draw_container(const Scene& scene, const View& view, const Frame& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes) {
     shapes.behind.clear();

@@ -10,6 +10,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/canvas.hpp"
+#include "render/draw/layout.hpp"
 #include "render/draw/palette.hpp"
 #include "render/draw/view.hpp"
 
@@ -21,6 +22,9 @@ double drawn_thickness(const Container& container);
 // Every point that has to stay in the picture: the drawn container at rest and at both ends of its stroke, and
 // the marks beside it.
 std::vector<Vec3> framing_points(const Scene& scene);
+
+// The scene's camera, set so that all of them are in the layout's port.
+View frame_container(const Scene& scene, const PictureLayout& layout);
 
 struct ContainerShapes {
     Shapes behind, before;  // to be painted before and after the grains

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/draw/container_drawing.hpp"
+#include "render/draw/overlay.hpp"
 #include "render/draw/spheres.hpp"
 
 namespace grainreel {
@@ -37,8 +38,10 @@ struct Renderer::Impl {
     Impl(const Scene& s, int raster_threads)
         : scene(s),
           palette(make_palette(s.film.background)),
-          port{0, 0, s.film.width, s.film.height},
-          view(fit_view(s.film.camera, framing_points(s), port, 0.03 * s.film.height, s.film.height)),
+          layout(plan_layout(s)),
+          port(layout.port),
+          view(frame_container(s, layout)),
+          overlay(scene, palette, layout, view),
           context(gl::make_osmesa_context(raster_threads)),
           target(context->gl(), port.width, port.height, srgb_picture),
           shape_painter(context->gl()),
@@ -51,8 +54,10 @@ struct Renderer::Impl {
 
     Scene scene;
     Palette palette;
-    Rectangle port;
+    PictureLayout layout;
+    const Rectangle port;
     View view;
+    Overlay overlay;
     std::unique_ptr<gl::Context> context;
     gl::Framebuffer target;
     ShapePainter shape_painter;
@@ -70,7 +75,7 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawT
     context->make_current();
     const gl::Functions& gl = context->gl();
     Stopwatch watch(gl, times);
-    (void)playback;
+    overlay.write(picture, frame, playback);
     watch.lap(&DrawTimes::overlay);
     const View eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
     sphere_painter.find_visible(eye, frame);

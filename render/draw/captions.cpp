@@ -1,0 +1,58 @@
+#include "render/draw/captions.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace grainreel {
+namespace {
+
+struct Unit {
+    double size;
+    const char* name;
+};
+
+Unit length_unit(double metres) {
+    if (metres >= 1) return {1, "m"};
+    if (metres >= 0.1) return {0.01, "cm"};
+    if (metres >= 0.001) return {0.001, "mm"};
+    return {1e-6, "µm"};
+}
+
+}  // namespace
+
+std::string length_text(double metres) {
+    const Unit unit = length_unit(metres * 1.0000001);
+    return fmt::format("{:.3g} {}", metres / unit.size, unit.name);
+}
+
+std::string frequency_text(double hertz) {
+    return hertz >= 1000 ? fmt::format("{:.3g} kHz", hertz / 1000) : fmt::format("{:.3g} Hz", hertz);
+}
+
+std::string time_text(double seconds) {
+    // A minus as wide as a digit, and no "-0.000".
+    const double shown = std::abs(seconds) < 0.0005 ? 0 : seconds;
+    return fmt::format("t = {}{:.3f} s", shown < 0 ? "−" : "", std::abs(shown));
+}
+
+std::string diameter_text(const SizeSpread& diameter) {
+    if (diameter.kind == SizeSpread::Kind::fixed || diameter.smallest == diameter.largest)
+        return length_text(diameter.largest);
+    const Unit unit = length_unit(diameter.largest * 1.0000001);
+    return fmt::format("{:.3g}–{:.3g} {}", diameter.smallest / unit.size, diameter.largest / unit.size, unit.name);
+}
+
+double round_length(double longest) {
+    const double decade = std::pow(10, std::floor(std::log10(longest)));
+    for (const double step : {5.0, 2.0})
+        if (step * decade <= longest) return step * decade;
+    return decade;
+}
+
+std::string playback_text(const Frame& frame, const std::string& playback) {
+    if (frame.time >= 0) return playback;
+    return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,24 @@
+// The words of the overlay: numbers with their units, as a reader wants them.
+#pragma once
+
+#include <string>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// "5 mm", "1.25 cm", "320 µm": three digits at most, the unit that suits the size.
+std::string length_text(double metres);
+// "20 Hz", "1.5 kHz".
+std::string frequency_text(double hertz);
+// "t = 3.250 s"
+std::string time_text(double seconds);
+// "5 mm" or, for a spread, "4–6 mm"
+std::string diameter_text(const SizeSpread& diameter);
+// The longest 1, 2 or 5 times a power of ten that is not longer; m.
+double round_length(double longest);
+// The caption of time, which says so while the grains still settle.
+std::string playback_text(const Frame& frame, const std::string& playback);
+
+}  // namespace grainreel

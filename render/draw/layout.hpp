@@ -1,0 +1,25 @@
+// Who gets which part of the picture: gutters for words, the rest for the container.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+#include "render/draw/view.hpp"
+
+namespace grainreel {
+
+// Sizes of letters and gaps, pixels.
+struct TypeScale {
+    double main, minor, title, gap, margin;
+};
+// Main text at least 2.5 % and minor text 1.8 % of the picture's height, never below 10 pixels.
+TypeScale type_scale(const Film& film);
+
+struct PictureLayout {
+    bool portrait = false;  // gutters above and below instead of left and right
+    Rectangle first;        // left or top: title, legend, scale
+    Rectangle second;       // right or bottom: time, drive, playback
+    Rectangle port;         // the container
+};
+// Gutters are as wide as their words need, and at most about a third of the picture each.
+PictureLayout plan_layout(const Scene& scene);
+
+}  // namespace grainreel

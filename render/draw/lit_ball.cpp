@@ -1,0 +1,63 @@
+#include "render/draw/lit_ball.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/vector.hpp"
+#include "render/draw/light.hpp"
+#include "render/draw/palette.hpp"
+
+namespace grainreel {
+namespace {
+
+// The same formula as `lit` in sphere_shaders.cpp, seen straight on and with nothing around.
+Colour lit(const Vec3& normal, const Colour& albedo) {
+    const Vec3 to_light = Vec3(light::key_direction[0], light::key_direction[1], light::key_direction[2]).normalized();
+    const double facing = std::clamp(-normal.z(), 0.0, 1.0);
+    const double key = light::key * std::max(0.0, 0.15 + 0.85 * normal.dot(to_light));
+    const double ambient = light::ground + (light::sky - light::ground) * (0.5 + 0.5 * normal.y());
+    const double t = std::clamp(facing / light::rim_width, 0.0, 1.0);
+    const double rim = light::rim + (1 - light::rim) * t * t * (3 - 2 * t);
+    const Vec3 halfway = (to_light - Vec3(0, 0, 1)).normalized();
+    const double shine = light::shine * std::pow(std::max(0.0, normal.dot(halfway)), light::shine_power);
+    const auto channel = [&](double srgb) {
+        return to_srgb(std::clamp(to_linear(srgb) * (ambient + key) * rim + shine, 0.0, 1.0));
+    };
+    return {channel(albedo.red), channel(albedo.green), channel(albedo.blue)};
+}
+
+}  // namespace
+
+void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour& colour) {
+    // Drawn as a small picture of the lit hemisphere, cut out by a smooth circle.
+    const int side = 2 * static_cast<int>(std::ceil(radius)) + 2;
+    const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_RGB24, side);
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(stride) * side);
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            double u = (column + 0.5 - 0.5 * side) / radius, v = (0.5 * side - row - 0.5) / radius;
+            const double length = std::hypot(u, v);
+            if (length > 1) {
+                u /= length;
+                v /= length;
+            }
+            const Vec3 normal(u, v, -std::sqrt(std::max(0.0, 1 - u * u - v * v)));
+            const Colour shade = lit(normal, colour);
+            const std::array<double, 3> channels = {shade.blue, shade.green, shade.red};
+            for (std::size_t c = 0; c < 3; ++c)
+                pixels[static_cast<std::size_t>(row) * stride + 4 * static_cast<std::size_t>(column) + c] =
+                    static_cast<std::uint8_t>(std::lround(255 * channels[c]));
+        }
+    cairo_surface_t* ball =
+        cairo_image_surface_create_for_data(pixels.data(), CAIRO_FORMAT_RGB24, side, side, stride);
+    cairo_set_source_surface(on, ball, x - 0.5 * side, y - 0.5 * side);
+    cairo_arc(on, x, y, radius, 0, 2 * M_PI);
+    cairo_fill(on);
+    cairo_set_source_rgb(on, 0, 0, 0);  // lets go of the surface
+    cairo_surface_destroy(ball);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,121 @@
+#include "render/draw/overlay.hpp"
+
+#include <algorithm>
+
+#include "render/draw/captions.hpp"
+
+namespace grainreel {
+
+TextSize static_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
+                     double width) {
+    const TypeScale& type = writer.type;
+    const double x = type.margin, inner = std::max(1.0, width - (layout.portrait ? 2.0 : 1.5) * type.margin);
+    // The scale holds at the depth of the container's middle.
+    const double scale = view ? view->pixels_per_metre({0, 0, 0.5 * scene.container.height}) : 1;
+    double y = type.margin;
+    const TextSize title = title_block(writer, scene, x, y, inner);
+    y += title.height + (title.height > 0 ? 1.2 * type.gap : 0);
+    if (layout.portrait) {
+        const TextSize legend = legend_block(writer, scene, x, y, 0.6 * inner);
+        const double right = x + 0.66 * inner;
+        const TextSize bar = scale_block(writer, scale, right, y + 0.4 * type.gap, 0.34 * inner);
+        return {width, y + std::max(legend.height, bar.height + 0.4 * type.gap)};
+    }
+    const TextSize legend = legend_block(writer, scene, x, y, inner);
+    y += legend.height + type.gap;
+    const Writer measure{nullptr, type, writer.palette};
+    const double longest = 0.8 * inner;
+    const double below = arrows_block(measure, scene, scene.film.camera, 0, 0).height + type.gap +
+                         scale_block(measure, scale, 0, 0, longest).height;
+    if (layout.first.height > 0) y = std::max(y, layout.first.height - type.margin - below);
+    y += arrows_block(writer, scene, scene.film.camera, x, y).height + type.gap;
+    y += scale_block(writer, scale, x, y, longest).height;
+    return {width, y};
+}
+
+TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& frame, const std::string& playback,
+                       double width, bool portrait) {
+    const TypeScale& type = writer.type;
+    const bool dial = scene.drive.present;
+    const double x = portrait ? type.margin : 0.5 * type.margin;
+    const double inner = std::max(1.0, width - (portrait ? 2.0 : 1.5) * type.margin);
+    const std::string caption = playback_text(frame, playback);
+    const auto write_caption = [&](double y) {
+        if (caption.empty()) return TextSize{};
+        return writer.write(x, y, caption, writer.minor(), writer.palette.faint_ink, inner, portrait ? 2 : 4);
+    };
+    double y = type.margin;
+    const TextSize clock = clock_block(writer, scene, frame, x, y);
+    y += clock.height + 0.3 * type.gap;
+    TextSize size{clock.width, 0};
+    if (portrait) {
+        // Two lines are kept for the caption, whatever it says, so that nothing moves.
+        write_caption(y);
+        y += 2.6 * type.minor + type.gap;
+        if (dial) {
+            const TextSize disc = dial_block(writer, nullptr, x, y);
+            dial_block(writer, &frame, x, y);
+            drive_block(writer, scene, x + disc.width + type.gap, y);
+            y += disc.height;
+        }
+        return {width, y - type.margin};
+    }
+    if (dial) {
+        y += 0.6 * type.gap;
+        const TextSize disc = dial_block(writer, nullptr, x, y);
+        dial_block(writer, &frame, x, y);
+        y += disc.height + 0.6 * type.gap;
+        const TextSize drive = drive_block(writer, scene, x, y);
+        y += drive.height + type.gap;
+        size.width = std::max({size.width, disc.width, drive.width});
+    }
+    y += write_caption(y).height;
+    return {size.width, y - type.margin};
+}
+
+Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view)
+    : scene_(scene),
+      palette_(palette),
+      layout_(layout),
+      type_(type_scale(scene.film)),
+      first_(blank(layout.first)),
+      second_(blank(layout.second)) {
+    const Context on(cairo_create(first_.get()));
+    static_part({on.get(), type_, palette_}, scene_, &view, layout_, layout_.first.width);
+}
+
+Overlay::Surface Overlay::blank(const Rectangle& part) const {
+    Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, part.width, part.height));
+    const Context on(cairo_create(surface.get()));
+    cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green, palette_.background.blue);
+    cairo_paint(on.get());
+    return surface;
+}
+
+void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback) {
+    if (!first_written_) copy(first_.get(), layout_.first, picture);
+    first_written_ = true;
+    const Context on(cairo_create(second_.get()));
+    cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green, palette_.background.blue);
+    cairo_paint(on.get());
+    changing_part({on.get(), type_, palette_}, scene_, frame, playback, layout_.second.width, layout_.portrait);
+    copy(second_.get(), layout_.second, picture);
+}
+
+void Overlay::copy(cairo_surface_t* from, const Rectangle& to, Picture& picture) {
+    cairo_surface_flush(from);
+    const unsigned char* pixels = cairo_image_surface_get_data(from);
+    const int stride = cairo_image_surface_get_stride(from);
+    for (int y = 0; y < to.height; ++y) {
+        const auto* row = reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(y) * stride);
+        std::uint8_t* out = picture.pixel(to.x, to.y + y);
+        for (int x = 0; x < to.width; ++x, out += 4) {
+            out[0] = static_cast<std::uint8_t>(row[x] >> 16);
+            out[1] = static_cast<std::uint8_t>(row[x] >> 8);
+            out[2] = static_cast<std::uint8_t>(row[x]);
+            out[3] = 255;
+        }
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,48 @@
+// The words around the picture, in gutters that no grain is drawn in. What never changes is drawn once.
+#pragma once
+
+#include <cairo.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/draw/layout.hpp"
+#include "render/draw/picture.hpp"
+#include "render/draw/writer.hpp"
+
+namespace grainreel {
+
+// Title, legend, scale bar and arrows in the first gutter. view: null while measuring.
+TextSize static_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
+                     double width);
+// Time, dial, drive and playback in the second one. Both return the size that they take, margins left out.
+TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& frame, const std::string& playback,
+                       double width, bool portrait);
+
+class Overlay {
+public:
+    Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
+
+    // Writes the gutters into the picture: all of them the first time, then only what changes.
+    void write(Picture& picture, const Frame& frame, const std::string& playback);
+
+private:
+    struct Destroy {
+        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+        void operator()(cairo_t* context) const { cairo_destroy(context); }
+    };
+    using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
+    using Context = std::unique_ptr<cairo_t, Destroy>;
+    Surface blank(const Rectangle& part) const;
+    static void copy(cairo_surface_t* from, const Rectangle& to, Picture& picture);
+
+    const Scene& scene_;
+    const Palette palette_;
+    const PictureLayout layout_;
+    const TypeScale type_;
+    Surface first_, second_;
+    bool first_written_ = false;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "render/draw/captions.hpp"
+#include "render/draw/lit_ball.hpp"
+#include "render/draw/writer.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr std::size_t most_species = 8;  // in the legend; more are summed up in a last line
+
+void set_colour(const Writer& writer, const Colour& colour) {
+    cairo_set_source_rgb(writer.on, colour.red, colour.green, colour.blue);
+}
+
+void stroke_line(const Writer& writer, double x0, double y0, double x1, double y1, double width) {
+    cairo_set_line_width(writer.on, width);
+    cairo_move_to(writer.on, x0, y0);
+    cairo_line_to(writer.on, x1, y1);
+    cairo_stroke(writer.on);
+}
+
+// An arrow about (x, y) along (dx, dy), which is half its length; pixels. The head is drawn at the far end, or
+// at both.
+void arrow(const Writer& writer, double x, double y, double dx, double dy, bool both) {
+    const double length = std::hypot(dx, dy), width = std::max(1.0, writer.type.main / 12);
+    const double head = 3.2 * width;
+    stroke_line(writer, x - dx, y - dy, x + dx, y + dy, width);
+    if (length < 1) return;
+    for (const double end : {1.0, -1.0}) {
+        if (end < 0 && !both) break;
+        const double ux = end * dx / length, uy = end * dy / length;
+        const double tip_x = x + end * dx + ux * head * 0.4, tip_y = y + end * dy + uy * head * 0.4;
+        cairo_move_to(writer.on, tip_x, tip_y);
+        cairo_line_to(writer.on, tip_x - 1.5 * head * ux - 0.6 * head * uy, tip_y - 1.5 * head * uy + 0.6 * head * ux);
+        cairo_line_to(writer.on, tip_x - 1.5 * head * ux + 0.6 * head * uy, tip_y - 1.5 * head * uy - 0.6 * head * ux);
+        cairo_close_path(writer.on);
+        cairo_fill(writer.on);
+    }
+}
+
+double largest_diameter(const Scene& scene) {
+    double largest = 0;
+    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
+    return largest;
+}
+
+}  // namespace
+
+TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
+    const std::string& title = scene.film.title.empty() ? scene.title : scene.film.title;
+    if (title.empty()) return {};
+    return writer.write(x, y, title, writer.title(), writer.palette.ink, wrap, 4);
+}
+
+TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
+    const double icon = 1.5 * writer.type.main, indent = icon + 0.5 * writer.type.gap, largest = largest_diameter(scene);
+    const double text_wrap = wrap > 0 ? std::max(1.0, wrap - indent) : 0;
+    TextSize size;
+    const auto line = [&](const std::string& text, const TextStyle& style, const Colour& colour) {
+        const TextSize part = writer.write(x + indent, y + size.height, text, style, colour, text_wrap);
+        size.width = std::max(size.width, indent + part.width);
+        size.height += part.height;
+    };
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        if (i == most_species) {
+            line(fmt::format("and {} more", scene.species.size() - i), writer.minor(), writer.palette.faint_ink);
+            break;
+        }
+        const Species& species = scene.species[i];
+        const double top = size.height;
+        line(species.name, writer.main(), writer.palette.ink);
+        line(fmt::format("{} × {}", species.count, diameter_text(species.diameter)), writer.minor(),
+             writer.palette.faint_ink);
+        const double share = std::max(0.25, species.diameter.largest / std::max(largest, 1e-30));
+        if (writer.on)
+            draw_lit_ball(writer.on, x + 0.5 * icon, y + 0.5 * (top + size.height), 0.5 * icon * share, species.colour);
+        size.height += 0.4 * writer.type.gap;
+    }
+    return size;
+}
+
+TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest) {
+    const double length = round_length(longest / scale), pixels = length * scale;
+    const double tick = 0.35 * writer.type.main, width = std::max(1.5, writer.type.main / 11);
+    if (writer.on) {
+        set_colour(writer, writer.palette.ink);
+        stroke_line(writer, x, y + 0.5 * tick, x + pixels, y + 0.5 * tick, width);
+        for (const double end : {x + 0.5 * width, x + pixels - 0.5 * width})
+            stroke_line(writer, end, y, end, y + tick, width);
+    }
+    const TextSize label = writer.write(x, y + 1.3 * tick, length_text(length), writer.main(), writer.palette.ink);
+    return {std::max(pixels, label.width), 1.3 * tick + label.height};
+}
+
+TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& camera, double x, double y) {
+    const View view = fit_view(camera, {Vec3(0, 0, 0), Vec3(1, 1, 1)}, {0, 0, 100, 100}, 0, 100);
+    const double reach = 0.85 * writer.type.main, row = 2.6 * writer.type.main, indent = 1.5 * writer.type.main;
+    TextSize size;
+    const auto entry = [&](const Vec3& direction, bool both, const std::string& label) {
+        const double middle = y + size.height + 0.5 * row;
+        if (writer.on) {
+            set_colour(writer, both ? writer.palette.accent : writer.palette.ink);
+            arrow(writer, x + 0.5 * indent, middle, reach * direction.dot(view.right), -reach * direction.dot(view.up),
+                  both);
+        }
+        const double half_line = 0.5 * measure_text(label, writer.minor()).height;
+        const TextSize text = writer.write(x + indent + 0.4 * writer.type.gap, middle - half_line, label, writer.minor(),
+                                           writer.palette.faint_ink);
+        size.width = std::max(size.width, indent + 0.4 * writer.type.gap + text.width);
+        size.height += row;
+    };
+    if (scene.gravity.norm() > 0) entry(scene.gravity.normalized(), false, "gravity");
+    if (scene.drive.present)
+        entry(scene.drive.direction, true, scene.drive.moves == Drive::Moves::floor ? "floor vibrates" : "vibration");
+    return size;
+}
+
+TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y) {
+    if (!scene.drive.present) return {};
+    std::vector<std::string> lines = {"f = " + frequency_text(scene.drive.frequency)};
+    const double gravity = scene.gravity.norm();
+    if (gravity > 0) lines.push_back(fmt::format("Γ = {:.3g}", scene.drive.g_level(gravity)));
+    lines.push_back("a = " + length_text(scene.drive.amplitude));
+    TextSize size;
+    for (const std::string& line : lines) {
+        const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
+        size.width = std::max(size.width, part.width);
+        size.height += part.height;
+    }
+    return size;
+}
+
+TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y) {
+    const double radius = 2.2 * writer.type.main, pen = std::max(1.0, writer.type.main / 16);
+    const double bar = 2 * radius + 0.9 * writer.type.main;  // from the left, where the displacement is shown
+    const TextSize size{bar + 0.6 * writer.type.main, 2 * radius + 2 * pen};
+    if (!writer.on) return size;
+    const double cx = x + radius, cy = y + radius + pen;
+    if (!frame) {
+        set_colour(writer, writer.palette.faint_ink);
+        cairo_set_line_width(writer.on, pen);
+        cairo_arc(writer.on, cx, cy, radius, 0, 2 * std::numbers::pi);
+        cairo_stroke(writer.on);
+        stroke_line(writer, cx - radius, cy, cx + radius, cy, 0.6 * pen);
+        stroke_line(writer, x + bar, cy - radius, x + bar, cy + radius, pen);
+        for (const double level : {-1.0, 0.0, 1.0})
+            stroke_line(writer, x + bar - 3 * pen, cy + level * radius, x + bar + 3 * pen, cy + level * radius, pen);
+        return size;
+    }
+    // Counter-clockwise from the right: the tip's height is the sine of the phase, as the displacement is.
+    const double angle = 2 * std::numbers::pi * frame->phase;
+    const double tip_x = cx + radius * std::cos(angle), tip_y = cy - radius * std::sin(angle);
+    if (frame->time < 0) return size;  // the drive is off: no hand
+    cairo_set_source_rgba(writer.on, writer.palette.accent.red, writer.palette.accent.green, writer.palette.accent.blue,
+                          0.14);
+    cairo_move_to(writer.on, cx, cy);
+    cairo_arc_negative(writer.on, cx, cy, radius, 0, -angle);
+    cairo_close_path(writer.on);
+    cairo_fill(writer.on);
+    set_colour(writer, writer.palette.accent);
+    stroke_line(writer, tip_x, tip_y, x + bar, tip_y, 0.6 * pen);
+    stroke_line(writer, cx, cy, tip_x, tip_y, 2 * pen);
+    for (const double dot_x : {tip_x, x + bar}) {
+        cairo_arc(writer.on, dot_x, tip_y, 3 * pen, 0, 2 * std::numbers::pi);
+        cairo_fill(writer.on);
+    }
+    return size;
+}
+
+TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y) {
+    TextSize size = writer.write(x, y, time_text(frame.time), writer.strong(), writer.palette.ink);
+    if (!scene.drive.present) return size;
+    const std::string cycle =
+        frame.time < 0 ? "before the drive" : fmt::format("cycle {}, phase {:.2f}", static_cast<long long>(std::floor(frame.cycles)), frame.phase);
+    const TextSize line = writer.write(x, y + size.height, cycle, writer.minor(), writer.palette.faint_ink);
+    return {std::max(size.width, line.width), size.height + line.height};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,30 @@
+// Words and their sizes, through Pango: no hinting, so that letters neither jump nor depend on the screen.
+#pragma once
+
+#include <cairo.h>
+
+#include <memory>
+#include <string>
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+struct TextSize {
+    double width = 0, height = 0;  // pixels
+};
+
+struct TextStyle {
+    double size = 12;  // pixels, of the letters' body
+    bool bold = false;
+};
+
+// wrap: pixels, where lines break between words (0: nowhere); at most `lines` lines, the last cut short by an
+// ellipsis.
+TextSize measure_text(const std::string& text, const TextStyle& style, double wrap = 0, int lines = 1);
+
+// (x, y): top left corner of the text. Returns its size.
+TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
+                   const Colour& colour, double wrap = 0, int lines = 1);
+
+}  // namespace grainreel

@@ -1,0 +1,46 @@
+// Places the overlay's blocks. Without a surface it only measures, so that layout and drawing share one code.
+#pragma once
+
+#include <cairo.h>
+
+#include <algorithm>
+#include <string>
+
+#include "engine/frame.hpp"
+#include "render/draw/layout.hpp"
+#include "render/draw/palette.hpp"
+#include "render/draw/text.hpp"
+
+namespace grainreel {
+
+struct Writer {
+    cairo_t* on = nullptr;  // null: measure
+    const TypeScale& type;
+    const Palette& palette;
+
+    TextStyle main() const { return {type.main, false}; }
+    TextStyle minor() const { return {type.minor, false}; }
+    TextStyle strong() const { return {1.2 * type.main, true}; }
+    TextStyle title() const { return {type.title, true}; }
+
+    TextSize write(double x, double y, const std::string& text, const TextStyle& style, const Colour& colour,
+                   double wrap = 0, int lines = 1) const {
+        return on ? draw_text(on, x, y, text, style, colour, wrap, lines) : measure_text(text, style, wrap, lines);
+    }
+};
+
+// Each draws itself with its top left corner at (x, y), pixels, and returns its size.
+TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
+TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
+// scale: pixels a metre.
+TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest);
+// Directions of gravity and of the drive as the camera sees them.
+TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& camera, double x, double y);
+// f, Gamma and amplitude.
+TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y);
+// A hand that turns once a period, its height the displacement; without `frame` only the still part.
+TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y);
+// Time and, with a drive, the cycle.
+TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y);
+
+}  // namespace grainreel
