@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "render/draw/palette.hpp"
-
 namespace grainreel {
 namespace {
 
@@ -39,9 +37,9 @@ Shapes::Vertex vertex(const Pixel& at, double across, double half_width, const P
             static_cast<float>(at.y()),
             static_cast<float>(across),
             static_cast<float>(half_width),
-            static_cast<float>(to_linear(paint.colour.red)),
-            static_cast<float>(to_linear(paint.colour.green)),
-            static_cast<float>(to_linear(paint.colour.blue)),
+            static_cast<float>(paint.colour.red),
+            static_cast<float>(paint.colour.green),
+            static_cast<float>(paint.colour.blue),
             static_cast<float>(paint.alpha)};
 }
 

@@ -27,7 +27,7 @@ public:
     struct Vertex {
         float x, y;                       // pixels
         float across, half_width;         // signed distance from the line's middle; half its width
-        float red, green, blue, alpha;    // linear light, not premultiplied
+        float red, green, blue, alpha;    // sRGB, not premultiplied
     };
     const std::vector<Vertex>& vertices() const { return vertices_; }
 

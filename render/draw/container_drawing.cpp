@@ -1,6 +1,7 @@
 #include "render/draw/container_drawing.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "render/draw/drawing_kit.hpp"
 
@@ -19,12 +20,17 @@ std::vector<LabMark> lab_marks(const Scene& scene) {
     if (!scene.drive.present || scene.drive.amplitude <= 0) return {};
     const Container& container = scene.container;
     const double thickness = drawn_thickness(container), half = outer_floor_half_width(container);
-    const double front = container.shape == Container::Shape::cylinder ? 0 : 0.5 * container.depth;
+    // In the plane of the near cross-section; beside a cylinder, across the line of sight.
+    const double azimuth = scene.film.camera.azimuth * std::numbers::pi / 180;
+    const bool round = container.shape == Container::Shape::cylinder;
+    const double eye_side = std::cos(azimuth) >= 0 ? 1 : -1;
+    const Vec3 middle = round ? Vec3(0, 0, 0) : Vec3(eye_side * 0.5 * container.depth, 0, 0);
+    const Vec3 side = round ? Vec3(-std::sin(azimuth), std::cos(azimuth), 0) : Vec3(0, 1, 0);
     const Vec3 stroke = scene.drive.amplitude * scene.drive.direction;
     if (std::abs(scene.drive.direction.z()) >= 0.5)
-        return {{{front, -half - thickness, 0}, {0, -2.2 * thickness, 0}, stroke},
-                {{front, half + thickness, 0}, {0, 2.2 * thickness, 0}, stroke}};
-    return {{{front, 0, -2 * thickness}, {0, 0, -2.2 * thickness}, stroke}};
+        return {{middle - (half + thickness) * side, -2.2 * thickness * side, stroke},
+                {middle + (half + thickness) * side, 2.2 * thickness * side, stroke}};
+    return {{middle - Vec3(0, 0, 2 * thickness), {0, 0, -2.2 * thickness}, stroke}};
 }
 
 void draw_lab_marks(const Scene& scene, const Sketches& sketches, Shapes& on) {

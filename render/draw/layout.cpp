@@ -28,7 +28,7 @@ double longest_word(const std::string& text, const TextStyle& style) {
     return longest;
 }
 
-int whole(double pixels) { return static_cast<int>(std::lround(pixels)); }
+int whole(double pixels) { return static_cast<int>(std::ceil(pixels)) + 1; }
 
 }  // namespace
 

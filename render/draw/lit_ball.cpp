@@ -54,6 +54,7 @@ void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour&
     cairo_surface_t* ball =
         cairo_image_surface_create_for_data(pixels.data(), CAIRO_FORMAT_RGB24, side, side, stride);
     cairo_set_source_surface(on, ball, x - 0.5 * side, y - 0.5 * side);
+    cairo_new_path(on);
     cairo_arc(on, x, y, radius, 0, 2 * M_PI);
     cairo_fill(on);
     cairo_set_source_rgb(on, 0, 0, 0);  // lets go of the surface

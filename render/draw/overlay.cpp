@@ -55,7 +55,8 @@ TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& fr
         if (dial) {
             const TextSize disc = dial_block(writer, nullptr, x, y);
             dial_block(writer, &frame, x, y);
-            drive_block(writer, scene, x + disc.width + type.gap, y);
+            const TextSize drive = drive_block(writer, scene, x + disc.width + type.gap, y);
+            arrows_block(writer, scene, scene.film.camera, x + disc.width + drive.width + 3 * type.gap, y);
             y += disc.height;
         }
         return {width, y - type.margin};

@@ -144,6 +144,7 @@ TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y
     if (!frame) {
         set_colour(writer, writer.palette.faint_ink);
         cairo_set_line_width(writer.on, pen);
+        cairo_new_path(writer.on);  // text leaves a current point behind
         cairo_arc(writer.on, cx, cy, radius, 0, 2 * std::numbers::pi);
         cairo_stroke(writer.on);
         stroke_line(writer, cx - radius, cy, cx + radius, cy, 0.6 * pen);
@@ -158,6 +159,7 @@ TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y
     if (frame->time < 0) return size;  // the drive is off: no hand
     cairo_set_source_rgba(writer.on, writer.palette.accent.red, writer.palette.accent.green, writer.palette.accent.blue,
                           0.14);
+    cairo_new_path(writer.on);
     cairo_move_to(writer.on, cx, cy);
     cairo_arc_negative(writer.on, cx, cy, radius, 0, -angle);
     cairo_close_path(writer.on);
@@ -166,6 +168,7 @@ TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y
     stroke_line(writer, tip_x, tip_y, x + bar, tip_y, 0.6 * pen);
     stroke_line(writer, cx, cy, tip_x, tip_y, 2 * pen);
     for (const double dot_x : {tip_x, x + bar}) {
+        cairo_new_path(writer.on);
         cairo_arc(writer.on, dot_x, tip_y, 3 * pen, 0, 2 * std::numbers::pi);
         cairo_fill(writer.on);
     }
@@ -175,10 +178,17 @@ TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y
 TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y) {
     TextSize size = writer.write(x, y, time_text(frame.time), writer.strong(), writer.palette.ink);
     if (!scene.drive.present) return size;
-    const std::string cycle =
-        frame.time < 0 ? "before the drive" : fmt::format("cycle {}, phase {:.2f}", static_cast<long long>(std::floor(frame.cycles)), frame.phase);
-    const TextSize line = writer.write(x, y + size.height, cycle, writer.minor(), writer.palette.faint_ink);
-    return {std::max(size.width, line.width), size.height + line.height};
+    const auto line = [&](const std::string& text) {
+        const TextSize part = writer.write(x, y + size.height, text, writer.minor(), writer.palette.faint_ink);
+        size = {std::max(size.width, part.width), size.height + part.height};
+    };
+    if (frame.time < 0) {
+        line("before the drive");
+    } else {
+        line(fmt::format("cycle {}", static_cast<long long>(std::floor(frame.cycles))));
+        line(fmt::format("phase {:.2f}", frame.phase));
+    }
+    return size;
 }
 
 }  // namespace grainreel

@@ -11,7 +11,7 @@
 namespace grainreel {
 namespace {
 
-constexpr gl::TextureFormat srgb_picture{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
+constexpr gl::TextureFormat bytes{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 
 // Adds up where the time of one frame goes; does nothing without a place to put it.
 class Stopwatch {
@@ -43,12 +43,12 @@ struct Renderer::Impl {
           view(frame_container(s, layout)),
           overlay(scene, palette, layout, view),
           context(gl::make_osmesa_context(raster_threads)),
-          target(context->gl(), port.width, port.height, srgb_picture),
+          target(context->gl(), port.width, port.height, bytes),
           shape_painter(context->gl()),
           sphere_painter(context->gl(), s, port.width, port.height),
-          clear_colour{static_cast<float>(to_linear(s.film.background.red)),
-                       static_cast<float>(to_linear(s.film.background.green)),
-                       static_cast<float>(to_linear(s.film.background.blue)), 1.0f},
+          clear_colour{static_cast<float>(s.film.background.red),
+                       static_cast<float>(s.film.background.green),
+                       static_cast<float>(s.film.background.blue), 1.0f},
           picture(s.film.width, s.film.height),
           rows(static_cast<std::size_t>(port.width) * port.height * 4) {}
 
@@ -84,7 +84,6 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawT
     watch.lap(&DrawTimes::upload);
     draw_container(scene, eye, frame, palette, scene.film.height, shapes);
     target.bind();
-    gl.Enable(GL_FRAMEBUFFER_SRGB);
     gl.ClearBufferfv(GL_COLOR, 0, clear_colour.data());
     shape_painter.paint(shapes.behind, port.width, port.height);
     watch.lap(&DrawTimes::walls);
