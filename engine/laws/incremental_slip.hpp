@@ -12,6 +12,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "engine/base/cube_root.hpp"
 #include "engine/laws/carry.hpp"
 #include "engine/laws/touch.hpp"
 #include "engine/scene/plan.hpp"
@@ -50,15 +51,20 @@ struct IncrementalSlip {
                       double normal_force) {
         const bool sticks = std::isinf(p.friction);
         const double limit = sticks ? p.friction : p.friction * normal_force;
-        Vec3 old = carry_along(h.force, h.normal, touch.normal, touch.twist);
+        const Vec3 old = carry_along(h.force, h.normal, touch.normal, touch.twist);
         h.normal = touch.normal;
         rescale_turning_force(h, limit, normal_force);
         h.normal_force = normal_force;
 
-        const double old_size = old.norm();
-        const double slip_size = touch.slip.norm();
-        if (old_size == 0 && slip_size == 0) return h.force = old;
-        const Vec3 direction = old_size > 0 ? Vec3(old / old_size) : Vec3(touch.slip / slip_size);
+        const double old_size = std::sqrt(old.squaredNorm());
+        Vec3 direction;
+        if (old_size > 0) {
+            direction = old / old_size;
+        } else {
+            const double slip_size = std::sqrt(touch.slip.squaredNorm());
+            if (slip_size == 0) return h.force = old;
+            direction = touch.slip / slip_size;
+        }
         const double along = direction.dot(touch.slip);
 
         note_turning(h, along, old_size);
@@ -69,8 +75,8 @@ struct IncrementalSlip {
             h.turning_force = -h.turning_force;
             h.growing = 1;
         }
-        const double size = now.norm();
-        if (size > limit) now *= limit / size;
+        const double size_squared = now.squaredNorm();
+        if (size_squared > limit * limit) now *= limit / std::sqrt(size_squared);
         return h.force = now;
     }
 
@@ -98,7 +104,7 @@ private:
         const double used = h.growing * (old_size - h.turning_force) / room;
         const double base = std::clamp(1 - used, 0.0, 1.0);
         if (p.gamma == 1) return base;
-        if (p.gamma == 1.0 / 3.0) return std::cbrt(base);
+        if (p.gamma == 1.0 / 3.0) return cube_root(base);
         return std::pow(base, p.gamma);
     }
 };
