@@ -1,8 +1,12 @@
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/scene/plan.hpp"
+#include "engine/scene/reader.hpp"
+#include "render/cli/check.hpp"
 #include "render/cli/movie.hpp"
 #include "render/cli/options.hpp"
 #include "render/cli/reporter.hpp"
@@ -12,9 +16,17 @@ namespace {
 
 constexpr int run_failed = 1, user_mistake = 2;
 
+int check(const grainreel::Options& options) {
+    const grainreel::Scene scene = grainreel::read_scene(options.scene, options.sets);
+    grainreel::print_plan(scene, grainreel::make_plan(scene), std::cout);
+    if (!std::cout.flush()) throw grainreel::RunError("the plan cannot be written to stdout");
+    return 0;
+}
+
 int run(const grainreel::Options& options, grainreel::Reporter& reporter) {
     try {
-        return grainreel::make_movie(options, reporter);
+        const bool movie = options.verb == grainreel::Options::Verb::movie;
+        return movie ? grainreel::make_movie(options, reporter) : check(options);
     } catch (const grainreel::UserError& mistake) {
         reporter.error(mistake.what());
         return user_mistake;

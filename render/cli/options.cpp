@@ -27,6 +27,16 @@ std::string quoted(const std::string& word) {
     return result + "'";
 }
 
+Form progress_form(const std::string& word) {
+    const std::map<std::string, Form> forms = {
+        {"auto", Form::automatic}, {"json", Form::json}, {"none", Form::none}};
+    const auto found = forms.find(word);
+    if (found == forms.end()) {
+        throw UserError(fmt::format("--progress {}: no such form; choose auto, json or none", word));
+    }
+    return found->second;
+}
+
 // An option that stands for a key of the scene.
 void add_key(CLI::App& verb, Options& options, const char* flag, const char* key, const char* type,
              const char* about) {
@@ -41,7 +51,8 @@ void add_key(CLI::App& verb, Options& options, const char* flag, const char* key
 
 void add_scene(CLI::App& verb, Options& options) {
     verb.add_option("SCENE", options.scene, "The scene, a TOML file; docs/scenes.md lists its keys")
-        ->required();
+        ->required()
+        ->type_name("FILE");
     verb.add_option_function<std::vector<std::string>>(
             "--set",
             [&options](const std::vector<std::string>& values) {
@@ -59,15 +70,12 @@ void add_scene(CLI::App& verb, Options& options) {
 }
 
 void add_reporting(CLI::App& verb, Options& options) {
-    const std::map<std::string, Form> forms = {
-        {"auto", Form::automatic}, {"json", Form::json}, {"none", Form::none}};
     verb.add_option_function<std::string>(
-            "--progress",
-            [&options, forms](const std::string& form) { options.report.form = forms.at(form); },
-            "auto: a line that redraws on a terminal and comes now and then in a pipe; json: one object a "
-            "line; none")
-        ->type_name("auto|json|none")
-        ->check(CLI::IsMember({"auto", "json", "none"}));
+            "--progress", [&options](const std::string& word) { options.report.form = progress_form(word); },
+            "auto (a line that redraws on a terminal and comes now and then in a pipe), json (an object a "
+            "line) or "
+            "none [auto]")
+        ->type_name("FORM");
     verb.add_flag("--quiet", options.report.quiet, "Say nothing on stderr but errors");
     verb.add_flag("--verbose", options.report.verbose, "Say more on stderr");
 }
@@ -84,7 +92,9 @@ void add_movie(CLI::App& app, Options& options) {
     movie.add_flag("--force", options.force, "Replace the run in --out, once the new one is complete")
         ->needs(out);
     movie.add_flag("--frames", options.frames, "Keep every frame of the film as frames/*.png too");
-    movie.add_flag("!--no-film", options.film, "Leave out the film; with --frames, keep the pictures alone");
+    movie.add_flag_callback(
+        "--no-film", [&options] { options.film = false; },
+        "Leave out the film; with --frames, keep the pictures alone");
     add_reporting(movie, options);
     movie.footer(
         "The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the film so that it\n"
@@ -98,7 +108,6 @@ void add_check(CLI::App& app, Options& options) {
     CLI::App& check =
         *app.add_subcommand("check", "Read a scene and print the plan: laws, stiffness, step, cost");
     add_scene(check, options);
-    check.add_flag("--quiet", options.report.quiet, "No warnings on stderr");
     check.callback([&options] { options.verb = Options::Verb::check; });
 }
 

@@ -76,8 +76,8 @@ std::string version_text() {
     std::string text = fmt::format("grainreel {} (commit {})\ncompiler   {}\nflags      {}\nvectors    {}\n",
                                    build_info::version, build_info::commit, build_info::compiler,
                                    build_info::flags, vector_instructions());
-    text += "libraries\n";
-    for (const auto& [name, version] : library_versions()) text += fmt::format("  {:<15}{}\n", name, version);
+    text += "libraries";
+    for (const auto& [name, version] : library_versions()) text += fmt::format("\n  {:<15}{}", name, version);
     return text;
 }
 
