@@ -126,12 +126,11 @@ FilmMaker::FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker
 FilmMaker::~FilmMaker() = default;
 
 void FilmMaker::take(FramePtr frame, std::string playback) {
+    GRAINREEL_CHECK(!impl_->complete);
     const Watch::time_point start = Watch::now();
     const bool taken = impl_->frames.push({std::move(frame), std::move(playback)});
     impl_->waited_seconds += seconds_since(start);
-    if (taken) return;
-    impl_->throw_failure();
-    GRAINREEL_CHECK(!"a frame after the film was finished");
+    if (!taken) impl_->throw_failure();
 }
 
 FilmReport FilmMaker::finish() {

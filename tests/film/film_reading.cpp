@@ -39,7 +39,6 @@ void decode(AVCodecContext& codec, const AVPacket* packet, AVRational time_base,
     if (avcodec_send_packet(&codec, packet) < 0) return;
     const AvFramePtr frame(av_frame_alloc());
     while (avcodec_receive_frame(&codec, frame.get()) >= 0) {
-        film.key_frames += frame->key_frame;
         film.frames.push_back(copy_of(*frame, time_base));
     }
 }
@@ -73,6 +72,7 @@ FilmFile read_film(const std::filesystem::path& path) {
     if (avcodec_open2(codec.get(), nullptr, nullptr) < 0) return film;
     const PacketPtr packet(av_packet_alloc());
     while (av_read_frame(context, packet.get()) >= 0) {
+        if (packet->flags & AV_PKT_FLAG_KEY) ++film.key_frames;
         decode(*codec, packet.get(), stream.time_base, film);
         av_packet_unref(packet.get());
     }
