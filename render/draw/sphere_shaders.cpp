@@ -15,20 +15,27 @@ uniform vec2 centre;   // pixels, of the port, from the bottom left
 uniform float focal;   // pixels a unit of slope
 vec2 slope_at(vec2 pixel) { return (pixel - centre) / focal; }
 
-// Distance along z at which the lines of sight through four pixel positions meet the sphere, or a very long way.
-// The discriminant comes from the point of closest approach (see visibility.cpp).
-vec4 meet(vec4 sphere, vec4 pixel_x, vec4 pixel_y) {
+// Four lines of sight at once, through pixel positions.
+struct Sight {
+    vec4 x, y, inverse;  // slopes; 1 / length squared of the direction
+};
+Sight sight(vec4 pixel_x, vec4 pixel_y) {
     vec4 x = (pixel_x - centre.x) / focal, y = (pixel_y - centre.y) / focal;
+    return Sight(x, y, 1.0 / (x * x + y * y + 1.0));
+}
+
+// Distance along z at which they meet the sphere, or a very long way. The discriminant comes from the point of
+// closest approach (see visibility.cpp).
+vec4 meet(vec4 sphere, Sight to) {
     if (orthographic != 0) {
-        vec4 dx = sphere.x - x, dy = sphere.y - y;
+        vec4 dx = sphere.x - to.x, dy = sphere.y - to.y;
         vec4 rest = sphere.w * sphere.w - (dx * dx + dy * dy);
         return mix(sphere.z - sqrt(max(rest, 0.0)), vec4(2e30), lessThan(rest, vec4(0.0)));
     }
-    vec4 inverse = 1.0 / (x * x + y * y + 1.0);
-    vec4 along = (sphere.x * x + sphere.y * y + sphere.z) * inverse;
-    vec4 dx = sphere.x - along * x, dy = sphere.y - along * y, dz = sphere.z - along;
+    vec4 along = (sphere.x * to.x + sphere.y * to.y + sphere.z) * to.inverse;
+    vec4 dx = sphere.x - along * to.x, dy = sphere.y - along * to.y, dz = sphere.z - along;
     vec4 rest = sphere.w * sphere.w - (dx * dx + dy * dy + dz * dz);
-    vec4 half_chord = sqrt(max(rest, 0.0) * inverse);
+    vec4 half_chord = sqrt(max(rest, 0.0) * to.inverse);
     vec4 entry = along - half_chord;
     vec4 away = mix(along + half_chord, entry, greaterThan(entry, vec4(0.0)));  // from within, the far side
     return mix(away, vec4(2e30), lessThan(min(rest, away), vec4(0.0)));
@@ -92,10 +99,9 @@ struct Nearest {
     vec4 owner1, owner2;  // which candidate is nearest there
 };
 
-void compete(inout Nearest best, uint grain, float candidate) {
+void compete(inout Nearest best, Sight sight1, Sight sight2, uint grain, float candidate) {
     vec4 sphere = texelFetch(spheres, int(grain) - 1);
-    vec4 away1 = meet(sphere, gl_FragCoord.x + X1, gl_FragCoord.y + Y1);
-    vec4 away2 = meet(sphere, gl_FragCoord.x + X2, gl_FragCoord.y + Y2);
+    vec4 away1 = meet(sphere, sight1), away2 = meet(sphere, sight2);
     bvec4 closer1 = lessThan(away1, best.away1), closer2 = lessThan(away2, best.away2);
     best.away1 = mix(best.away1, away1, closer1);
     best.away2 = mix(best.away2, away2, closer2);
@@ -109,38 +115,51 @@ void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     uint mark = texelFetch(seen, here, 0).x;
     if (mark == 0u) discard;
-    uint own = mark & ~EDGE, left = 0u, right = 0u, below = 0u, above = 0u;
+    bool edge = (mark & EDGE) != 0u;
+    uint first = mark & ~EDGE, second = 0u, third = 0u, fourth = 0u;
     Nearest best = Nearest(vec4(1e30), vec4(1e30), vec4(0.0), vec4(0.0));
-    if (mark != own) {
+    if (edge) {
+        // Different grains only, moved up: neighbouring pixels then run the same, few steps together.
         ivec2 last = textureSize(seen, 0) - 1;
-        left = at(here - ivec2(1, 0), last);
-        right = at(here + ivec2(1, 0), last);
-        below = at(here - ivec2(0, 1), last);
-        above = at(here + ivec2(0, 1), last);
-        left = left == own ? 0u : left;
-        right = right == own || right == left ? 0u : right;
-        below = below == own || below == left || below == right ? 0u : below;
-        above = above == own || above == left || above == right || above == below ? 0u : above;
-        if (own != 0u) compete(best, own, 1.0);
-        if (left != 0u) compete(best, left, 2.0);
-        if (right != 0u) compete(best, right, 3.0);
-        if (below != 0u) compete(best, below, 4.0);
-        if (above != 0u) compete(best, above, 5.0);
+        second = at(here - ivec2(1, 0), last);
+        third = at(here + ivec2(1, 0), last);
+        fourth = at(here - ivec2(0, 1), last);
+        uint fifth = at(here + ivec2(0, 1), last);
+        second = second == first ? 0u : second;
+        third = third == first || third == second ? 0u : third;
+        fourth = fourth == first || fourth == second || fourth == third ? 0u : fourth;
+        fifth = fifth == first || fifth == second || fifth == third || fifth == fourth ? 0u : fifth;
+        if (fourth == 0u) { fourth = fifth; fifth = 0u; }
+        if (third == 0u) { third = fourth; fourth = fifth; fifth = 0u; }
+        if (second == 0u) { second = third; third = fourth; fourth = fifth; }
+        if (first == 0u) { first = second; second = third; third = fourth; fourth = 0u; }
+        Sight sight1 = sight(gl_FragCoord.x + X1, gl_FragCoord.y + Y1);
+        Sight sight2 = sight(gl_FragCoord.x + X2, gl_FragCoord.y + Y2);
+        compete(best, sight1, sight2, first, 1.0);
+        if (second != 0u) compete(best, sight1, sight2, second, 2.0);
+        if (third != 0u) compete(best, sight1, sight2, third, 3.0);
+        if (fourth != 0u) compete(best, sight1, sight2, fourth, 4.0);
     }
     result = vec4(0.0);
-    float candidate = 1.0;
-    while (candidate < 5.5) {
-        uint grain = candidate < 1.5 ? own : candidate < 2.5 ? left : candidate < 3.5 ? right : candidate < 4.5 ? below : above;
-        vec4 won1 = vec4(equal(best.owner1, vec4(candidate))), won2 = vec4(equal(best.owner2, vec4(candidate)));
-        float hits = dot(won1, vec4(1.0)) + dot(won2, vec4(1.0));
-        vec2 middle = vec2(dot(won1, X1) + dot(won2, X2), dot(won1, Y1) + dot(won2, Y2)) / max(hits, 1.0);
-        if (mark == own) { hits = 8.0; middle = vec2(0.0); }
-        if (hits > 0.0 && grain != 0u) {
+    uint grain = first;
+    for (float candidate = 1.0; candidate < 4.5; candidate += 1.0) {
+        float hits = 8.0;
+        vec2 middle = vec2(0.0);
+        if (edge) {
+            vec4 won1 = vec4(equal(best.owner1, vec4(candidate))), won2 = vec4(equal(best.owner2, vec4(candidate)));
+            hits = dot(won1, vec4(1.0)) + dot(won2, vec4(1.0));
+            middle = vec2(dot(won1, X1) + dot(won2, X2), dot(won1, Y1) + dot(won2, Y2)) / max(hits, 1.0);
+        }
+        if (hits > 0.0) {
             int i = int(grain) - 1;
             vec3 colour = lit(i, texelFetch(spheres, i), slope_at(gl_FragCoord.xy + middle));
             result += vec4(colour, 1.0) * (hits * 0.125);
         }
-        candidate = mark == own ? 6.0 : candidate + 1.0;
+        grain = second;
+        second = third;
+        third = fourth;
+        fourth = 0u;
+        if (grain == 0u) break;
     }
     if (result.a > 0.0) result.rgb = encoded(result.rgb / result.a) * result.a;
 }
