@@ -134,6 +134,7 @@ double Document::number_in(const std::string& path, const toml::node& node, cons
         wrong(dimension.noun);
     }
     if (std::isnan(value)) wrong(dimension.noun);
+    if (std::isinf(value) && !key.range.infinite) wrong("finite");
     if (!key.range.contains(value)) wrong(key.range.text());
     return value;
 }

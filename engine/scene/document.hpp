@@ -4,12 +4,14 @@
 
 #include <toml++/toml.h>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/base/vector.hpp"
@@ -72,6 +74,9 @@ class Document {
     void check_entry(const std::string& path, const toml::node& node) const;
     void check_read(const std::string& path, const toml::node& node) const;
     toml::node* step_into(toml::node& node, const std::string& part, const std::string& assignment);
+    std::pair<toml::table*, std::string> table_for(const std::vector<std::string>& parts,
+                                                   const std::string& assignment, const Location& by);
+    void remove(toml::table& table, const std::string& table_path, std::string_view key);
 
     std::string file_;
     toml::table root_;

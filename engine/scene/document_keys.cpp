@@ -34,6 +34,11 @@ std::vector<std::string> parts_of(const std::string& path) {
     return parts;
 }
 
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 // `text` as TOML where it is TOML and the key does not want text; otherwise as a string.
 toml::table parsed_value(const std::string& text, const Key* key) {
     const bool quoted = !text.empty() && (text.front() == '"' || text.front() == '\'');
@@ -65,50 +70,60 @@ toml::node* Document::step_into(toml::node& node, const std::string& part, const
                                 assignment, part, array->size()));
 }
 
-void Document::set(const std::string& assignment) {
-    const auto equals = assignment.find('=');
-    const std::vector<std::string> parts = parts_of(assignment.substr(0, equals));
-    if (equals == std::string::npos || parts.empty())
-        throw UserError(
-            fmt::format("--set {}: no assignment; write --set drive.frequency=\"30 Hz\"", assignment));
-
+// The table that the last of `parts` lies in, made where it is missing, and its path with indices.
+std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::string>& parts,
+                                                         const std::string& assignment, const Location& by) {
     toml::node* node = &root_;
-    std::string table;  // path of `node`, with indices
-    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    std::string path;
+    for (std::size_t i = 0; i + 1 < parts.size() && node != nullptr; ++i) {
         toml::node* inner = step_into(*node, parts[i], assignment);
         if (const toml::array* array = node->as_array()) {
             std::size_t index = 0;
             while (array->get(index) != inner) ++index;
-            table += fmt::format("[{}]", index);
+            path += fmt::format("[{}]", index);
         } else {
-            table = join_path(table, parts[i]);
+            path = join_path(path, parts[i]);
         }
         node = inner;
-        if (written_.count(table) == 0) written_[table] = {"--set " + assignment.substr(0, equals), 0, 0};
+        written_.try_emplace(path, by);
     }
     if (node == nullptr || !node->is_table())
         throw UserError(
-            fmt::format("--set {}: '{}' is not a table; name one of its own keys", assignment, table));
+            fmt::format("--set {}: '{}' is not a table; name one of its own keys", assignment, path));
+    return {node->as_table(), path};
+}
 
-    const std::string path = join_path(table, parts.back());
-    const auto forget = [&](const std::string& name) {
-        node->as_table()->erase(name);
-        const std::string gone = join_path(table, name);
-        for (auto at = written_.lower_bound(gone);
-             at != written_.end() && at->first.compare(0, gone.size(), gone) == 0;) {
-            const char next = at->first.size() > gone.size() ? at->first[gone.size()] : '.';
-            at = next == '.' || next == '[' ? written_.erase(at) : std::next(at);
-        }
+// Takes a key out, and the places of all that was below it.
+void Document::remove(toml::table& table, const std::string& table_path, std::string_view key) {
+    table.erase(key);
+    const std::string gone = join_path(table_path, key);
+    const auto below = [&](const std::string& path) {
+        return path == gone || path.rfind(gone + ".", 0) == 0 || path.rfind(gone + "[", 0) == 0;
     };
+    std::erase_if(written_, [&](const auto& entry) { return below(entry.first); });
+}
+
+void Document::set(const std::string& assignment) {
+    const auto equals = assignment.find('=');
+    const std::string name = trimmed(assignment.substr(0, equals));
+    const std::vector<std::string> parts = parts_of(name);
+    if (equals == std::string::npos || parts.empty())
+        throw UserError(
+            fmt::format("--set {}: no assignment; write --set drive.frequency=\"30 Hz\"", assignment));
+
+    const Location by{"--set " + name, 0, 0};
+    const auto [table, table_path] = table_for(parts, assignment, by);
+    const std::string& key = parts.back();
     for (const auto& [one, other] : rivals) {
-        if (parts.back() == one) forget(std::string(other));
-        if (parts.back() == other) forget(std::string(one));
+        if (key == one) remove(*table, table_path, other);
+        if (key == other) remove(*table, table_path, one);
     }
-    forget(parts.back());
-    const toml::table parsed = parsed_value(assignment.substr(equals + 1), find_key(path));
-    parsed.get("value")->visit(
-        [&](const auto& value) { node->as_table()->insert_or_assign(parts.back(), value); });
-    written_[path] = {"--set " + assignment.substr(0, equals), 0, 0};
+    remove(*table, table_path, key);
+    const std::string path = join_path(table_path, key);
+    toml::table parsed = parsed_value(trimmed(assignment.substr(equals + 1)), find_key(path));
+    toml::table& target = *table;
+    parsed.get("value")->visit([&](const auto& value) { target.insert_or_assign(key, value); });
+    written_[path] = by;
 }
 
 void Document::check_keys() const {

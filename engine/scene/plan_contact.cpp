@@ -100,10 +100,10 @@ void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact
         for (const Touching& t : extremes(a, b))
             critical = std::min(critical, 2 * std::sqrt(pair.loading_stiffness / t.effective_mass));
         if (pair.normal_damping >= critical)
-            throw UserError(
-                fmt::format("{}: 'normal_damping' of {:.6g} 1/s between {} is not below the critical {:.6g} "
-                            "1/s, so that nothing rebounds; reduce it or raise the stiffness",
-                            scene.where("contact"), pair.normal_damping, place_of_pair(a, b), critical));
+            throw UserError(fmt::format(
+                "{}: 'normal_damping' of {:.6g} 1/s between {} is not below the critical {:.6g} "
+                "1/s, so that nothing rebounds; reduce it or raise the stiffness",
+                scene.where("contact.normal_damping"), pair.normal_damping, place_of_pair(a, b), critical));
         const double beta = pair.normal_damping / (2 * natural);
         pair.restitution = std::exp(-pi * beta / std::sqrt(1 - beta * beta));
     }

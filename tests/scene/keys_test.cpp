@@ -1,0 +1,102 @@
+#include "engine/scene/keys.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/writer.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+const std::string page = GRAINREEL_SOURCE "/docs/scenes.md";
+const std::string begin_mark = "<!-- table of keys: generated from engine/scene/keys.cpp, begin -->\n";
+const std::string end_mark = "<!-- table of keys: end -->\n";
+
+std::string load(const std::string& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+TEST(Keys, DocsTellWhatTheReaderKnows) {
+    std::string text = load(page);
+    const auto begin = text.find(begin_mark);
+    const auto end = text.find(end_mark);
+    ASSERT_NE(begin, std::string::npos);
+    ASSERT_NE(end, std::string::npos);
+    const auto start = begin + begin_mark.size();
+    if (std::getenv("GRAINREEL_WRITE_DOCS") != nullptr) {
+        text.replace(start, end - start, key_table_markdown());
+        std::ofstream(page) << text;
+        return;
+    }
+    EXPECT_EQ(text.substr(start, end - start), key_table_markdown())
+        << "docs/scenes.md is not what engine/scene/keys.cpp says; write it anew with\n"
+           "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=Keys.DocsTellWhatTheReaderKnows";
+}
+
+// Writing a documented default into a scene changes nothing.
+TEST(Keys, DocumentedDefaultsAreTheDefaults) {
+    const std::string locked = wedge_text + "[[film.segment]]\nkind = \"locked\"\n";
+    const std::string motion = wedge_text + "[[film.segment]]\nduration = 2\n";
+    std::string box = box_text;
+    for (const char* line :
+         {"gravity = 0\n", "normal_damping = 2634\n", "friction = 0.5\n", "duration = 0.1\n"})
+        box = with(box, line, "");
+    const std::string from_file =
+        wedge_text + "[start]\nmethod = \"file\"\nfile = \"" GRAINREEL_SOURCE "/docs/scenes.md\"\n";
+    const std::string cases[] = {wedge_text, box, locked, motion, from_file};
+    for (const Key& key : scene_keys()) {
+        if (key.fallback.empty()) continue;
+        std::string path = key.path;
+        if (const auto at = path.find("[]"); at != std::string::npos) path.replace(at, 2, "[0]");
+        bool tried = false;
+        for (const std::string& text : cases) {
+            const auto dot = path.rfind('.');
+            const std::string name = path.substr(dot == std::string::npos ? 0 : dot + 1);
+            if (text.find("\n" + name + " =") != std::string::npos)
+                continue;  // the scene says something else
+            if (path.rfind("film.segment", 0) == 0 && text.find("[[film.segment]]") == std::string::npos)
+                continue;
+            std::string with_default;
+            try {
+                const Scene scene = read_text(text, {path + "=" + key.fallback});
+                with_default = resolved_scene(scene, make_plan(scene));
+            } catch (const UserError&) {
+                continue;  // of no use in this one
+            }
+            const Scene plain = read_text(text);
+            EXPECT_EQ(with_default, resolved_scene(plain, make_plan(plain))) << key.path;
+            tried = true;
+        }
+        EXPECT_TRUE(tried) << key.path;
+    }
+}
+
+TEST(Keys, NearestKeyForgivesSwapsAndSlips) {
+    EXPECT_EQ(advice_for_unknown_key("drive.freqeuncy"), "did you mean 'frequency'?");
+    EXPECT_EQ(advice_for_unknown_key("species[3].color"), "did you mean 'colour'?");
+    EXPECT_EQ(advice_for_unknown_key("container.slantheight"), "did you mean 'slant_height'?");
+    EXPECT_EQ(advice_for_unknown_key("film.camera.quality"), "it belongs in [film]");
+}
+
+TEST(Keys, TablesAndArraysOfTables) {
+    EXPECT_TRUE(is_table_path("drive"));
+    EXPECT_TRUE(is_table_path("contact.wall"));
+    EXPECT_TRUE(is_table_path("species[7]"));
+    EXPECT_TRUE(is_table_array_path("species"));
+    EXPECT_TRUE(is_table_array_path("film.segment"));
+    EXPECT_FALSE(is_table_array_path("drive"));
+    EXPECT_FALSE(is_table_path("driv"));
+    EXPECT_EQ(find_key("species[12].count")->path, "species[].count");
+    EXPECT_EQ(find_key("species[12]"), nullptr);
+}
+
+}  // namespace
+}  // namespace grainreel

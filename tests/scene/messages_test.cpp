@@ -1,0 +1,227 @@
+// Every complaint of the reader, word for word.
+#include <gtest/gtest.h>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/plan.hpp"
+#include "engine/scene/reader.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+std::string complaint(const std::string& text, const std::vector<std::string>& sets = {}) {
+    try {
+        make_plan(read_text(text, sets));
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(Messages, Files) {
+    const auto of = [](const char* path) -> std::string {
+        try {
+            read_scene(path);
+        } catch (const UserError& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    EXPECT_EQ(of("/nowhere/scene.toml"),
+              "/nowhere/scene.toml: there is no such file; give the path of a scene file (.toml)");
+    EXPECT_EQ(of("/"), "/: this is a folder; give the path of a scene file (.toml)");
+}
+
+TEST(Messages, NotToml) {
+    EXPECT_EQ(complaint("title = \"x\"\ndiameter = 5 mm\n"),
+              "test.toml:2:14: this is not TOML (Error while parsing key-value pair: expected a comment or "
+              "whitespace, saw "
+              "'m'); text and quantities with units want quotes");
+    EXPECT_EQ(
+        complaint(""),
+        "test.toml: there are no grains; write [[species]] and below it name, count, diameter and density");
+}
+
+struct Case {
+    const char* from;     // text of the wedge scene
+    const char* to;       // what it becomes
+    const char* message;  // after "test.toml:"
+};
+
+class MessagesOfEdits : public testing::TestWithParam<Case> {};
+
+TEST_P(MessagesOfEdits, WordForWord) {
+    EXPECT_EQ(complaint(with(wedge_text, GetParam().from, GetParam().to)),
+              std::string("test.toml:") + GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Keys, MessagesOfEdits,
+    testing::Values(
+        Case{"frequency =", "frequenzy =",
+             "24:1: unknown key 'frequenzy' in [drive]; did you mean 'frequency'?"},
+        Case{"title =", "titel =", "1:1: unknown key 'titel' at the top level; did you mean 'title'?"},
+        Case{"count = 10\n", "cuont = 10\n",
+             "10:1: unknown key 'cuont' in [[species]]; did you mean 'count'?"},
+        Case{"[run]\n", "[run]\nfrequency = 3\n",
+             "27:1: unknown key 'frequency' in [run]; it belongs in [drive]"},
+        Case{"[run]\n", "[run]\nwhatever = 3\n",
+             "27:1: unknown key 'whatever' in [run]; the keys there are duration, seed, threads, step, "
+             "overlap, "
+             "steps_per_contact"},
+        Case{"[drive]\n", "[[drive]]\n", "23:3: 'drive' must be a table; write [drive] above its keys"},
+        Case{"g_level = 3\n", "", "23:2: [drive] lacks 'g_level'; write for example g_level = 0.5"},
+        Case{"count = 100\n", "", "3:1: [[species]] lacks 'count'; write for example count = 100"},
+        Case{"half_angle = \"20 deg\"\n", "",
+             "16:2: [container] lacks 'half_angle'; write for example half_angle = \"20 deg\""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    NoUse, MessagesOfEdits,
+    testing::Values(
+        Case{"g_level = 3", "g_level = 3\namplitude = 0.001",
+             "25:1: 'g_level' is of no use here: 'amplitude' is given; remove it"},
+        Case{"friction = 0.3", "friction = 0.3\nnormal_damping = 5",
+             "16:1: 'normal_damping' is of no use here: the law walton-braun has no damping; remove it"},
+        Case{"restitution = 0.8", "law = \"spring-dashpot\"\nnormal_damping = 5\nrestitution = 0.8",
+             "16:1: 'restitution' is of no use here: 'normal_damping' is given, and the restitution follows "
+             "from it; "
+             "remove it"},
+        Case{"friction = 0.3", "friction = 0.3\nfriction_law = \"none\"",
+             "15:1: 'friction' is of no use here: 'friction_law' is \"none\"; remove it"},
+        Case{"shape = \"wedge\"", "shape = \"box\"",
+             "18:1: 'half_angle' is of no use here: only a wedge has slanted walls; remove it"},
+        Case{"density = 2500", "density = 2500\nmass = 1e-4",
+             "7:1: 'density' is of no use here: 'mass' is given; remove it"},
+        Case{"[run]\n", "[start]\nkeep_clock = true\n[run]\n",
+             "27:1: 'keep_clock' is of no use here: 'method' is \"layers\"; remove it"},
+        Case{"[run]\n", "[[film.segment]]\nphase = 0.5\n[run]\n",
+             "27:1: 'phase' is of no use here: a segment in motion shows every phase; remove it"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, MessagesOfEdits,
+    testing::Values(
+        Case{"\"20 Hz\"", "\"2 mm\"",
+             "24:1: 'frequency' must be a frequency, but \"2 mm\" is a length; write for example \"25 Hz\""},
+        Case{"\"20 deg\"", "\"20 Hz\"",
+             "18:1: 'half_angle' must be an angle, but \"20 Hz\" is a frequency; write for example \"20 "
+             "deg\""},
+        Case{"\"20 Hz\"", "nan",
+             "24:1: 'frequency' must be a frequency, but is nan; write for example \"25 Hz\""},
+        Case{"\"20 Hz\"", "true",
+             "24:1: 'frequency' must be a frequency, but is true; write for example \"25 Hz\""},
+        Case{"\"5 mm\"", "\"-5 mm\"",
+             "6:1: 'diameter' must be larger than 0, but is \"-5 mm\"; write for example \"5 mm\""},
+        Case{"\"5 mm\"", "0", "6:1: 'diameter' must be larger than 0, but is 0; write for example \"5 mm\""},
+        Case{"\"5 mm\"", "{ min = 0.006, max = 0.005 }",
+             "6:14: 'min' must be smaller than 'max'; exchange the two"},
+        Case{"\"5 mm\"", "{ mean = 0.005, deviation = 0.003 }",
+             "6:28: 'deviation' must be less than half of the mean, at which the smallest grains vanish"},
+        Case{"count = 100\n", "count = 0\n",
+             "5:1: 'count' must be a whole number from 1 to 2147483647, but is 0; write for example 100"},
+        Case{"count = 100\n", "count = 10.5\n",
+             "5:1: 'count' must be a whole number from 1 to 2147483647, but is 10.5; write for example 100"},
+        Case{"restitution = 0.8", "restitution = 0",
+             "14:1: 'restitution' must be larger than 0 and at most 1, but is 0; write for example 0.9"},
+        Case{"restitution = 0.8", "restitution = 1.01",
+             "14:1: 'restitution' must be larger than 0 and at most 1, but is 1.01; write for example 0.9"},
+        Case{"\"2 s\"", "0", "27:1: 'duration' must be larger than 0, but is 0; write for example \"10 s\""},
+        Case{"\"2 s\"", "inf", "27:1: 'duration' must be finite, but is inf; write for example \"10 s\""},
+        Case{"\"wedge\"", "\"cone\"",
+             "17:1: 'shape' must be \"wedge\" or \"box\" or \"cylinder\", but is \"cone\""},
+        Case{"name = \"small\"", "name = 3",
+             "4:1: 'name' must be text, but is 3; write for example \"small\""},
+        Case{"name = \"small\"", "name = \"wall\"",
+             "4:1: 'name' must not be \"wall\", which stands for the container; choose another"},
+        Case{"name = \"small\"", "name = \"big\"", "9:1: 'name' \"big\" is taken; choose another"},
+        Case{"g_level = 3", "g_level = 3\nramp = 2",
+             "26:1: 'ramp' must be 0 or at least 3 periods, but is 2"},
+        Case{"g_level = 3", "g_level = 3\ndirection = [0, 0, 0]",
+             "26:1: 'direction' must not be zero; write for example [0, 0, 1]"},
+        Case{"gravity = 10.0", "gravity = 0",
+             "25:1: 'g_level' means nothing without gravity; give 'amplitude' instead"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = \"open\"",
+             "23:1: 'outlet' is \"open\", but open outlets are not modelled yet; write \"closed\""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Together, MessagesOfEdits,
+    testing::Values(
+        Case{"\"10 mm\"", "\"46 mm\"",
+             "11:1: 'diameter' of 0.046 m does not fit in the container, 0.045 m across (container.depth); "
+             "use smaller "
+             "grains or a larger container"},
+        Case{"half_width = \"55 mm\"", "half_width = \"20 mm\"",
+             "20:1: 'half_width' is 0.02 m, but the slanted walls take 0.0254779 m on each side and would "
+             "cross; widen it, "
+             "or reduce half_angle or slant_height"},
+        Case{"slant_height = \"70 mm\"", "slant_height = \"190 mm\"",
+             "19:1: 'slant_height' is 0.19 m, more than the height of the container, 0.18 m; lower it or "
+             "raise the height"},
+        Case{"\"20 deg\"", "\"95 deg\"", "18:1: 'half_angle' must be less than 90 deg, but is 95 deg"},
+        Case{"depth = \"45 mm\"", "depth = \"39 mm\"\nperiodic_depth = true",
+             "21:1: 'depth' of 0.039 m is too short to be periodic, less than 4 diameters of \"big\", 0.04 "
+             "m; lengthen it"},
+        Case{"count = 100\n", "count = 10000\n",
+             "3:3: 10010 grains of 0.0006597 m3 fill 81.4 % of the container's 0.0008107 m3, more than the "
+             "55 % that can be "
+             "packed; use fewer or smaller grains, or a larger container"},
+        Case{"\"2 s\"", "1e300\nstep = 1e-5",
+             "27:1: 1e+300 s in steps of 1e-05 s make 1e+305 steps, more than a 64-bit count holds; shorten "
+             "it or lengthen "
+             "run.step"},
+        Case{"\"2 s\"", "1e-9\nstep = 1e-5",
+             "27:1: 'duration' of 1e-09 s is shorter than half a step of 1e-05 s; lengthen it"},
+        Case{"[run]\n", "[[film.segment]]\nduration = 3\n[run]\n",
+             "26:8: 'segment' shows 3 s, but the run has 2 s; shorten the segments or lengthen run.duration"},
+        Case{"[run]\n", "[[film.segment]]\n[[film.segment]]\n[run]\n",
+             "27:1: 'duration' is missing, and of an earlier segment too; only one may take what the others "
+             "leave"},
+        Case{"[run]\n", "[start]\nmethod = \"file\"\nfile = \"/nowhere/final.csv\"\n[run]\n",
+             "28:1: 'file' names /nowhere/final.csv, which does not exist; give a checkpoint or final.csv"},
+        Case{"[run]\n", "[[contact.pair]]\nbetween = [\"big\", \"nut\"]\n[run]\n",
+             "27:1: 'between' names \"nut\", which is no species; there are small, big, and wall"}));
+
+TEST(Messages, LockedFilmWithoutADrive) {
+    EXPECT_EQ(
+        complaint(box_text + "[[film.segment]]\nkind = \"locked\"\n"),
+        "test.toml:26:1: 'kind' is \"locked\", but nothing oscillates; add [drive] or write \"motion\"");
+}
+
+TEST(Messages, NothingToChooseTheStiffnessBy) {
+    EXPECT_EQ(complaint(with(box_text, "stiffness = 1000\n", "")),
+              "test.toml:12:2: 'stiffness' is missing between \"a\" and \"a\", and with neither drive nor "
+              "gravity nothing "
+              "says how large it must be; write for example stiffness = \"2e4 N/m\"");
+}
+
+TEST(Messages, DampingBeyondTheCritical) {
+    // critical: 2 sqrt(k / m) of the pair of the largest effective mass, half a 1 mm grain's for a-a
+    EXPECT_EQ(complaint(box_text, {"contact.normal_damping=1e5"}),
+              "--set contact.normal_damping: 'normal_damping' of 100000 1/s between \"a\" and \"a\" is not "
+              "below the "
+              "critical 78176.4 1/s, so "
+              "that nothing rebounds; reduce it or raise the stiffness");
+}
+
+TEST(Messages, CommandLine) {
+    EXPECT_EQ(complaint(wedge_text, {"drive.frequenzy=3"}),
+              "--set drive.frequenzy: unknown key 'frequenzy' in [drive]; did you mean 'frequency'?");
+    EXPECT_EQ(complaint(wedge_text, {"foo.bar=3"}),
+              "--set foo.bar: unknown key 'foo' at the top level; the keys there are title, gravity, "
+              "species, contact, "
+              "container, drive, start, run, output, film");
+    EXPECT_EQ(complaint(wedge_text, {"drive.frequency"}),
+              "--set drive.frequency: no assignment; write --set drive.frequency=\"30 Hz\"");
+    EXPECT_EQ(complaint(wedge_text, {"species[2].count=3"}),
+              "--set species[2].count=3: there is no '2' among the 2 entries; they count from 0");
+    EXPECT_EQ(complaint(wedge_text, {"species.huge.count=3"}),
+              "--set species.huge.count=3: there is no 'huge' among the 2 entries; they count from 0");
+    EXPECT_EQ(complaint(wedge_text, {"run.duration.more=3"}),
+              "--set run.duration.more=3: 'run.duration' is not a table; name one of its own keys");
+    EXPECT_EQ(complaint(wedge_text, {"drive.frequency=25 hz"}),
+              "--set drive.frequency: 'frequency' must be a frequency, but \"25 hz\" has the unknown unit "
+              "\"hz\"; write for "
+              "example \"25 Hz\"");
+}
+
+}  // namespace
+}  // namespace grainreel

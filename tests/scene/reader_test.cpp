@@ -1,0 +1,163 @@
+#include "engine/scene/reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/plan.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+using std::numbers::pi;
+
+TEST(Reader, TakesValuesInSi) {
+    const Scene scene = read_text(wedge_text);
+    EXPECT_EQ(scene.name, "test");
+    ASSERT_EQ(scene.species.size(), 2u);
+    EXPECT_EQ(scene.species[1].name, "big");
+    EXPECT_EQ(scene.species[1].count, 10);
+    EXPECT_EQ(scene.species[0].diameter.mean, 0.005);
+    EXPECT_EQ(scene.species[0].diameter.smallest, 0.005);
+    EXPECT_DOUBLE_EQ(scene.container.half_angle, 20 * pi / 180);
+    EXPECT_EQ(scene.container.half_width, 0.055);
+    EXPECT_TRUE(scene.container.lid);
+    EXPECT_EQ(scene.gravity, Vec3(0, 0, -10));
+    EXPECT_EQ(scene.run.duration, 2);
+}
+
+TEST(Reader, AmplitudeFollowsFromTheGLevel) {
+    const Scene scene = read_text(wedge_text);
+    EXPECT_DOUBLE_EQ(scene.drive.amplitude, 3 * 10 / std::pow(2 * pi * 20, 2));
+    EXPECT_DOUBLE_EQ(scene.drive.g_level(10), 3);
+}
+
+TEST(Reader, SpreadsAndMass) {
+    const Scene uniform = read_text(with(wedge_text, "\"5 mm\"", "{ min = \"4 mm\", max = \"6 mm\" }"));
+    EXPECT_EQ(uniform.species[0].diameter.kind, SizeSpread::Kind::uniform);
+    EXPECT_DOUBLE_EQ(uniform.species[0].diameter.mean, 0.005);
+    const Scene normal =
+        read_text(with(wedge_text, "\"5 mm\"", "{ mean = \"5 mm\", deviation = \"0.5 mm\" }"));
+    EXPECT_EQ(normal.species[0].diameter.kind, SizeSpread::Kind::normal);
+    EXPECT_DOUBLE_EQ(normal.species[0].diameter.smallest, 0.004);
+    EXPECT_DOUBLE_EQ(normal.species[0].diameter.largest, 0.006);
+    const Scene mass = read_text(with(wedge_text, "density = 2500", "mass = \"0.2 g\""));
+    EXPECT_DOUBLE_EQ(mass.species[0].density, 0.0002 / (pi / 6 * std::pow(0.005, 3)));
+}
+
+TEST(Reader, WallsInheritAndPairsOverride) {
+    const Scene scene = read_text(wedge_text +
+                                  "[contact.wall]\nfriction = 0.1\n"
+                                  "[[contact.pair]]\nbetween = [\"big\", \"small\"]\nrestitution = 0.5\n"
+                                  "[[contact.pair]]\nbetween = [\"wall\", \"big\"]\nfriction = inf\n");
+    EXPECT_EQ(scene.contact.wall[0].friction, 0.1);
+    EXPECT_EQ(scene.contact.wall[0].restitution, 0.8);
+    EXPECT_EQ(scene.between(0, 1).restitution, 0.5);
+    EXPECT_EQ(scene.between(0, 1), scene.between(1, 0));
+    EXPECT_EQ(scene.between(0, 1).friction, 0.3);
+    EXPECT_EQ(scene.between(0, 0).restitution, 0.8);
+    EXPECT_TRUE(std::isinf(scene.contact.wall[1].friction));
+}
+
+TEST(Reader, NoFrictionAnywhereLeavesOutTheTangentialLaw) {
+    EXPECT_EQ(read_text(with(wedge_text, "friction = 0.3", "friction = 0")).contact.tangential,
+              TangentialLaw::none);
+    const Scene rough_wall =
+        read_text(with(wedge_text, "friction = 0.3", "friction = 0") + "[contact.wall]\nfriction = 0.3\n");
+    EXPECT_EQ(rough_wall.contact.tangential, TangentialLaw::incremental_slip);
+}
+
+TEST(Reader, GravityMayBeAVector) {
+    const Scene scene = read_text(with(wedge_text, "gravity = 10.0", "gravity = [0, \"3 m/s2\", -4]"));
+    EXPECT_EQ(scene.gravity, Vec3(0, 3, -4));
+    EXPECT_DOUBLE_EQ(scene.drive.amplitude, 3 * 5 / std::pow(2 * pi * 20, 2));
+}
+
+TEST(Reader, SetsTakePrecedence) {
+    const Scene scene =
+        read_text(wedge_text, {"species[1].count=30", "species.small.count = 50", "drive.frequency=30 Hz",
+                               "run.duration=\"1 s\"", "start.settle_limit=2", "title=a b = c",
+                               "contact.wall.friction=inf", "film.camera.zoom=1.5"});
+    EXPECT_EQ(scene.species[1].count, 30);
+    EXPECT_EQ(scene.species[0].count, 50);
+    EXPECT_EQ(scene.drive.frequency, 30);
+    EXPECT_EQ(scene.run.duration, 1);
+    EXPECT_EQ(scene.start.settle_limit, 2);
+    EXPECT_EQ(scene.title, "a b = c");
+    EXPECT_TRUE(std::isinf(scene.contact.wall[0].friction));
+    EXPECT_EQ(scene.film.camera.zoom, 1.5);
+}
+
+TEST(Reader, ASetTakesItsRivalOutOfTheFile) {
+    EXPECT_EQ(read_text(wedge_text, {"drive.amplitude=2 mm"}).drive.amplitude, 0.002);
+    EXPECT_NO_THROW(read_text(wedge_text, {"species.big.mass=1 g"}));
+}
+
+TEST(Reader, KnowsWhereEveryValueStands) {
+    const Scene scene = read_text(wedge_text, {"run.duration=1"});
+    EXPECT_EQ(scene.where("species[1].count"), "test.toml:10:1");
+    EXPECT_EQ(scene.where("drive.frequency"), "test.toml:24:1");
+    EXPECT_EQ(scene.where("run.duration"), "--set run.duration");
+    EXPECT_EQ(scene.where("drive.phase"), "test.toml:23:2");  // not written: its table
+    EXPECT_EQ(scene.where("start.method"), "test.toml");
+}
+
+TEST(Reader, StartFileCountsFromTheScenesFolder) {
+    const auto folder = std::filesystem::temp_directory_path() / "grainreel_reader_test";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "final.csv") << "x";
+    std::ofstream(folder / "scene.toml")
+        << wedge_text << "[start]\nmethod = \"file\"\nfile = \"./final.csv\"\n";
+    const Scene scene = read_scene(folder / "scene.toml");
+    EXPECT_EQ(scene.start.file, (folder / "final.csv").string());
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Reader, DefaultFilmIsSlowAtBothEndsAndLockedBetween) {
+    const Scene scene = read_text(wedge_text, {"run.duration=10"});
+    ASSERT_EQ(scene.film.segments.size(), 3u);
+    EXPECT_EQ(scene.film.segments[0].kind, FilmSegment::Kind::motion);
+    EXPECT_DOUBLE_EQ(*scene.film.segments[0].duration, 0.4);
+    EXPECT_EQ(scene.film.segments[0].playback, 0.1);
+    EXPECT_EQ(scene.film.segments[1].kind, FilmSegment::Kind::locked);
+    EXPECT_FALSE(scene.film.segments[1].duration);
+    EXPECT_EQ(scene.film.segments[2], scene.film.segments[0]);
+    // a tenth of a short run; 8 frames a period of a fast drive; real time without a drive
+    EXPECT_DOUBLE_EQ(*read_text(wedge_text).film.segments[0].duration, 0.2);
+    EXPECT_DOUBLE_EQ(read_text(wedge_text, {"drive.frequency=100"}).film.segments[0].playback, 30.0 / 800);
+    const Film still = read_text(box_text).film;
+    ASSERT_EQ(still.segments.size(), 1u);
+    EXPECT_EQ(still.segments[0], FilmSegment{});
+}
+
+const std::string three_segments =
+    "[[film.segment]]\nduration = 0.5\n[[film.segment]]\nkind = \"locked\"\n[[film.segment]]\nduration = "
+    "0.5\n";
+
+TEST(Reader, ARunShortenedOnTheCommandLineShortensItsSegments) {
+    const Scene scene = read_text(wedge_text + three_segments, {"run.duration=0.4"});
+    EXPECT_DOUBLE_EQ(*scene.film.segments[0].duration, 0.1);
+    EXPECT_DOUBLE_EQ(*scene.film.segments[2].duration, 0.1);
+    EXPECT_FALSE(scene.film.segments[1].duration);
+    const Scene all = read_text(wedge_text + "[[film.segment]]\nduration = 2\n", {"run.duration=0.4"});
+    EXPECT_DOUBLE_EQ(*all.film.segments[0].duration, 0.4);
+}
+
+TEST(Reader, ShippedScenesAreRight) {
+    for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
+        if (entry.path().extension() != ".toml") continue;
+        EXPECT_NO_THROW(make_plan(read_scene(entry.path()))) << entry.path();
+    }
+    const Scene scene = read_scene(GRAINREEL_SOURCE "/scenes/wedge_segregation.toml");
+    EXPECT_GE(scene.species[0].count, 1500);
+    EXPECT_GE(scene.species[1].count, 120);
+    EXPECT_EQ(scene.name, "wedge_segregation");
+}
+
+}  // namespace
+}  // namespace grainreel

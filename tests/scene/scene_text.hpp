@@ -1,0 +1,77 @@
+// Small scenes for the tests of reader, plan and writer.
+#pragma once
+
+#include <string>
+
+#include "engine/scene/reader.hpp"
+
+namespace grainreel {
+
+inline const std::string wedge_text = R"(title = "test"
+gravity = 10.0
+[[species]]
+name = "small"
+count = 100
+diameter = "5 mm"
+density = 2500
+[[species]]
+name = "big"
+count = 10
+diameter = "10 mm"
+density = 2500
+[contact]
+restitution = 0.8
+friction = 0.3
+[container]
+shape = "wedge"
+half_angle = "20 deg"
+slant_height = "70 mm"
+half_width = "55 mm"
+depth = "45 mm"
+height = "180 mm"
+[drive]
+frequency = "20 Hz"
+g_level = 3
+[run]
+duration = "2 s"
+)";
+
+// No drive, no gravity: two kinds of grains in a box, of law and stiffness given.
+inline const std::string box_text = R"(gravity = 0
+[[species]]
+name = "a"
+count = 5
+diameter = "1 mm"
+density = 2500
+[[species]]
+name = "b"
+count = 5
+diameter = "2 mm"
+density = 2500
+[contact]
+law = "spring-dashpot"
+stiffness = 1000
+normal_damping = 2634
+friction = 0.5
+[container]
+shape = "box"
+width = 0.02
+depth = 0.02
+height = 0.02
+top = "open"
+[run]
+duration = 0.1
+)";
+
+// `text` with `from` replaced by `to`; fails the test when `from` is not in it.
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    return at == std::string::npos ? throw std::logic_error("no '" + from + "' in the scene")
+                                   : text.replace(at, from.size(), to);
+}
+
+inline Scene read_text(const std::string& text, const std::vector<std::string>& sets = {}) {
+    return read_scene_text(text, "test.toml", sets);
+}
+
+}  // namespace grainreel
