@@ -170,7 +170,8 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
     pair.stiffness_reason = stiffness.reason;
     pair.restitution = contact.restitution;
     pair.friction = rubs ? contact.friction : 0;
-    pair.tangential_stiffness = rubs ? contact.tangential_ratio * stiffness.value : 0;
+    if (scene.contact.tangential != TangentialLaw::none)
+        pair.tangential_stiffness = contact.tangential_ratio * stiffness.value;
     pair.gamma = scene.contact.tangential == TangentialLaw::incremental_slip ? contact.gamma : 0;
     const std::vector<Touching> touching = extremes(a, b);
     pair.effective_mass = touching.front().effective_mass;  // of the smallest of each

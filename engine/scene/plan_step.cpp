@@ -29,17 +29,22 @@ double share_of(double step, double omega) {
     return omega > 0 ? step / omega : std::numeric_limits<double>::infinity();
 }
 
+// What acts: a spring that may carry nothing adds no mode.
+double tangential_stiffness(const PairPlan& pair) {
+    return pair.friction > 0 ? pair.tangential_stiffness : 0;
+}
+
 // omega^2 of the fastest mode of a grain among twelve others, three of them walls at most: 8 K2 / m without
 // friction, 40 K0 / m with spin coupled in (Gerschgorin's bound of the stiffness matrix).
 double bed_frequency(const Plan& plan, std::size_t species, double mass) {
     double unloading = 0, tangential = 0;
     for (std::size_t other = 0; other < plan.wall.size(); ++other) {
         unloading = std::max(unloading, plan.between(species, other).unloading_stiffness);
-        tangential = std::max(tangential, plan.between(species, other).tangential_stiffness);
+        tangential = std::max(tangential, tangential_stiffness(plan.between(species, other)));
     }
     const PairPlan& wall = plan.wall[species];
     const double normal = 0.75 * unloading + 0.25 * std::max(unloading, wall.unloading_stiffness);
-    const double sideways = 0.75 * tangential + 0.25 * std::max(tangential, wall.tangential_stiffness);
+    const double sideways = 0.75 * tangential + 0.25 * std::max(tangential, tangential_stiffness(wall));
     return std::sqrt(std::max(8 * normal, 40 * sideways) / mass);
 }
 
@@ -72,7 +77,7 @@ StepChoice plan_step(const Scene& scene, const Plan& plan) {
                 scene.run.steps_per_contact.value_or(steps_per_contact(plan.normal, pair.restitution));
             demand(pair.contact_time / steps, fmt::format("{} steps in a contact {}", steps, name));
             const double unloading = std::sqrt(pair.unloading_stiffness / pair.effective_mass);
-            const double sideways = std::sqrt(3.5 * pair.tangential_stiffness / pair.effective_mass);
+            const double sideways = std::sqrt(3.5 * tangential_stiffness(pair) / pair.effective_mass);
             demand(share_of(pair_share, unloading), "unloading of a contact " + name);
             demand(share_of(pair_share, sideways), "tangential spring of a contact " + name);
             choice.stable = std::min(choice.stable, share_of(verlet_limit, std::max(unloading, sideways)));

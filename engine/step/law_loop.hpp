@@ -38,6 +38,15 @@ public:
         new_lists(around_.motion.at(-1));
         pairs_.clear_history();
         walls_.clear_history();
+        if constexpr (Law::uses_velocity) {
+            for (std::size_t i = 0; i < grains_.size(); ++i) {
+                grains_.end_velocity[i] = grains_.motion[i].velocity;
+                grains_.end_spin[i] = grains_.spin[i].rate;
+            }
+        }
+        // The first half kick wants the forces of where the grains are now: a step of no length gives them.
+        const Pose rest = around_.motion.at(-1);
+        team_.run([&](int member) { evaluate_forces(member, 0, rest, rest); });
     }
 
     void run(std::int64_t from, std::int64_t count, double step, double drag) override {
@@ -91,25 +100,25 @@ private:
     // positions and velocities between the second and third barrier, while nobody writes them.
     void one_step(int member, std::int64_t n, double step, double keep) {
         const Pose before = around_.motion.at(n), now = around_.motion.at(n + 1);
-        const auto mine = [&] { return std::pair{share_[member], share_[member + 1]}; };
-        {
-            const auto [begin, end] = mine();
-            farthest_[member].squared =
-                kick_and_drift<rubs, Law::uses_velocity>(grains_, listed_at_, around_.gravity, step, begin, end);
-        }
+        farthest_[member].squared = kick_and_drift<rubs, Law::uses_velocity>(
+            grains_, listed_at_, around_.gravity, step, share_[member], share_[member + 1]);
         team_.barrier();
         if (lists_expired(now)) {
             if (team_.size() > 1) team_.barrier();  // nobody may rebuild while another still reads farthest_
             if (member == 0) rebuild(now);
             team_.barrier();
         }
-        const auto [begin, end] = mine();
+        evaluate_forces(member, step, before, now);
+        kick<rubs>(grains_, around_.gravity, step, keep, share_[member], share_[member + 1]);
+    }
+
+    void evaluate_forces(int member, double step, const Pose& before, const Pose& now) {
+        const std::int32_t begin = share_[member], end = share_[member + 1];
         pairs_.find_touching(grains_, begin, end, around_.period, threads_[member]);
         pairs_.compute(grains_, step, around_.period, end, threads_[member]);
         team_.barrier();
         gather<rubs>(threads_, member, begin, end, grains_);
         walls_.apply(grains_, step, before, now, begin, end);
-        kick<rubs>(grains_, around_.gravity, step, keep, begin, end);
     }
 
     bool lists_expired(const Pose& now) const {

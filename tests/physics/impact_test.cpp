@@ -1,0 +1,160 @@
+// Closed forms of single impacts.
+#include <gtest/gtest.h>
+
+#include "engine/laws/walton_braun.hpp"
+#include "tests/physics/world.hpp"
+
+namespace grainreel {
+namespace {
+
+// Two equal spheres closing head-on at speed v, apart by `gap`; t: s from touch to separation.
+struct Impact {
+    double e, contact_time, largest_overlap, lost;
+};
+
+Impact head_on(const PairPlan& pair, double v, double step, double gap) {
+    World w = make_world(pair, step, NormalLaw::walton_braun, TangentialLaw::none);
+    w.grains.add(0, 0, Vec3(-kRadius - gap / 2, 0, 0), kRadius, kDensity);
+    w.grains.add(1, 0, Vec3(kRadius + gap / 2, 0, 0), kRadius, kDensity);
+    w.grains.motion[0].velocity = Vec3(v / 2, 0, 0);
+    w.grains.motion[1].velocity = Vec3(-v / 2, 0, 0);
+    w.start();
+    const double before = kinetic_energy(w.grains).translation;
+    Impact impact{0, 0, 0, 0};
+    std::int64_t touching = 0;
+    for (bool met = false;;) {
+        w.run(1);
+        const double overlap = 2 * kRadius - (w.position(1) - w.position(0)).norm();
+        impact.largest_overlap = std::max(impact.largest_overlap, overlap);
+        // The force ends at the residual overlap, before the spheres part.
+        const bool pushes = w.grains.force[0].squaredNorm() > 0;
+        touching += pushes;
+        if (met && !pushes) break;
+        met = met || pushes;
+    }
+    impact.contact_time = static_cast<double>(touching) * step;
+    impact.e = (w.velocity(1) - w.velocity(0)).x() / v;
+    impact.lost = before - kinetic_energy(w.grains).translation;
+    return impact;
+}
+
+TEST(NormalImpact, FollowsTheClosedFormsOfWaltonAndBraun) {
+    const double effective = sphere_mass() / 2, v = 0.3;
+    for (const double e : {0.3, 0.6, 0.9, 1.0}) {
+        const double time = std::numbers::pi / 2 * (1 + e) * std::sqrt(effective / kStiffness);
+        const double step = time / 4000;
+        const Impact impact = head_on(walton_braun_pair(e, 0), v, step, 0.37 * v * step);
+        EXPECT_NEAR(impact.e, e, 2e-4) << e;
+        EXPECT_NEAR(impact.contact_time, time, 3 * step) << e;
+        const double deepest = v * std::sqrt(effective / kStiffness);
+        EXPECT_NEAR(impact.largest_overlap, deepest, 1e-3 * deepest) << e;
+        EXPECT_NEAR(impact.lost, 0.5 * effective * v * v * (1 - e * e), 1e-3 * effective * v * v) << e;
+    }
+}
+
+// physics.md section 6 (derived): largest error of e over the phase of the first touch, plain velocity Verlet.
+TEST(NormalImpact, RestitutionErrorOfCoarseStepsIsTheTableOfSectionSix) {
+    struct Row {
+        double e;
+        int steps;
+        double error;
+    };
+    for (const Row& row : {Row{0.9, 5, 0.019}, Row{0.9, 10, 0.0032}, Row{0.3, 10, 0.013}, Row{0.3, 20, 0.0014}}) {
+        const double effective = sphere_mass() / 2, v = 0.3;
+        const double time = std::numbers::pi / 2 * (1 + row.e) * std::sqrt(effective / kStiffness);
+        const double step = time / row.steps;
+        double largest = 0;
+        for (int phase = 0; phase < 200; ++phase) {
+            const Impact impact = head_on(walton_braun_pair(row.e, 0), v, step, (phase + 0.5) / 200 * v * step);
+            largest = std::max(largest, std::abs(impact.e - row.e));
+        }
+        EXPECT_NEAR(largest, row.error, 0.08 * row.error) << row.e << " with " << row.steps << " steps";
+    }
+}
+
+TEST(NormalImpact, EndsAtTheResidualOverlap) {
+    const double e = 0.6, v = 0.3, effective = sphere_mass() / 2;
+    const double deepest = v * std::sqrt(effective / kStiffness);
+    const PairPlan pair = walton_braun_pair(e, 0);
+    WaltonBraun::Parameters p(pair);
+    WaltonBraun::History h;
+    Touch touch{};
+    touch.overlap = deepest;
+    EXPECT_DOUBLE_EQ(WaltonBraun::force(p, h, touch), kStiffness * deepest);
+    const double residual = (1 - e * e) * deepest;
+    touch.overlap = residual * 1.000001;
+    EXPECT_GT(WaltonBraun::force(p, h, touch), 0);
+    touch.overlap = residual * 0.999999;
+    EXPECT_EQ(WaltonBraun::force(p, h, touch), 0);
+    // Reloading from the gap goes up K2, not K1, until it meets K1 again; the residual did not shrink.
+    touch.overlap = residual + 0.25 * (deepest - residual);
+    EXPECT_NEAR(WaltonBraun::force(p, h, touch), kStiffness / (e * e) * (touch.overlap - residual), 1e-9);
+    touch.overlap = 1.5 * deepest;
+    EXPECT_DOUBLE_EQ(WaltonBraun::force(p, h, touch), kStiffness * 1.5 * deepest);
+}
+
+// One sphere against the floor at an angle; mu infinite: v_t' = v_t cos[sqrt(3.5 K0/K1) (pi/2)(1 + e)].
+TEST(ObliqueImpact, StickingContactTurnsTheSlipAsTheClosedFormSays) {
+    for (const double e : {0.5, 0.9}) {
+        for (const double ratio : {0.3, 0.8}) {
+            World w = make_world(walton_braun_pair(e, INFINITY, ratio), 0);
+            const double time = std::numbers::pi / 2 * (1 + e) * std::sqrt(sphere_mass() / kStiffness);
+            w.plan.clock.step = time / 2000;
+            w.around.faces = {floor_face()};
+            const double vn = 0.05, vt = 0.05;
+            w.grains.add(0, 0, Vec3(0, 0, kRadius + 0.4 * vn * w.plan.clock.step), kRadius, kDensity);
+            w.grains.motion[0].velocity = Vec3(vt, 0, -vn);
+            w.start();
+            w.run(1);
+            while (w.grains.force[0].z() > 0 || w.step < 100) w.run(1);  // up to the end of the normal force
+            const double slip = w.velocity(0).x() - kRadius * w.spin(0).y();
+            const double angle = std::sqrt(3.5 * ratio) * std::numbers::pi / 2 * (1 + e);
+            EXPECT_NEAR(w.velocity(0).z(), e * vn, 2e-3 * vn);
+            EXPECT_NEAR(slip, vt * std::cos(angle), 0.01 * vt) << e << " " << ratio;
+        }
+    }
+}
+
+TEST(ObliqueImpact, SlidingContactTakesCoulombsShare) {
+    const double e = 0.9, mu = 0.2, vn = 0.05, ratio = 0.8;
+    const double vt = 1.5 * vn * mu * std::max({3.5, 1 / ratio, 3.5 * (1 + e) - 1 / (e * ratio)});
+    World w = make_world(walton_braun_pair(e, mu, ratio), 0, NormalLaw::walton_braun, TangentialLaw::linear_spring);
+    w.plan.clock.step = std::numbers::pi / 2 * (1 + e) * std::sqrt(sphere_mass() / kStiffness) / 2000;
+    w.around.faces = {floor_face()};
+    w.grains.add(0, 0, Vec3(0, 0, kRadius + 0.4 * vn * w.plan.clock.step), kRadius, kDensity);
+    w.grains.motion[0].velocity = Vec3(vt, 0, -vn);
+    w.start();
+    w.run(4000);
+    EXPECT_NEAR(vt - w.velocity(0).x(), mu * (1 + e) * vn, 5e-3 * mu * (1 + e) * vn);
+    EXPECT_NEAR(w.spin(0).y(), 2.5 * mu * (1 + e) * vn / kRadius, 5e-3 * 2.5 * mu * (1 + e) * vn / kRadius);
+}
+
+// Two unequal spheres off-centre, spinning: linear and angular momentum to round-off with arms to the plane.
+TEST(ObliqueImpact, KeepsLinearAndAngularMomentum) {
+    World w = make_world(walton_braun_pair(0.7, 0.4), 1e-7);
+    w.grains.add(0, 0, Vec3(-1.01 * kRadius, 0.3 * kRadius, 0), kRadius, kDensity);
+    w.grains.add(1, 0, Vec3(0.62 * kRadius, 0, 0.2 * kRadius), 0.6 * kRadius, kDensity);
+    w.grains.motion[0].velocity = Vec3(0.4, 0, 0.1);
+    w.grains.motion[1].velocity = Vec3(-0.2, 0.1, 0);
+    w.grains.spin[0].rate = Vec3(20, -30, 50);
+    w.start();
+    const auto momenta = [&] {
+        Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+        for (std::size_t i = 0; i < w.grains.size(); ++i) {
+            const Vec3 p = w.grains.mass(i) * w.grains.motion[i].velocity;
+            linear += p;
+            angular += w.grains.place[i].position.cross(p) + w.grains.inertia(i) * w.grains.spin[i].rate;
+        }
+        return std::pair(linear, angular);
+    };
+    const auto [linear, angular] = momenta();
+    w.run(8000);
+    ASSERT_GT(w.loop->listed_pairs(), 0u);
+    ASSERT_GT((w.velocity(0) - Vec3(0.4, 0, 0.1)).norm(), 0.01) << "they never met";
+    const auto [linear_after, angular_after] = momenta();
+    EXPECT_LT((linear_after - linear).norm(), 1e-13 * linear.norm());
+    EXPECT_LT((angular_after - angular).norm(), 1e-11 * angular.norm());
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,83 @@
+// A few grains, faces and laws, put together by hand: what the closed forms are tested on.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "engine/measure/energy.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+struct World {
+    Plan plan;
+    Surroundings around;
+    Grains grains;
+    std::unique_ptr<Team> team = std::make_unique<Team>(1);
+    std::unique_ptr<StepLoop> loop;
+    std::int64_t step = 0;
+
+    void start() {
+        if (around.skin == 0) around.skin = 0.2 * grains.place[0].radius;
+        loop = make_step_loop(plan, around, grains, *team);
+        loop->restart();
+    }
+    void run(std::int64_t count) {
+        loop->run(step, count, plan.clock.step, 0);
+        step += count;
+    }
+    std::size_t index_of(std::int32_t id) const {
+        for (std::size_t i = 0; i < grains.size(); ++i) {
+            if (grains.id[i] == id) return i;
+        }
+        return grains.size();
+    }
+    const Vec3& position(std::int32_t id) const { return grains.place[index_of(id)].position; }
+    const Vec3& velocity(std::int32_t id) const { return grains.motion[index_of(id)].velocity; }
+    const Vec3& spin(std::int32_t id) const { return grains.spin[index_of(id)].rate; }
+    double energy() const {
+        const Kinetic k = kinetic_energy(grains);
+        return k.translation + k.rotation + gravitational_energy(grains, around.gravity) +
+               summarise_contacts(*loop, step).stored;
+    }
+};
+
+constexpr double kRadius = 0.002;     // m
+constexpr double kDensity = 2500;     // kg/m3
+constexpr double kStiffness = 1e5;    // N/m
+inline double sphere_mass(double radius = kRadius) {
+    return kDensity * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+
+inline PairPlan walton_braun_pair(double e, double friction, double tangential_ratio = 0.8) {
+    PairPlan p;
+    p.loading_stiffness = kStiffness;
+    p.unloading_stiffness = kStiffness / (e * e);
+    p.tangential_stiffness = tangential_ratio * kStiffness;
+    p.gamma = 1.0 / 3.0;
+    p.restitution = e;
+    p.friction = friction;
+    return p;
+}
+
+// One species, the same contact everywhere, nothing around it.
+inline World make_world(const PairPlan& pair, double step, NormalLaw normal = NormalLaw::walton_braun,
+                        TangentialLaw tangential = TangentialLaw::incremental_slip) {
+    World w;
+    w.plan.normal = normal;
+    w.plan.tangential = tangential;
+    w.plan.grain.assign(1, pair);
+    w.plan.wall.assign(1, pair);
+    w.plan.clock.step = step;
+    return w;
+}
+
+inline Face floor_face() {
+    Face f;
+    f.name = "floor";
+    f.normal = Vec3(0, 0, 1);
+    return f;
+}
+
+}  // namespace grainreel
