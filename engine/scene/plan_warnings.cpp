@@ -43,7 +43,7 @@ void warn_of_drive(const Scene& scene, const BedPlan& bed, Warnings& warnings) {
                                  drive.ramp / drive.frequency, scene.run.duration));
     const bool elastic = std::any_of(
         scene.contact.grain.begin(), scene.contact.grain.end(),
-        [](const PairContact& pair) { return pair.restitution == 1 && !pair.normal_damping.value_or(0); });
+        [](const PairContact& pair) { return pair.restitution == 1 && !pair.normal_damping; });
     if (elastic)
         warnings.add("contact",
                      "restitution 1 loses no energy, so the drive heats the grains without limit; lower it");
