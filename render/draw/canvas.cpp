@@ -68,8 +68,8 @@ void Shapes::line(const std::vector<Pixel>& points, bool closed, double width, c
     std::vector<Pixel> mitre(count);
     for (std::size_t i = 0; i < count; ++i) {
         const bool first = i == 0 && !closed, last = i + 1 == count && !closed;
-        const Pixel before = first ? left_of(points[0], points[1])
-                                   : left_of(points[(i + count - 1) % count], points[i]);
+        const Pixel before =
+            first ? left_of(points[0], points[1]) : left_of(points[(i + count - 1) % count], points[i]);
         const Pixel after = last ? before : left_of(points[i], points[(i + 1) % count]);
         const Pixel sum = (before + after).normalized();
         mitre[i] = sum / std::max(mitre_limit, sum.dot(after));

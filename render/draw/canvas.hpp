@@ -18,30 +18,30 @@ struct Paint {
 
 // A list of shapes, made anew every frame.
 class Shapes {
-public:
+  public:
     void polygon(const std::vector<Pixel>& corners, const Paint& paint);  // convex
     // width: pixels. Corners are mitred, so a translucent line shows no knots.
     void line(const std::vector<Pixel>& points, bool closed, double width, const Paint& paint);
     void clear() { vertices_.clear(); }
 
     struct Vertex {
-        float x, y;                       // pixels
-        float across, half_width;         // signed distance from the line's middle; half its width
-        float red, green, blue, alpha;    // sRGB, not premultiplied
+        float x, y;                     // pixels
+        float across, half_width;       // signed distance from the line's middle; half its width
+        float red, green, blue, alpha;  // sRGB, not premultiplied
     };
     const std::vector<Vertex>& vertices() const { return vertices_; }
 
-private:
+  private:
     std::vector<Vertex> vertices_;  // triangles
 };
 
 // Paints shapes into the framebuffer that is bound, whose size is width x height.
 class ShapePainter {
-public:
+  public:
     explicit ShapePainter(const gl::Functions& gl);
     void paint(const Shapes& shapes, int width, int height) const;
 
-private:
+  private:
     const gl::Functions& gl_;
     gl::Program program_;
     gl::VertexArray array_;

@@ -40,7 +40,8 @@ std::string diameter_text(const SizeSpread& diameter) {
     if (diameter.kind == SizeSpread::Kind::fixed || diameter.smallest == diameter.largest)
         return length_text(diameter.largest);
     const Unit unit = length_unit(diameter.largest * 1.0000001);
-    return fmt::format("{:.3g}–{:.3g} {}", diameter.smallest / unit.size, diameter.largest / unit.size, unit.name);
+    return fmt::format("{:.3g}–{:.3g} {}", diameter.smallest / unit.size, diameter.largest / unit.size,
+                       unit.name);
 }
 
 double round_length(double longest) {

@@ -44,8 +44,8 @@ void draw_lab_marks(const Scene& scene, const Sketches& sketches, Shapes& on) {
         const Vec3 from = mark.foot, to = mark.foot + mark.along;
         sketches.lab.line(on, {from, to}, false, 0.8 * pen, ink);
         for (const double end : {-1.0, 1.0})
-            sketches.lab.line(on, {from + end * mark.stroke, from + 0.45 * mark.along + end * mark.stroke}, false,
-                              0.8 * pen, ink);
+            sketches.lab.line(on, {from + end * mark.stroke, from + 0.45 * mark.along + end * mark.stroke},
+                              false, 0.8 * pen, ink);
         sketches.lab.line(on, {from - mark.stroke, from + mark.stroke}, false, 0.8 * pen, ink);
         const Vec3 side = 0.35 * thickness * mark.stroke.normalized();
         const Vec3 back = mark.foot - 0.9 * thickness * unit;
@@ -64,11 +64,13 @@ std::vector<Vec3> framing_points(const Scene& scene) {
                                           ? cylinder_corners(scene.container)
                                           : prism_corners(scene.container);
     std::vector<Vec3> points;
-    const Vec3 stroke = scene.drive.present ? Vec3(scene.drive.amplitude * scene.drive.direction) : Vec3(0, 0, 0);
+    const Vec3 stroke =
+        scene.drive.present ? Vec3(scene.drive.amplitude * scene.drive.direction) : Vec3(0, 0, 0);
     for (const double end : {-1.0, 1.0}) {
         for (const Vec3& corner : corners) points.push_back(corner + end * stroke);
         for (const LabMark& mark : lab_marks(scene))
-            for (const Vec3& point : {mark.foot, Vec3(mark.foot + mark.along)}) points.push_back(point + end * stroke);
+            for (const Vec3& point : {mark.foot, Vec3(mark.foot + mark.along)})
+                points.push_back(point + end * stroke);
     }
     return points;
 }

@@ -1,8 +1,8 @@
-// The container as a cut-away: walls of visible thickness, behind the grains where the eye looks at their inner
-// side and as bare glass edges over the grains where it looks at them from outside.
+// The container as a cut-away: walls of visible thickness, behind the grains where the eye looks at their
+// inner side and as bare glass edges over the grains where it looks at them from outside.
 //
-// The container is convex and the grains are inside, so no depth test is needed: what lies behind the grains is
-// painted before them, what lies in front after them, and every edge stays smooth.
+// The container is convex and the grains are inside, so no depth test is needed: what lies behind the grains
+// is painted before them, what lies in front after them, and every edge stays smooth.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,8 @@ namespace grainreel {
 // m: how thick walls, floor and lid are drawn.
 double drawn_thickness(const Container& container);
 
-// Every point that has to stay in the picture: the drawn container at rest and at both ends of its stroke, and
-// the marks beside it.
+// Every point that has to stay in the picture: the drawn container at rest and at both ends of its stroke,
+// and the marks beside it.
 std::vector<Vec3> framing_points(const Scene& scene);
 
 // The scene's camera, set so that all of them are in the layout's port.

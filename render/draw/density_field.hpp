@@ -15,12 +15,12 @@ struct Crowding {
 };
 
 class DensityField {
-public:
+  public:
     // Rebuilds the field from the grains and samples it around each; cost is linear in grains and cells.
     // The field is continuous in the positions, so nothing flickers.
     const std::vector<Crowding>& update(const Frame& frame);
 
-private:
+  private:
     void place_cells(const Frame& frame);
     void deposit(const Vec3& centre, double radius);
     void deposit_small(const Vec3& at, double volume);

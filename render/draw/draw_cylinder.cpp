@@ -14,7 +14,8 @@ Vec3 on_circle(double radius, double angle, double z) {
 }
 
 std::vector<Vec3> arc(double radius, double from, double to, double z) {
-    const int count = std::max(2, static_cast<int>(std::ceil(steps * std::abs(to - from) / (2 * std::numbers::pi))));
+    const int count =
+        std::max(2, static_cast<int>(std::ceil(steps * std::abs(to - from) / (2 * std::numbers::pi))));
     std::vector<Vec3> points;
     for (int i = 0; i <= count; ++i) points.push_back(on_circle(radius, from + (to - from) * i / count, z));
     return points;
@@ -27,7 +28,7 @@ std::vector<Vec3> circle(double radius, double z) {
 }
 
 class Cylinder {
-public:
+  public:
     Cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes)
         : radius_(container.half_width),
           height_(container.height),
@@ -36,11 +37,13 @@ public:
           sketches_(sketches),
           shapes_(shapes) {
         const View& view = sketches.walls.view();
-        const Vec3 to_eye = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - sketches.walls.offset());
+        const Vec3 to_eye =
+            view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - sketches.walls.offset());
         const double distance = std::hypot(to_eye.x(), to_eye.y());
         facing_ = std::atan2(to_eye.y(), to_eye.x());
         // Where lines of sight touch the tube: cos = R / distance from the direction to the eye.
-        half_visible_ = view.orthographic ? 0.5 * std::numbers::pi : std::acos(std::min(1.0, radius_ / distance));
+        half_visible_ =
+            view.orthographic ? 0.5 * std::numbers::pi : std::acos(std::min(1.0, radius_ / distance));
     }
 
     void draw() {
@@ -51,7 +54,7 @@ public:
         if (!lid_) rim();
     }
 
-private:
+  private:
     // A disc with a rim, in front of the grains when the eye is on its outer side.
     void plate(const Sketch& sketch, double low, double high, double up) {
         const double inner = up > 0 ? low : high, outer = up > 0 ? high : low;
@@ -107,9 +110,10 @@ private:
         const Sketch& walls = sketches_.walls;
         for (const double radius : {radius_, radius_ + thickness_}) {
             const double a = facing_ - half_visible_, b = facing_ + half_visible_;
-            walls.line(shapes_.behind, arc(radius, b, a + 2 * std::numbers::pi, height_), false, 0.6 * walls.pen,
-                       walls.far_edge());
-            walls.line(shapes_.before, arc(radius, a, b, height_), false, 0.6 * walls.pen, walls.glass_edge());
+            walls.line(shapes_.behind, arc(radius, b, a + 2 * std::numbers::pi, height_), false,
+                       0.6 * walls.pen, walls.far_edge());
+            walls.line(shapes_.before, arc(radius, a, b, height_), false, 0.6 * walls.pen,
+                       walls.glass_edge());
         }
     }
 

@@ -1,4 +1,5 @@
 // Wedge and box: a cross-section in (y, z), drawn out along x.
+#include <algorithm>
 #include <cmath>
 
 #include "render/draw/drawing_kit.hpp"
@@ -8,7 +9,9 @@ namespace {
 
 using Flat = Eigen::Vector2d;  // y, z in m
 
-Vec3 at(double x, const Flat& p) { return {x, p.x(), p.y()}; }
+Vec3 at(double x, const Flat& p) {
+    return {x, p.x(), p.y()};
+}
 
 // One side wall from the floor up: its inner line, and the outer one a wall's thickness away.
 struct Profile {
@@ -50,7 +53,7 @@ Plate lid_plate(const Container& container) {
 }
 
 class Prism {
-public:
+  public:
     Prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes)
         : container_(container), sketches_(sketches), shapes_(shapes) {
         const double eye_side = -sketches.walls.view().forward.x() >= 0 ? 1 : -1;
@@ -67,7 +70,7 @@ public:
         wall(right);
     }
 
-private:
+  private:
     // The back pane, tinted, and the outlines of both; none where the depth is periodic.
     void panes(const Profile& left, const Profile& right) {
         if (container_.periodic_depth) return;
@@ -77,8 +80,11 @@ private:
         for (const Vec3& p : back) front.emplace_back(near_, p.y(), p.z());
         const Sketch& walls = sketches_.walls;
         walls.polygon(shapes_.behind, back, walls.pane());
-        walls.line(shapes_.behind, back, true, 0.7 * walls.pen, walls.far_edge());
-        walls.line(shapes_.before, front, true, 0.6 * walls.pen, walls.glass_edge());
+        // Open lines: a lid has edges of its own there, an open top gets the panes' bare rims.
+        std::rotate(back.begin(), back.begin() + left.inner.size(), back.end());
+        std::rotate(front.begin(), front.begin() + left.inner.size(), front.end());
+        walls.line(shapes_.behind, back, !container_.lid, 0.7 * walls.pen, walls.far_edge());
+        walls.line(shapes_.before, front, !container_.lid, 0.6 * walls.pen, walls.glass_edge());
     }
 
     void wall(const Profile& profile) {
@@ -87,7 +93,8 @@ private:
         const bool back = !walls.faces(at(0, profile.inner.front()), outward(profile, 0));
         Shapes& on = back ? shapes_.behind : shapes_.before;
         const Paint paint = back ? walls.edge() : walls.glass_edge();
-        walls.line(on, {at(near_, profile.inner.back()), at(near_, profile.outer.back())}, false, walls.pen, paint);
+        walls.line(on, {at(near_, profile.inner.back()), at(near_, profile.outer.back())}, false, walls.pen,
+                   paint);
         walls.line(on, {at(near_, profile.inner.front()), at(near_, profile.outer.front())}, false, walls.pen,
                    paint);
     }
@@ -109,11 +116,14 @@ private:
         Shapes& on = back ? shapes_.behind : shapes_.before;
         walls.polygon(on, inner, back ? walls.inner_face() : walls.glass_face());
         const Paint thin = back ? walls.far_edge() : walls.glass_edge();
-        for (const Flat& p : {a, b}) walls.line(on, {at(near_, p), at(far_, p)}, false, 0.6 * walls.pen, thin);
+        for (const Flat& p : {a, b})
+            walls.line(on, {at(near_, p), at(far_, p)}, false, 0.6 * walls.pen, thin);
         if (back) walls.line(on, {at(far_, a), at(far_, b)}, false, 0.7 * walls.pen, thin);
         walls.polygon(on, section, back ? walls.cut() : walls.glass_cut());
-        walls.line(on, {at(near_, a), at(near_, b)}, false, walls.pen, back ? walls.edge() : walls.glass_edge());
-        walls.line(on, {at(near_, c), at(near_, d)}, false, walls.pen, back ? walls.edge() : walls.glass_edge());
+        walls.line(on, {at(near_, a), at(near_, b)}, false, walls.pen,
+                   back ? walls.edge() : walls.glass_edge());
+        walls.line(on, {at(near_, c), at(near_, d)}, false, walls.pen,
+                   back ? walls.edge() : walls.glass_edge());
     }
 
     // up: +1 for the lid, -1 for the floor, whose outward normal points down.
@@ -156,7 +166,8 @@ private:
 }  // namespace
 
 double outer_floor_half_width(const Container& container) {
-    if (container.shape == Container::Shape::cylinder) return container.half_width + drawn_thickness(container);
+    if (container.shape == Container::Shape::cylinder)
+        return container.half_width + drawn_thickness(container);
     return wall_profile(container, 1).outer.front().x();
 }
 

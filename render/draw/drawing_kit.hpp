@@ -10,7 +10,7 @@ namespace grainreel {
 
 // Draws shapes given in metres, in the frame of something that has moved by `offset`.
 class Sketch {
-public:
+  public:
     Sketch(const View& view, const Palette& colours, int picture_height, const Vec3& offset)
         : palette(colours), pen(std::max(1.0, picture_height / 600.0)), view_(view), offset_(offset) {}
 
@@ -21,7 +21,8 @@ public:
     void polygon(Shapes& on, const std::vector<Vec3>& corners, const Paint& paint) const {
         on.polygon(project(corners), paint);
     }
-    void line(Shapes& on, const std::vector<Vec3>& points, bool closed, double width, const Paint& paint) const {
+    void line(Shapes& on, const std::vector<Vec3>& points, bool closed, double width,
+              const Paint& paint) const {
         on.line(project(points), closed, width, paint);
     }
 
@@ -39,7 +40,7 @@ public:
     const Palette& palette;
     const double pen;  // pixels, the width of a main line
 
-private:
+  private:
     std::vector<Pixel> project(const std::vector<Vec3>& points) const {
         std::vector<Pixel> pixels;
         pixels.reserve(points.size());

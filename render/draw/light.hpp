@@ -5,13 +5,13 @@
 namespace grainreel::light {
 
 inline constexpr double key_direction[3] = {-0.48, 0.66, -0.58};  // towards the light, nearly unit
-inline constexpr double key = 0.60;          // of the albedo, where the key light falls straight
-inline constexpr double sky = 0.50;          // ambient from above ...
-inline constexpr double ground = 0.26;       // ... and from below
-inline constexpr double rim = 0.50;          // what is left at the silhouette, so that grains stay separable
-inline constexpr double rim_width = 0.50;    // cosine between normal and line of sight where that ends
-inline constexpr double shine = 0.16;        // of the highlight
+inline constexpr double key = 0.60;        // of the albedo, where the key light falls straight
+inline constexpr double sky = 0.50;        // ambient from above ...
+inline constexpr double ground = 0.26;     // ... and from below
+inline constexpr double rim = 0.50;        // what is left at the silhouette, so that grains stay separable
+inline constexpr double rim_width = 0.50;  // cosine between normal and line of sight where that ends
+inline constexpr double shine = 0.16;      // of the highlight
 inline constexpr double shine_power = 40;
-inline constexpr double crowding = 0.95;     // darkening per unit of solid fraction around
+inline constexpr double crowding = 0.95;  // darkening per unit of solid fraction around
 
 }  // namespace grainreel::light

@@ -15,7 +15,8 @@ namespace {
 
 // The same formula as `lit` in sphere_shaders.cpp, seen straight on and with nothing around.
 Colour lit(const Vec3& normal, const Colour& albedo) {
-    const Vec3 to_light = Vec3(light::key_direction[0], light::key_direction[1], light::key_direction[2]).normalized();
+    const Vec3 to_light =
+        Vec3(light::key_direction[0], light::key_direction[1], light::key_direction[2]).normalized();
     const double facing = std::clamp(-normal.z(), 0.0, 1.0);
     const double key = light::key * std::max(0.0, 0.15 + 0.85 * normal.dot(to_light));
     const double ambient = light::ground + (light::sky - light::ground) * (0.5 + 0.5 * normal.y());

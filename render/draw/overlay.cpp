@@ -33,8 +33,8 @@ TextSize static_part(const Writer& writer, const Scene& scene, const View* view,
     return {width, y};
 }
 
-TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& frame, const std::string& playback,
-                       double width, bool portrait) {
+TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& frame,
+                       const std::string& playback, double width, bool portrait) {
     const TypeScale& type = writer.type;
     const bool dial = scene.drive.present;
     const double x = portrait ? type.margin : 0.5 * type.margin;
@@ -88,7 +88,8 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
 Overlay::Surface Overlay::blank(const Rectangle& part) const {
     Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, part.width, part.height));
     const Context on(cairo_create(surface.get()));
-    cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green, palette_.background.blue);
+    cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green,
+                         palette_.background.blue);
     cairo_paint(on.get());
     return surface;
 }
@@ -97,9 +98,11 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
     if (!first_written_) copy(first_.get(), layout_.first, picture);
     first_written_ = true;
     const Context on(cairo_create(second_.get()));
-    cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green, palette_.background.blue);
+    cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green,
+                         palette_.background.blue);
     cairo_paint(on.get());
-    changing_part({on.get(), type_, palette_}, scene_, frame, playback, layout_.second.width, layout_.portrait);
+    changing_part({on.get(), type_, palette_}, scene_, frame, playback, layout_.second.width,
+                  layout_.portrait);
     copy(second_.get(), layout_.second, picture);
 }
 
@@ -108,7 +111,8 @@ void Overlay::copy(cairo_surface_t* from, const Rectangle& to, Picture& picture)
     const unsigned char* pixels = cairo_image_surface_get_data(from);
     const int stride = cairo_image_surface_get_stride(from);
     for (int y = 0; y < to.height; ++y) {
-        const auto* row = reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(y) * stride);
+        const auto* row =
+            reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(y) * stride);
         std::uint8_t* out = picture.pixel(to.x, to.y + y);
         for (int x = 0; x < to.width; ++x, out += 4) {
             out[0] = static_cast<std::uint8_t>(row[x] >> 16);

@@ -17,17 +17,17 @@ namespace grainreel {
 TextSize static_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
                      double width);
 // Time, dial, drive and playback in the second one. Both return the size that they take, margins left out.
-TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& frame, const std::string& playback,
-                       double width, bool portrait);
+TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& frame,
+                       const std::string& playback, double width, bool portrait);
 
 class Overlay {
-public:
+  public:
     Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
 
     // Writes the gutters into the picture: all of them the first time, then only what changes.
     void write(Picture& picture, const Frame& frame, const std::string& playback);
 
-private:
+  private:
     struct Destroy {
         void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
         void operator()(cairo_t* context) const { cairo_destroy(context); }

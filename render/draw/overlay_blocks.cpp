@@ -24,8 +24,8 @@ void stroke_line(const Writer& writer, double x0, double y0, double x1, double y
     cairo_stroke(writer.on);
 }
 
-// An arrow about (x, y) along (dx, dy), which is half its length; pixels. The head is drawn at the far end, or
-// at both.
+// An arrow about (x, y) along (dx, dy), which is half its length; pixels. The head is drawn at the far end,
+// or at both.
 void arrow(const Writer& writer, double x, double y, double dx, double dy, bool both) {
     const double length = std::hypot(dx, dy), width = std::max(1.0, writer.type.main / 12);
     const double head = 3.2 * width;
@@ -36,8 +36,10 @@ void arrow(const Writer& writer, double x, double y, double dx, double dy, bool 
         const double ux = end * dx / length, uy = end * dy / length;
         const double tip_x = x + end * dx + ux * head * 0.4, tip_y = y + end * dy + uy * head * 0.4;
         cairo_move_to(writer.on, tip_x, tip_y);
-        cairo_line_to(writer.on, tip_x - 1.5 * head * ux - 0.6 * head * uy, tip_y - 1.5 * head * uy + 0.6 * head * ux);
-        cairo_line_to(writer.on, tip_x - 1.5 * head * ux + 0.6 * head * uy, tip_y - 1.5 * head * uy - 0.6 * head * ux);
+        cairo_line_to(writer.on, tip_x - 1.5 * head * ux - 0.6 * head * uy,
+                      tip_y - 1.5 * head * uy + 0.6 * head * ux);
+        cairo_line_to(writer.on, tip_x - 1.5 * head * ux + 0.6 * head * uy,
+                      tip_y - 1.5 * head * uy - 0.6 * head * ux);
         cairo_close_path(writer.on);
         cairo_fill(writer.on);
     }
@@ -58,7 +60,8 @@ TextSize title_block(const Writer& writer, const Scene& scene, double x, double 
 }
 
 TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
-    const double icon = 1.5 * writer.type.main, indent = icon + 0.5 * writer.type.gap, largest = largest_diameter(scene);
+    const double icon = 1.5 * writer.type.main, indent = icon + 0.5 * writer.type.gap,
+                 largest = largest_diameter(scene);
     const double text_wrap = wrap > 0 ? std::max(1.0, wrap - indent) : 0;
     TextSize size;
     const auto line = [&](const std::string& text, const TextStyle& style, const Colour& colour) {
@@ -68,7 +71,8 @@ TextSize legend_block(const Writer& writer, const Scene& scene, double x, double
     };
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         if (i == most_species) {
-            line(fmt::format("and {} more", scene.species.size() - i), writer.minor(), writer.palette.faint_ink);
+            line(fmt::format("and {} more", scene.species.size() - i), writer.minor(),
+                 writer.palette.faint_ink);
             break;
         }
         const Species& species = scene.species[i];
@@ -78,7 +82,8 @@ TextSize legend_block(const Writer& writer, const Scene& scene, double x, double
              writer.palette.faint_ink);
         const double share = std::max(0.25, species.diameter.largest / std::max(largest, 1e-30));
         if (writer.on)
-            draw_lit_ball(writer.on, x + 0.5 * icon, y + 0.5 * (top + size.height), 0.5 * icon * share, species.colour);
+            draw_lit_ball(writer.on, x + 0.5 * icon, y + 0.5 * (top + size.height), 0.5 * icon * share,
+                          species.colour);
         size.height += 0.4 * writer.type.gap;
     }
     return size;
@@ -93,30 +98,33 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
         for (const double end : {x + 0.5 * width, x + pixels - 0.5 * width})
             stroke_line(writer, end, y, end, y + tick, width);
     }
-    const TextSize label = writer.write(x, y + 1.3 * tick, length_text(length), writer.main(), writer.palette.ink);
+    const TextSize label =
+        writer.write(x, y + 1.3 * tick, length_text(length), writer.main(), writer.palette.ink);
     return {std::max(pixels, label.width), 1.3 * tick + label.height};
 }
 
 TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& camera, double x, double y) {
     const View view = fit_view(camera, {Vec3(0, 0, 0), Vec3(1, 1, 1)}, {0, 0, 100, 100}, 0, 100);
-    const double reach = 0.85 * writer.type.main, row = 2.6 * writer.type.main, indent = 1.5 * writer.type.main;
+    const double reach = 0.85 * writer.type.main, row = 2.6 * writer.type.main,
+                 indent = 1.5 * writer.type.main;
     TextSize size;
     const auto entry = [&](const Vec3& direction, bool both, const std::string& label) {
         const double middle = y + size.height + 0.5 * row;
         if (writer.on) {
             set_colour(writer, both ? writer.palette.accent : writer.palette.ink);
-            arrow(writer, x + 0.5 * indent, middle, reach * direction.dot(view.right), -reach * direction.dot(view.up),
-                  both);
+            arrow(writer, x + 0.5 * indent, middle, reach * direction.dot(view.right),
+                  -reach * direction.dot(view.up), both);
         }
         const double half_line = 0.5 * measure_text(label, writer.minor()).height;
-        const TextSize text = writer.write(x + indent + 0.4 * writer.type.gap, middle - half_line, label, writer.minor(),
-                                           writer.palette.faint_ink);
+        const TextSize text = writer.write(x + indent + 0.4 * writer.type.gap, middle - half_line, label,
+                                           writer.minor(), writer.palette.faint_ink);
         size.width = std::max(size.width, indent + 0.4 * writer.type.gap + text.width);
         size.height += row;
     };
     if (scene.gravity.norm() > 0) entry(scene.gravity.normalized(), false, "gravity");
     if (scene.drive.present)
-        entry(scene.drive.direction, true, scene.drive.moves == Drive::Moves::floor ? "floor vibrates" : "vibration");
+        entry(scene.drive.direction, true,
+              scene.drive.moves == Drive::Moves::floor ? "floor vibrates" : "vibration");
     return size;
 }
 
@@ -150,15 +158,16 @@ TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y
         stroke_line(writer, cx - radius, cy, cx + radius, cy, 0.6 * pen);
         stroke_line(writer, x + bar, cy - radius, x + bar, cy + radius, pen);
         for (const double level : {-1.0, 0.0, 1.0})
-            stroke_line(writer, x + bar - 3 * pen, cy + level * radius, x + bar + 3 * pen, cy + level * radius, pen);
+            stroke_line(writer, x + bar - 3 * pen, cy + level * radius, x + bar + 3 * pen,
+                        cy + level * radius, pen);
         return size;
     }
     // Counter-clockwise from the right: the tip's height is the sine of the phase, as the displacement is.
     const double angle = 2 * std::numbers::pi * frame->phase;
     const double tip_x = cx + radius * std::cos(angle), tip_y = cy - radius * std::sin(angle);
     if (frame->time < 0) return size;  // the drive is off: no hand
-    cairo_set_source_rgba(writer.on, writer.palette.accent.red, writer.palette.accent.green, writer.palette.accent.blue,
-                          0.14);
+    cairo_set_source_rgba(writer.on, writer.palette.accent.red, writer.palette.accent.green,
+                          writer.palette.accent.blue, 0.14);
     cairo_new_path(writer.on);
     cairo_move_to(writer.on, cx, cy);
     cairo_arc_negative(writer.on, cx, cy, radius, 0, -angle);
@@ -179,7 +188,8 @@ TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& fram
     TextSize size = writer.write(x, y, time_text(frame.time), writer.strong(), writer.palette.ink);
     if (!scene.drive.present) return size;
     const auto line = [&](const std::string& text) {
-        const TextSize part = writer.write(x, y + size.height, text, writer.minor(), writer.palette.faint_ink);
+        const TextSize part =
+            writer.write(x, y + size.height, text, writer.minor(), writer.palette.faint_ink);
         size = {std::max(size.width, part.width), size.height + part.height};
     };
     if (frame.time < 0) {

@@ -20,6 +20,12 @@ inline double to_srgb(double linear) {
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
+// To whole 8-bit steps, so that Cairo and OpenGL, which round differently, write the same bytes.
+inline Colour in_bytes(const Colour& colour) {
+    const auto step = [](double value) { return std::round(255 * value) / 255; };
+    return {step(colour.red), step(colour.green), step(colour.blue)};
+}
+
 struct Palette {
     Colour background, ink, faint_ink, solid, accent;
 };
@@ -29,7 +35,7 @@ inline Palette make_palette(const Colour& background) {
                              0.0722 * to_linear(background.blue);
     const bool light = luminance > 0.18;
     Palette palette;
-    palette.background = background;
+    palette.background = in_bytes(background);
     palette.ink = light ? Colour{0.11, 0.13, 0.16} : Colour{0.94, 0.95, 0.97};
     palette.faint_ink = mix(palette.ink, background, light ? 0.28 : 0.22);
     palette.solid = mix(background, light ? Colour{0.36, 0.42, 0.50} : Colour{0.70, 0.76, 0.84}, 0.62);

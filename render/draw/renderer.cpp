@@ -15,10 +15,10 @@ constexpr gl::TextureFormat bytes{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 
 // Adds up where the time of one frame goes; does nothing without a place to put it.
 class Stopwatch {
-public:
+  public:
     Stopwatch(const gl::Functions& gl, DrawTimes* times) : gl_(gl), times_(times) {}
     // Everything since the last call, or since the watch was made, belongs to `stage`.
-    void lap(double DrawTimes::* stage) {
+    void lap(double DrawTimes::*stage) {
         if (!times_) return;
         gl_.Finish();
         const auto now = std::chrono::steady_clock::now();
@@ -26,7 +26,7 @@ public:
         last_ = now;
     }
 
-private:
+  private:
     const gl::Functions& gl_;
     DrawTimes* times_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
@@ -46,9 +46,9 @@ struct Renderer::Impl {
           target(context->gl(), port.width, port.height, bytes),
           shape_painter(context->gl()),
           sphere_painter(context->gl(), s, port.width, port.height),
-          clear_colour{static_cast<float>(s.film.background.red),
-                       static_cast<float>(s.film.background.green),
-                       static_cast<float>(s.film.background.blue), 1.0f},
+          clear_colour{static_cast<float>(palette.background.red),
+                       static_cast<float>(palette.background.green),
+                       static_cast<float>(palette.background.blue), 1.0f},
           picture(s.film.width, s.film.height),
           rows(static_cast<std::size_t>(port.width) * port.height * 4) {}
 
@@ -120,6 +120,8 @@ DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) 
     return times;
 }
 
-std::string Renderer::gl_description() const { return impl_->context->description(); }
+std::string Renderer::gl_description() const {
+    return impl_->context->description();
+}
 
 }  // namespace grainreel

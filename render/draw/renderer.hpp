@@ -17,7 +17,7 @@ struct DrawTimes {
 };
 
 class Renderer {
-public:
+  public:
     // Makes an off-screen OpenGL context, current on the calling thread: construct, use and destroy it on one
     // thread. raster_threads: of the software rasteriser, >= 1. Throws RunError when no context is to be had.
     Renderer(const Scene& scene, int raster_threads);
@@ -31,7 +31,7 @@ public:
     // The same picture, and what each of its stages cost.
     DrawTimes draw_timed(const Frame& frame, const std::string& playback);
 
-private:
+  private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

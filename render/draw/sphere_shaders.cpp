@@ -51,8 +51,9 @@ void main() {
 )";
 
 // Away from edges one sample at the pixel's centre serves. On an edge the grains that the pixel and its
-// neighbours show are met again at eight points: exact silhouettes and lines of intersection, and each grain is
-// lit once, at the mean of its points. All spelt out in vectors of four: indexed arrays are slow on llvmpipe.
+// neighbours show are met again at eight points: exact silhouettes and lines of intersection, and each grain
+// is lit once, at the mean of its points. All spelt out in vectors of four: indexed arrays are slow on
+// llvmpipe.
 const char* const light_fragment = R"(
 uniform usampler2D seen;
 uniform samplerBuffer spheres, crowding, colours;
@@ -171,8 +172,9 @@ std::string light_constants() {
                        to_key[2]) +
            fmt::format("const float KEY = {:.4f}, SKY = {:.4f}, GROUND = {:.4f}, RIM = {:.4f};\n", light::key,
                        light::sky, light::ground, light::rim) +
-           fmt::format("const float RIM_WIDTH = {:.4f}, SHINE = {:.4f}, SHINE_POWER = {:.4f}, CROWDING = {:.4f};\n",
-                       light::rim_width, light::shine, light::shine_power, light::crowding);
+           fmt::format(
+               "const float RIM_WIDTH = {:.4f}, SHINE = {:.4f}, SHINE_POWER = {:.4f}, CROWDING = {:.4f};\n",
+               light::rim_width, light::shine, light::shine_power, light::crowding);
 }
 
 }  // namespace

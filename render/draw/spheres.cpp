@@ -32,8 +32,8 @@ void SpherePainter::find_visible(const View& view, const Frame& frame) {
     view_spheres_.resize(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const Vec3 at = view.to_view(frame.position[i]);
-        view_spheres_[i] = {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z()),
-                            static_cast<float>(frame.radius[i])};
+        view_spheres_[i] = {static_cast<float>(at.x()), static_cast<float>(at.y()),
+                            static_cast<float>(at.z()), static_cast<float>(frame.radius[i])};
     }
     visibility_.update(view, view_spheres_);
 }
@@ -63,7 +63,8 @@ void SpherePainter::upload_visibility() const {
     gl_.BindTexture(GL_TEXTURE_2D, seen_.id());
     gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, width_);
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0, GL_RED_INTEGER,
-                      GL_UNSIGNED_INT, visibility_.seen().data() + static_cast<std::size_t>(box.y0) * width_ + box.x0);
+                      GL_UNSIGNED_INT,
+                      visibility_.seen().data() + static_cast<std::size_t>(box.y0) * width_ + box.x0);
     gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
@@ -76,8 +77,11 @@ void SpherePainter::paint(const View& view) const {
     light_.set("focal", static_cast<float>(view.focal));
     light_.set("world_up", static_cast<float>(view.right.z()), static_cast<float>(view.up.z()),
                static_cast<float>(view.forward.z()));
-    const auto clip = [](int pixel, int size) { return 2 * static_cast<float>(pixel) / static_cast<float>(size) - 1; };
-    light_.set("box", clip(box.x0, width_), clip(box.y0, height_), clip(box.x1, width_), clip(box.y1, height_));
+    const auto clip = [](int pixel, int size) {
+        return 2 * static_cast<float>(pixel) / static_cast<float>(size) - 1;
+    };
+    light_.set("box", clip(box.x0, width_), clip(box.y0, height_), clip(box.x1, width_),
+               clip(box.y1, height_));
     light_.set("seen", 0);
     light_.set("spheres", 1);
     light_.set("crowding", 2);

@@ -14,7 +14,7 @@
 namespace grainreel {
 
 class SpherePainter {
-public:
+  public:
     // width, height: pixels of the port.
     SpherePainter(const gl::Functions& gl, const Scene& scene, int width, int height);
 
@@ -23,7 +23,7 @@ public:
     // Over what the bound framebuffer of the port's size already holds.
     void paint(const View& view) const;
 
-private:
+  private:
     void upload_visibility() const;
 
     const gl::Functions& gl_;

@@ -15,7 +15,8 @@ struct FreeOptions {
 };
 
 PangoFontMap* font_map() {
-    static const std::unique_ptr<PangoFontMap, Unref> map(pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
+    static const std::unique_ptr<PangoFontMap, Unref> map(
+        pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
     return map.get();
 }
 
@@ -47,7 +48,8 @@ Layout make_layout(const std::string& text, const TextStyle& style, double wrap,
 TextSize size_of(PangoLayout* layout) {
     PangoRectangle logical;
     pango_layout_get_extents(layout, nullptr, &logical);
-    return {static_cast<double>(logical.width) / PANGO_SCALE, static_cast<double>(logical.height) / PANGO_SCALE};
+    return {static_cast<double>(logical.width) / PANGO_SCALE,
+            static_cast<double>(logical.height) / PANGO_SCALE};
 }
 
 }  // namespace

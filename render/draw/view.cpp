@@ -50,9 +50,8 @@ View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Recta
 
     const double half_width = std::max(1.0, 0.5 * port.width - margin);
     const double half_height = std::max(1.0, 0.5 * port.height - margin);
-    const double focal = view.orthographic
-                             ? 1.0
-                             : 0.5 * picture_height / std::tan(0.5 * camera.field_of_view * degrees);
+    const double focal =
+        view.orthographic ? 1.0 : 0.5 * picture_height / std::tan(0.5 * camera.field_of_view * degrees);
     Range across, upward, away;
     Side sideways{{}, {}, half_width / focal}, vertical{{}, {}, half_height / focal};
     for (const Vec3& point : points) {

@@ -18,7 +18,7 @@ struct View {
     Vec3 eye{0, 0, 0};
     Vec3 right{0, 1, 0}, up{0, 0, 1}, forward{-1, 0, 0};  // orthonormal
     bool orthographic = false;
-    double focal = 1;           // pixels a unit of x/z (perspective), or pixels a metre (orthographic)
+    double focal = 1;                  // pixels a unit of x/z (perspective), or pixels a metre (orthographic)
     double nearest = 0, farthest = 1;  // m: view depths stored as 0 and 1
     Rectangle port;
 

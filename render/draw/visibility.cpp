@@ -20,8 +20,8 @@ Span tangents(double c, double z, double r) {
 }
 
 // The row loops below are kept free of branches so that the compiler turns them into vector code. The
-// discriminant comes from the point of closest approach, which keeps its digits when a sphere is small against
-// its distance (Haines et al. 2019).
+// discriminant comes from the point of closest approach, which keeps its digits when a sphere is small
+// against its distance (Haines et al. 2019).
 struct Row {
     const float* slope_x;
     float* depth;
@@ -99,7 +99,8 @@ PixelBox Visibility::bounds(const View& view, const ViewSphere& sphere) const {
     const auto pixel = [&](double slope, int size) {
         return static_cast<int>(std::clamp(0.5 * size + view.focal * slope, 0.0, static_cast<double>(size)));
     };
-    return {pixel(across.low, width_), pixel(upward.low, height_), std::min(width_, pixel(across.high, width_) + 1),
+    return {pixel(across.low, width_), pixel(upward.low, height_),
+            std::min(width_, pixel(across.high, width_) + 1),
             std::min(height_, pixel(upward.high, height_) + 1)};
 }
 
@@ -152,7 +153,8 @@ void Visibility::mark_edges() {
         const int first = std::max(1, covered_.x0), last = std::min(width_ - 1, covered_.x1);
         for (int x = first; x < last; ++x) {
             const std::uint32_t here = own[x];
-            const std::uint32_t other = (own[x - 1] ^ here) | (own[x + 1] ^ here) | (below[x] ^ here) | (above[x] ^ here);
+            const std::uint32_t other =
+                (own[x - 1] ^ here) | (own[x + 1] ^ here) | (below[x] ^ here) | (above[x] ^ here);
             row[x] = other ? here | edge : here;
         }
         std::swap(below, own);

@@ -1,8 +1,8 @@
 // Which grain is seen at the centre of each pixel: exact spheres, met by the pixel's line of sight.
 //
-// This pass runs on the processor, not in OpenGL: the depth of a sphere is known only per pixel, which costs a
-// software rasteriser its early depth test and its speed. Measured at 1080p on one thread, 1,620 grains: 50 ms
-// as impostors on llvmpipe, a few ms here. OpenGL lights the result, and each pixel once.
+// This pass runs on the processor, not in OpenGL: the depth of a sphere is known only per pixel, which costs
+// a software rasteriser its early depth test and its speed. Measured at 1080p on one thread, 1,620 grains: 50
+// ms as impostors on llvmpipe, a few ms here. OpenGL lights the result, and each pixel once.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct PixelBox {
 };
 
 class Visibility {
-public:
+  public:
     // Set on a pixel one of whose four neighbours shows something else.
     static constexpr std::uint32_t edge = 0x80000000u;
 
@@ -38,7 +38,7 @@ public:
     const PixelBox& changed() const { return changed_; }
     const PixelBox& covered() const { return covered_; }
 
-private:
+  private:
     PixelBox bounds(const View& view, const ViewSphere& sphere) const;
     void draw(const View& view, const ViewSphere& sphere, const PixelBox& box, std::uint32_t number);
     void mark_edges();

@@ -25,7 +25,8 @@ struct Writer {
 
     TextSize write(double x, double y, const std::string& text, const TextStyle& style, const Colour& colour,
                    double wrap = 0, int lines = 1) const {
-        return on ? draw_text(on, x, y, text, style, colour, wrap, lines) : measure_text(text, style, wrap, lines);
+        return on ? draw_text(on, x, y, text, style, colour, wrap, lines)
+                  : measure_text(text, style, wrap, lines);
     }
 };
 

@@ -9,7 +9,7 @@
 namespace grainreel::gl {
 
 class Context {
-public:
+  public:
     virtual ~Context() = default;
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
@@ -20,14 +20,15 @@ public:
     const Functions& gl() const { return functions_; }
     std::string description() const;  // vendor, renderer, version
 
-protected:
+  protected:
     Context() = default;
     void check_version() const;  // throws RunError below OpenGL 3.3
     Functions functions_;
 };
 
-// Mesa's software rasteriser through libOSMesa, opened at run time. raster_threads >= 1. Mesa reads the number
-// of its threads once a process, at the first context: later values are without effect. Throws RunError.
+// Mesa's software rasteriser through libOSMesa, opened at run time. raster_threads >= 1. Mesa reads the
+// number of its threads once a process, at the first context: later values are without effect. Throws
+// RunError.
 std::unique_ptr<Context> make_osmesa_context(int raster_threads);
 
 }  // namespace grainreel::gl

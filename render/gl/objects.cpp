@@ -56,7 +56,9 @@ Program::Program(const Functions& gl, const char* name, const std::string& verte
     throw RunError(fmt::format("the shaders of '{}' do not link: {}", name, log));
 }
 
-Program::~Program() { gl_.DeleteProgram(id_); }
+Program::~Program() {
+    gl_.DeleteProgram(id_);
+}
 
 Texture::Texture(const Functions& gl, int width, int height, const TextureFormat& format) : gl_(gl) {
     gl_.GenTextures(1, &id_);

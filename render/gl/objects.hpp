@@ -9,7 +9,7 @@ namespace grainreel::gl {
 
 // A vertex and a fragment shader, compiled and linked. Throws RunError with the compiler's log.
 class Program {
-public:
+  public:
     Program(const Functions& gl, const char* name, const std::string& vertex, const std::string& fragment);
     ~Program();
     Program(const Program&) = delete;
@@ -25,7 +25,7 @@ public:
         gl_.Uniform4f(place(uniform), x, y, z, w);
     }
 
-private:
+  private:
     GLint place(const char* uniform) const { return gl_.GetUniformLocation(id_, uniform); }
     const Functions& gl_;
     GLuint id_ = 0;
@@ -38,21 +38,21 @@ struct TextureFormat {
 
 // A picture read texel by texel, without filtering; its contents are undefined at first.
 class Texture {
-public:
+  public:
     Texture(const Functions& gl, int width, int height, const TextureFormat& format);
     ~Texture() { gl_.DeleteTextures(1, &id_); }
     Texture(const Texture&) = delete;
     Texture& operator=(const Texture&) = delete;
     GLuint id() const { return id_; }
 
-private:
+  private:
     const Functions& gl_;
     GLuint id_ = 0;
 };
 
 // A texture to draw into.
 class Framebuffer {
-public:
+  public:
     // width, height >= 1. Throws RunError when the driver refuses it.
     Framebuffer(const Functions& gl, int width, int height, const TextureFormat& format);
     ~Framebuffer() { gl_.DeleteFramebuffers(1, &id_); }
@@ -61,7 +61,7 @@ public:
 
     void bind() const;  // also sets the viewport
 
-private:
+  private:
     const Functions& gl_;
     const int width_, height_;
     Texture texture_;
@@ -70,20 +70,20 @@ private:
 
 // A vertex array without vertices of its own: attributes come from Buffer objects bound to it.
 class VertexArray {
-public:
+  public:
     explicit VertexArray(const Functions& gl) : gl_(gl) { gl_.GenVertexArrays(1, &id_); }
     ~VertexArray() { gl_.DeleteVertexArrays(1, &id_); }
     VertexArray(const VertexArray&) = delete;
     VertexArray& operator=(const VertexArray&) = delete;
     void bind() const { gl_.BindVertexArray(id_); }
 
-private:
+  private:
     const Functions& gl_;
     GLuint id_ = 0;
 };
 
 class Buffer {
-public:
+  public:
     explicit Buffer(const Functions& gl) : gl_(gl) { gl_.GenBuffers(1, &id_); }
     ~Buffer() { gl_.DeleteBuffers(1, &id_); }
     Buffer(const Buffer&) = delete;
@@ -95,14 +95,14 @@ public:
     }
     GLuint id() const { return id_; }
 
-private:
+  private:
     const Functions& gl_;
     GLuint id_ = 0;
 };
 
 // A buffer that shaders read by index: four floats an entry.
 class BufferTexture {
-public:
+  public:
     explicit BufferTexture(const Functions& gl);
     ~BufferTexture() { gl_.DeleteTextures(1, &texture_); }
     BufferTexture(const BufferTexture&) = delete;
@@ -110,7 +110,7 @@ public:
     const Buffer& buffer() const { return buffer_; }
     void bind(int unit) const;
 
-private:
+  private:
     const Functions& gl_;
     Buffer buffer_;
     GLuint texture_ = 0;

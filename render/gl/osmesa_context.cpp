@@ -48,13 +48,12 @@ Library open_library() {
 }
 
 class OSMesaContext final : public Context {
-public:
+  public:
     OSMesaContext() {
         static const Library opened = open_library();
         library_ = &opened;
-        const std::array<int, 9> attributes = {osmesa_format, osmesa_rgba, osmesa_profile, osmesa_core,
-                                               osmesa_major,  3,           osmesa_minor,   3,
-                                               0};
+        const std::array<int, 9> attributes = {
+            osmesa_format, osmesa_rgba, osmesa_profile, osmesa_core, osmesa_major, 3, osmesa_minor, 3, 0};
         handle_ = library_->create(attributes.data(), nullptr);
         if (!handle_) throw RunError("OSMesa offers no OpenGL 3.3 core context; Mesa 13 or later is needed");
         try {
@@ -75,7 +74,7 @@ public:
             throw RunError("OSMesa refuses to make its context current");
     }
 
-private:
+  private:
     const Library* library_ = nullptr;
     OSMesaHandle handle_ = nullptr;
     // The default framebuffer, copied at every glFinish and so kept tiny: pictures go to framebuffer objects.

@@ -1,0 +1,154 @@
+// The container in the picture: where it is, and that all of it is there.
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+bool is_background(const std::uint8_t* p) {
+    return p[0] > 250 && p[1] > 250 && p[2] > 250;
+}
+
+// How much of a pixel on the outline's outer border the dark line covers.
+double covered(const std::uint8_t* p) {
+    const double ink = 255 * make_palette({1, 1, 1}).ink.red;
+    return std::min(1.0, (255 - p[0]) / (255 - ink));
+}
+
+// Seen level from the front, the lower edge of the floor plate is a horizontal line, and so is the lid's
+// upper one. Pixels from the port's top, fractions from the border pixel's darkness.
+double floor_edge(const Picture& picture, const Rectangle& port) {
+    const int x = port.x + port.width / 2;
+    int y = port.y + port.height - 1;
+    while (y > port.y && is_background(picture.pixel(x, y))) --y;
+    return y + covered(picture.pixel(x, y)) - port.y;
+}
+
+double lid_edge(const Picture& picture, const Rectangle& port) {
+    const int x = port.x + port.width / 2;
+    int y = port.y;
+    while (y < port.y + port.height && is_background(picture.pixel(x, y))) ++y;
+    return y + 1 - covered(picture.pixel(x, y)) - port.y;
+}
+
+Scene level_box() {
+    Scene scene = wedge(1280, 720);
+    scene.container.shape = Container::Shape::box;
+    scene.film.camera.azimuth = 0;
+    scene.film.camera.elevation = 0;
+    scene.drive.amplitude = 0.006;
+    return scene;
+}
+
+TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
+    const Scene scene = level_box();
+    const View view = view_of(scene);
+    const double bottom = -1.4 * drawn_thickness(scene.container), front = 0.5 * scene.container.depth;
+    const double top = scene.container.height + drawn_thickness(scene.container);
+    const double half_pen = 0.5 * std::max(1.0, scene.film.height / 600.0);
+    Renderer renderer(scene, 1);
+    for (const double phase : {0.0, 0.25, 0.5, 0.75}) {
+        const Vec3 offset = scene.drive.amplitude * std::sin(2 * pi * phase) * scene.drive.direction;
+        Frame frame = frame_of({});
+        frame.phase = phase;
+        frame.wall_offset = frame.floor_offset = offset;
+        const Picture& picture = renderer.draw(frame, "");
+        EXPECT_NEAR(floor_edge(picture, view.port),
+                    view.project(Vec3(front, 0, bottom) + offset).y() + half_pen, 0.3);
+        EXPECT_NEAR(lid_edge(picture, view.port), view.project(Vec3(front, 0, top) + offset).y() - half_pen,
+                    0.3);
+    }
+}
+
+TEST(ContainerPicture, AFloorThatMovesAloneLeavesTheLid) {
+    Scene scene = level_box();
+    scene.drive.moves = Drive::Moves::floor;
+    const View view = view_of(scene);
+    Renderer renderer(scene, 1);
+    Frame frame = frame_of({});
+    const Picture rest = renderer.draw(frame, "");
+    frame.floor_offset = {0, 0, -0.006};
+    const Picture& lowered = renderer.draw(frame, "");
+    EXPECT_EQ(lid_edge(rest, view.port), lid_edge(lowered, view.port));
+    EXPECT_NEAR(floor_edge(lowered, view.port) - floor_edge(rest, view.port),
+                0.006 * view.pixels_per_metre({0.5 * scene.container.depth, 0, 0}), 0.3);
+}
+
+TEST(ContainerPicture, FollowingHoldsTheContainerStill) {
+    Scene scene = level_box();
+    scene.film.camera.follow = true;
+    const View view = view_of(scene);
+    Renderer renderer(scene, 1);
+    Frame frame = frame_of({});
+    const double rest = lid_edge(renderer.draw(frame, ""), view.port);
+    frame.wall_offset = frame.floor_offset = {0, 0, 0.006};
+    EXPECT_EQ(lid_edge(renderer.draw(frame, ""), view.port), rest);
+}
+
+TEST(ContainerPicture, AnOpenTopLooksDifferent) {
+    Scene scene = level_box();
+    const View view = view_of(scene);
+    const double closed = lid_edge(Renderer(scene, 1).draw(frame_of({}), ""), view.port);
+    scene.container.lid = false;
+    const View open_view = view_of(scene);
+    const double open = lid_edge(Renderer(scene, 1).draw(frame_of({}), ""), open_view.port);
+    const double plate =
+        drawn_thickness(scene.container) * view.pixels_per_metre({0, 0, scene.container.height});
+    EXPECT_GT(plate, 3);
+    // Counted from the projected rim: the lid stands above it, an open top does not.
+    const double front = 0.5 * scene.container.depth, h = scene.container.height;
+    EXPECT_LT(closed, view.project({front, 0, h}).y() - 0.8 * plate);
+    EXPECT_GT(open, open_view.project({front, 0, h}).y() - 2);
+}
+
+TEST(ContainerPicture, APeriodicDepthHasNoPanes) {
+    Scene scene = level_box();
+    scene.container.lid = false;
+    const View view = view_of(scene);
+    const int x = view.port.x + view.port.width / 2;
+    const int y = view.port.y + static_cast<int>(view.project({0, 0, 0.1}).y());
+    EXPECT_FALSE(Renderer(scene, 1).draw(frame_of({}), "").pixel(x, y)[0] == 255);
+    scene.container.periodic_depth = true;
+    EXPECT_TRUE(Renderer(scene, 1).draw(frame_of({}), "").pixel(x, y)[0] == 255);
+}
+
+TEST(Framing, KeepsEverythingInThePictureAndFillsIt) {
+    for (const auto shape : {Container::Shape::wedge, Container::Shape::box, Container::Shape::cylinder})
+        for (const auto& [width, height] : {std::pair{1920, 1080}, {320, 240}, {360, 1080}, {1080, 1920}})
+            for (const double tall : {0.05, 0.16, 1.5})
+                for (const double field : {0.0, 25.0, 90.0})
+                    for (const double azimuth : {0.0, 20.0, 135.0})
+                        for (const double elevation : {-20.0, 10.0, 90.0}) {
+                            Scene scene = wedge(width, height);
+                            scene.container.shape = shape;
+                            scene.container.height = tall;
+                            scene.film.camera.azimuth = azimuth;
+                            scene.film.camera.elevation = elevation;
+                            scene.film.camera.field_of_view = field;
+                            const View view = view_of(scene);
+                            double widest = 0;  // share of the half port that the outermost point reaches
+                            for (const Vec3& point : framing_points(scene)) {
+                                ASSERT_GT(view.to_view(point).z(), view.nearest);
+                                ASSERT_LT(view.to_view(point).z(), view.farthest);
+                                const Pixel at = view.project(point);
+                                widest = std::max({widest, std::abs(2 * at.x() / view.port.width - 1),
+                                                   std::abs(2 * at.y() / view.port.height - 1)});
+                            }
+                            ASSERT_LE(widest, 1) << width << "x" << height << " fov " << field;
+                            ASSERT_GE(widest, 0.7) << width << "x" << height << " fov " << field;
+                        }
+}
+
+TEST(Framing, AzimuthTurnsTheCameraToTheRight) {
+    Scene scene = wedge();
+    scene.film.camera.azimuth = 30;
+    scene.film.camera.elevation = 0;
+    const View view = view_of(scene);
+    EXPECT_NEAR((view.forward - Vec3(-std::cos(pi / 6), -0.5, 0)).norm(), 0, 1e-12);
+    EXPECT_NEAR((view.up - Vec3(0, 0, 1)).norm(), 0, 1e-12);
+    EXPECT_GT(view.right.y(), 0);
+}
+
+}  // namespace
+}  // namespace grainreel::test

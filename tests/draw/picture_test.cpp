@@ -1,0 +1,192 @@
+// Promises about whole pictures: repeatable, the same on any number of threads, words and grains apart.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "engine/base/error.hpp"
+#include "render/draw/captions.hpp"
+#include "render/gl/objects.hpp"
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+Frame scattered(int count) {
+    std::mt19937 random(7);
+    const auto between = [&](double a, double b) {
+        return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
+    };
+    std::vector<Ball> balls;
+    for (int i = 0; i < count; ++i)
+        balls.push_back({{between(-0.015, 0.015), between(-0.04, 0.04), between(0.01, 0.12)},
+                         i % 9 ? 0.0025 : 0.005,
+                         i % 9 ? 0 : 1});
+    Frame frame = frame_of(balls);
+    frame.time = 3.2625;
+    frame.cycles = 65.25;
+    frame.phase = 0.25;
+    return frame;
+}
+
+TEST(Pictures, TheSameFrameTwiceIsTheSamePicture) {
+    Renderer renderer(wedge(), 1);
+    const Frame frame = scattered(500);
+    const Picture first = renderer.draw(frame, "slow motion 1/10");
+    renderer.draw(frame_of({{{0, 0, 0.1}, 0.02, 1}}), "something else");
+    EXPECT_EQ(renderer.draw(frame, "slow motion 1/10").rgba, first.rgba);
+    renderer.draw_timed(frame, "slow motion 1/10");
+    EXPECT_EQ(renderer.draw(frame, "slow motion 1/10").rgba, first.rgba);
+}
+
+// Mesa reads its number of threads once a process, so each number gets a process of its own: this test, run
+// again with a file to write the picture to.
+TEST(Pictures, RasterThreadsDoNotChangeThem) {
+    const char* const variable = "GRAINREEL_TEST_THREADS";
+    if (const char* job = std::getenv(variable)) {
+        const std::string text = job;
+        Renderer renderer(wedge(), std::stoi(text));
+        const Picture& picture = renderer.draw(scattered(800), "two threads or one");
+        std::ofstream(text.substr(text.find(' ') + 1), std::ios::binary)
+            .write(reinterpret_cast<const char*>(picture.rgba.data()),
+                   static_cast<std::streamsize>(picture.rgba.size()));
+        return;
+    }
+    const auto drawn = [&](int threads) {
+        const auto file = std::filesystem::temp_directory_path() /
+                          ("grainreel-" + std::to_string(getpid()) + "-" + std::to_string(threads));
+        const pid_t child = fork();
+        if (child == 0) {
+            setenv(variable, (std::to_string(threads) + " " + file.string()).c_str(), 1);
+            execl("/proc/self/exe", "test_draw", "--gtest_filter=Pictures.RasterThreadsDoNotChangeThem",
+                  nullptr);
+            _exit(127);
+        }
+        int status = -1;
+        waitpid(child, &status, 0);
+        EXPECT_EQ(status, 0);
+        std::ifstream in(file, std::ios::binary);
+        std::string bytes((std::istreambuf_iterator<char>(in)), {});
+        std::filesystem::remove(file);
+        return bytes;
+    };
+    const std::string one = drawn(1);
+    EXPECT_EQ(one.size(), 640u * 360u * 4u);
+    EXPECT_TRUE(one == drawn(2));
+}
+
+void expect_same(const Picture& a, const Picture& b, const Rectangle& part) {
+    for (int y = part.y; y < part.y + part.height; ++y)
+        for (int x = part.x; x < part.x + part.width; ++x)
+            ASSERT_EQ(difference(a, b, x, y), 0) << "at " << x << ", " << y;
+}
+
+TEST(Pictures, WordsAndGrainsKeepApart) {
+    for (const auto& [width, height] : {std::pair{640, 360}, {360, 640}}) {
+        const Scene scene = wedge(width, height);
+        const PictureLayout layout = plan_layout(scene);
+        Renderer renderer(scene, 1);
+        Frame frame = frame_of({});
+        const Picture empty = renderer.draw(frame, "caption");
+        // Grains everywhere, also far outside the container: the gutters stay as they were.
+        frame = frame_of({{{0, 0, 0.1}, 0.05, 1},
+                          {{0, -0.3, 0.1}, 0.2, 0},
+                          {{0, 0.3, 0.1}, 0.2, 0},
+                          {{0, 0, 0.6}, 0.3, 0}});
+        const Picture full = renderer.draw(frame, "caption");
+        expect_same(empty, full, layout.first);
+        expect_same(empty, full, layout.second);
+        EXPECT_GT(changed(empty, full, layout.port).count, 1000);
+        // Other words: the grains stay as they were.
+        frame.time = 8.5;
+        frame.cycles = 170.3;
+        frame.phase = 0.3;
+        const Picture later = renderer.draw(frame, "another caption, and a much longer one than before");
+        expect_same(full, later, layout.port);
+        expect_same(full, later, layout.first);
+        EXPECT_GT(changed(full, later, layout.second).count, 20);
+    }
+}
+
+TEST(Pictures, GuttersAndPortTileThePicture) {
+    for (const auto& [width, height] :
+         {std::pair{1920, 1080}, {320, 240}, {360, 1080}, {1080, 1080}, {641, 361}}) {
+        const PictureLayout layout = plan_layout(wedge(width, height));
+        const auto area = [](const Rectangle& r) { return r.width * r.height; };
+        EXPECT_EQ(area(layout.first) + area(layout.second) + area(layout.port), width * height);
+        EXPECT_GT(area(layout.port), 0.33 * width * height);
+    }
+}
+
+TEST(Pictures, BackgroundHasNoSeamAndIsOpaque) {
+    for (const Colour& background : {Colour{1, 1, 1}, Colour{0.07, 0.08, 0.1}, Colour{0.5, 0.25, 0.75}}) {
+        Scene scene = wedge();
+        scene.film.background = background;
+        const Rectangle port = plan_layout(scene).port;
+        Renderer renderer(scene, 1);
+        const Picture& picture = renderer.draw(frame_of({{{0, 0, 0.1}, 0.02, 1}}), "");
+        for (const int x : {0, port.x - 1, port.x, port.x + port.width - 1, port.x + port.width, 639}) {
+            const double expected[3] = {background.red, background.green, background.blue};
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture.pixel(x, 359)[c], 255 * expected[c], 0.51);
+        }
+        for (std::size_t i = 3; i < picture.rgba.size(); i += 4) ASSERT_EQ(picture.rgba[i], 255);
+    }
+}
+
+TEST(Overlay, LettersAreLargeEnough) {
+    for (const int height : {240, 360, 1080, 2160}) {
+        const TypeScale type = type_scale(wedge(height * 16 / 9, height).film);
+        EXPECT_GE(type.main, std::max(10.0, 0.025 * height));
+        EXPECT_GE(type.minor, std::max(10.0, 0.018 * height));
+    }
+}
+
+TEST(Overlay, SettlingIsSaid) {
+    Frame frame;
+    frame.time = -0.2;
+    EXPECT_EQ(playback_text(frame, "slow motion 1/10"), "settling, drive off; slow motion 1/10");
+    EXPECT_EQ(playback_text(frame, ""), "settling, drive off");
+    frame.time = 0;
+    EXPECT_EQ(playback_text(frame, "slow motion 1/10"), "slow motion 1/10");
+}
+
+TEST(Overlay, NumbersReadWell) {
+    EXPECT_EQ(length_text(0.005), "5 mm");
+    EXPECT_EQ(length_text(0.00186), "1.86 mm");
+    EXPECT_EQ(length_text(0.001), "1 mm");
+    EXPECT_EQ(length_text(0.1), "10 cm");
+    EXPECT_EQ(length_text(0.00025), "250 µm");
+    EXPECT_EQ(length_text(2), "2 m");
+    EXPECT_EQ(frequency_text(1500), "1.5 kHz");
+    EXPECT_EQ(time_text(-0.35), "t = −0.350 s");
+    EXPECT_EQ(time_text(-0.0001), "t = 0.000 s");
+    EXPECT_EQ(diameter_text({SizeSpread::Kind::uniform, 0.004, 0.006, 0.005, 0}), "4–6 mm");
+    EXPECT_DOUBLE_EQ(round_length(0.0199), 0.01);
+    EXPECT_DOUBLE_EQ(round_length(0.021), 0.02);
+    EXPECT_DOUBLE_EQ(round_length(0.7), 0.5);
+}
+
+TEST(Context, ShadersThatDoNotCompileSayWhy) {
+    const auto context = gl::make_osmesa_context(1);
+    const char* const fine = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
+    try {
+        const gl::Program program(context->gl(), "broken", fine,
+                                  "#version 330 core\nvoid main() { nonsense; }\n");
+        FAIL() << "compiled";
+    } catch (const RunError& error) {
+        EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("fragment shader of 'broken'"),
+                                                 testing::HasSubstr("nonsense")));
+    }
+}
+
+TEST(Context, SaysWhatItIs) {
+    EXPECT_THAT(Renderer(wedge(), 1).gl_description(), testing::HasSubstr("OpenGL"));
+}
+
+}  // namespace
+}  // namespace grainreel::test

@@ -1,0 +1,165 @@
+// Grains in the picture against geometry.
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+// Where the silhouette of a sphere lies along one picture axis: the centre's direction, plus and minus the
+// half-angle asin(r / distance) in the plane of that axis and the line of sight.
+std::pair<double, double> silhouette(double c, double z, double r) {
+    const double direction = std::atan2(c, z), half = std::asin(r / std::hypot(c, z));
+    return {std::tan(direction - half), std::tan(direction + half)};
+}
+
+void expect_silhouette(Scene scene, Ball ball) {
+    scene.species.push_back(species("black", 1, 0.01, {0, 0, 0}));
+    ball.species = 2;
+    const View view = view_of(scene);
+    Renderer renderer(scene, 1);
+    const Picture empty = renderer.draw(frame_of({}), "");
+    const Picture picture = renderer.draw(frame_of({ball}), "");
+    // Black on nearly white: a border pixel counts when about half of it is covered.
+    const Extent seen = changed(empty, picture, view.port, 0.5 * 3 * 235);
+    const Vec3 from = ball.at - view.eye;
+    const double x = from.dot(view.right), y = from.dot(view.up), z = from.dot(view.forward);
+    const bool flat = scene.film.camera.field_of_view == 0;
+    const auto [x0, x1] = flat ? std::pair{x - ball.radius, x + ball.radius} : silhouette(x, z, ball.radius);
+    const auto [y0, y1] = flat ? std::pair{y - ball.radius, y + ball.radius} : silhouette(y, z, ball.radius);
+    const double middle_x = 0.5 * view.port.width, middle_y = 0.5 * view.port.height;
+    EXPECT_NEAR(0.5 * (seen.left + seen.right), middle_x + view.focal * 0.5 * (x0 + x1), 0.7);
+    EXPECT_NEAR(0.5 * (seen.top + seen.bottom), middle_y - view.focal * 0.5 * (y0 + y1), 0.7);
+    EXPECT_NEAR(0.5 * (seen.right - seen.left), view.focal * 0.5 * (x1 - x0), 0.7);
+    EXPECT_NEAR(0.5 * (seen.bottom - seen.top), view.focal * 0.5 * (y1 - y0), 0.7);
+}
+
+TEST(Spheres, SilhouetteFollowsThePerspective) {
+    expect_silhouette(wedge(), {{0.01, 0.02, 0.09}, 0.012});
+    Scene wide = wedge(960, 540);
+    wide.film.camera.field_of_view = 75;
+    expect_silhouette(wide, {{0.01, -0.03, 0.11}, 0.011});
+}
+
+TEST(Spheres, SilhouetteOfAnOrthographicCamera) {
+    Scene scene = wedge();
+    scene.film.camera.field_of_view = 0;
+    expect_silhouette(scene, {{0.0, -0.02, 0.08}, 0.012});
+}
+
+TEST(Spheres, TheFieldOfViewSpansThePicture) {
+    Scene scene = wedge();
+    scene.film.camera.field_of_view = 30;
+    EXPECT_NEAR(view_of(scene).focal, 0.5 * scene.film.height / std::tan(15 * pi / 180), 1e-9);
+}
+
+// Along the row through both centres, the place where two overlapping spheres are equally near.
+TEST(Spheres, MeetAtTheirTrueIntersection) {
+    Scene scene = wedge(960, 540);
+    scene.film.camera.field_of_view = 0;
+    scene.film.camera.azimuth = 0;
+    scene.film.camera.elevation = 0;
+    const View view = view_of(scene);
+    const double r = 0.012;
+    const Ball near{{0.004, -0.006, 0.09}, r, 0}, far{{0.0, 0.006, 0.09}, r, 1};
+    Renderer renderer(scene, 1);
+    const Picture& picture = renderer.draw(frame_of({near, far}), "");
+
+    const auto ahead = [&](double y) {  // how much nearer the first is; decreasing in y
+        const auto front = [&](const Ball& b) {
+            return b.at.x() + std::sqrt(r * r - std::pow(y - b.at.y(), 2));
+        };
+        return front(near) - front(far);
+    };
+    double low = -0.005, high = 0.005;
+    for (int i = 0; i < 60; ++i) (ahead(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
+    const Pixel expected = view.project({0, low, 0.09});
+
+    const int row = view.port.y + static_cast<int>(expected.y());
+    int boundary = -1;
+    for (int x = view.port.x; x + 1 < view.port.x + view.port.width && boundary < 0; ++x)
+        if (std::abs(x - view.port.x - expected.x()) < 15 && std::abs(hue(picture.pixel(x, row))) > 90 &&
+            std::abs(hue(picture.pixel(x + 1, row))) < 90)
+            boundary = x + 1 - view.port.x;
+    ASSERT_GE(boundary, 0) << "no change of colour along the row";
+    EXPECT_NEAR(boundary, expected.x(), 1.0);
+}
+
+TEST(Spheres, TheNearerOneHidesTheFarther) {
+    Scene scene = wedge();
+    const View view = view_of(scene);
+    const Vec3 at(0, 0, 0.09);
+    const Vec3 behind = at + 0.01 * (at - view.eye).normalized();
+    Renderer renderer(scene, 1);
+    const Frame alone = frame_of({{at, 0.008, 1}});
+    for (const bool first : {true, false}) {
+        // The order in the frame does not matter.
+        const Ball front{at, 0.008, 1}, back{behind, 0.004, 0};
+        const Picture both =
+            renderer.draw(frame_of(first ? std::vector{front, back} : std::vector{back, front}), "");
+        const Pixel centre = view.project(at);
+        const auto* pixel = both.pixel(view.port.x + static_cast<int>(centre.x()),
+                                       view.port.y + static_cast<int>(centre.y()));
+        EXPECT_NEAR(hue(pixel), hue(orange), 8);
+    }
+}
+
+TEST(Spheres, SpeciesColoursComeOut) {
+    Scene scene = wedge();
+    scene.species.push_back(species("green", 1, 0.01, {0.0, 0.62, 0.45}));
+    const View view = view_of(scene);
+    Renderer renderer(scene, 1);
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 at(0, 0.01, 0.1);
+        const Picture& picture = renderer.draw(frame_of({{at, 0.015, k}}), "");
+        const Pixel centre = view.project(at);
+        const auto* pixel = picture.pixel(view.port.x + static_cast<int>(centre.x()),
+                                          view.port.y + static_cast<int>(centre.y()));
+        EXPECT_NEAR(hue(pixel), hue(scene.species[static_cast<std::size_t>(k)].colour), 10) << k;
+    }
+}
+
+TEST(Spheres, CrossingTheEyesPlaneDoesNotVanish) {
+    const Scene scene = wedge();
+    const View view = view_of(scene);
+    Renderer renderer(scene, 1);
+    const Picture empty = renderer.draw(frame_of({}), "");
+    const int pixels = view.port.width * view.port.height;
+    // Just in front of the eye, reaching past it to the side, and around it.
+    const Vec3 ahead = view.eye + 0.06 * view.forward;
+    EXPECT_EQ(changed(empty, renderer.draw(frame_of({{ahead, 0.05, 1}}), ""), view.port).count, pixels);
+    const Vec3 beside = view.eye + 0.002 * view.forward + 0.06 * view.right;
+    EXPECT_GT(changed(empty, renderer.draw(frame_of({{beside, 0.0595, 1}}), ""), view.port).count,
+              pixels / 20);
+    EXPECT_EQ(changed(empty, renderer.draw(frame_of({{view.eye, 0.05, 1}}), ""), view.port).count, pixels);
+    const Vec3 back = view.eye - 0.1 * view.forward;
+    EXPECT_EQ(changed(empty, renderer.draw(frame_of({{back, 0.05, 1}}), ""), view.port).count, 0);
+}
+
+// A disc of n pixels radius covers pi n^2 pixels, fractions counted: the edge is smooth and unbiased.
+TEST(Spheres, EdgesAreSmoothAndUnbiased) {
+    Scene scene = wedge();
+    scene.film.camera.field_of_view = 0;
+    scene.species = {species("dark", 1, 0.01, {0, 0, 0})};
+    const View view = view_of(scene);
+    const double radius = 0.012, pixels = view.focal * radius;
+    Renderer renderer(scene, 1);
+    const Picture& empty = renderer.draw(frame_of({}), "");
+    const Rectangle port = view.port;
+    std::vector<double> before;
+    for (int y = 0; y < port.height; ++y)
+        for (int x = 0; x < port.width; ++x) before.push_back(empty.pixel(port.x + x, port.y + y)[0]);
+    const Picture& picture = renderer.draw(frame_of({{{0, 0.003, 0.1}, radius, 0}}), "");
+    double covered = 0;
+    std::size_t i = 0;
+    for (int y = 0; y < port.height; ++y)
+        for (int x = 0; x < port.width; ++x, ++i) {
+            const double now = picture.pixel(port.x + x, port.y + y)[0];
+            covered +=
+                std::abs(now - before[i]) < 3 ? 0 : std::min(1.0, (before[i] - now) / (before[i] - 40));
+        }
+    EXPECT_NEAR(covered / (pi * pixels * pixels), 1, 0.05);
+}
+
+}  // namespace
+}  // namespace grainreel::test

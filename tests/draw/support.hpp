@@ -1,0 +1,106 @@
+// Scenes and frames made by hand, and measurements on pictures.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/draw/container_drawing.hpp"
+#include "render/draw/layout.hpp"
+#include "render/draw/renderer.hpp"
+
+namespace grainreel::test {
+
+constexpr double pi = std::numbers::pi;
+inline const Colour blue{0.337, 0.706, 0.914}, orange{0.902, 0.624, 0.0};
+
+inline Species species(const std::string& name, std::int64_t count, double diameter, const Colour& colour) {
+    Species s;
+    s.name = name;
+    s.count = count;
+    s.diameter = {SizeSpread::Kind::fixed, diameter, diameter, diameter, 0};
+    s.density = 2500;
+    s.colour = colour;
+    return s;
+}
+
+inline Scene wedge(int width = 640, int height = 360) {
+    Scene scene;
+    scene.title = "A wedge";
+    scene.film.title = scene.title;
+    scene.film.width = width;
+    scene.film.height = height;
+    scene.species = {species("small", 1500, 0.005, blue), species("big", 120, 0.010, orange)};
+    Container& c = scene.container;
+    c.half_width = 0.075;
+    c.depth = 0.04;
+    c.height = 0.16;
+    c.half_angle = 20 * pi / 180;
+    c.slant_height = 0.1;
+    scene.drive.present = true;
+    scene.drive.frequency = 20;
+    scene.drive.amplitude = 0.002;
+    return scene;
+}
+
+struct Ball {
+    Vec3 at;
+    double radius = 0.005;
+    int species = 0;
+};
+
+inline Frame frame_of(const std::vector<Ball>& balls) {
+    Frame frame;
+    for (const Ball& ball : balls) {
+        frame.id.push_back(static_cast<std::int32_t>(frame.id.size()));
+        frame.species.push_back(ball.species);
+        frame.radius.push_back(ball.radius);
+        frame.position.push_back(ball.at);
+    }
+    frame.velocity.assign(balls.size(), Vec3(0, 0, 0));
+    frame.spin = frame.velocity;
+    return frame;
+}
+
+inline View view_of(const Scene& scene) {
+    return frame_container(scene, plan_layout(scene));
+}
+
+// The pixels of the port that differ by `least` or more between two pictures: how many, and the box around
+// them from the port's corner.
+struct Extent {
+    int count = 0;
+    double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+};
+inline double difference(const Picture& a, const Picture& b, int x, int y) {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) sum += std::abs(a.pixel(x, y)[c] - b.pixel(x, y)[c]);
+    return sum;
+}
+inline Extent changed(const Picture& a, const Picture& b, const Rectangle& port, double least = 3) {
+    Extent extent;
+    for (int y = port.y; y < port.y + port.height; ++y)
+        for (int x = port.x; x < port.x + port.width; ++x) {
+            if (difference(a, b, x, y) < least) continue;
+            ++extent.count;
+            extent.left = std::min(extent.left, x - port.x + 0.0);
+            extent.right = std::max(extent.right, x - port.x + 1.0);
+            extent.top = std::min(extent.top, y - port.y + 0.0);
+            extent.bottom = std::max(extent.bottom, y - port.y + 1.0);
+        }
+    return extent;
+}
+
+// Degrees; 0 is red.
+inline double hue(const std::uint8_t* p) {
+    const double r = p[0], g = p[1], b = p[2];
+    return std::atan2(std::sqrt(3.0) * (g - b), 2 * r - g - b) * 180 / pi;
+}
+inline double hue(const Colour& c) {
+    return std::atan2(std::sqrt(3.0) * (c.green - c.blue), 2 * c.red - c.green - c.blue) * 180 / pi;
+}
+
+}  // namespace grainreel::test
