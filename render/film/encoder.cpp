@@ -78,7 +78,6 @@ void Encoder::open_file() {
     options.set("frag_duration", std::to_string(fragment_microseconds));
     int code = avio_open(&context->pb, ffmpeg_url(settings_.path).c_str(), AVIO_FLAG_WRITE);
     if (code >= 0) code = avformat_write_header(context, options.get());
-    if (code >= 0) code = context->pb->error;
     if (code < 0) fail(code);
 }
 
@@ -105,8 +104,7 @@ void Encoder::write(AVPacket& packet) {
     packet.duration = 1;
     packet.stream_index = 0;
     av_packet_rescale_ts(&packet, codec_->time_base, context.streams[0]->time_base);
-    int code = av_write_frame(&context, &packet);
-    if (code >= 0) code = context.pb->error;
+    const int code = av_write_frame(&context, &packet);  // tells of the file's errors, too
     av_packet_unref(&packet);
     if (code < 0) fail(code);
 }
@@ -114,7 +112,6 @@ void Encoder::write(AVPacket& packet) {
 void Encoder::close() {
     encode(nullptr);
     int code = av_write_trailer(file_.get());
-    if (code >= 0) code = file_->pb->error;
     if (code >= 0) code = avio_closep(&file_->pb);
     if (code < 0) fail(code);
     file_.reset();

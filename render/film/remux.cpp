@@ -53,7 +53,6 @@ int copy_packets(AVFormatContext& input, AVFormatContext& output) {
         av_packet_rescale_ts(packet.get(), input.streams[0]->time_base, output.streams[0]->time_base);
         packet->pos = -1;
         code = av_write_frame(&output, packet.get());
-        if (code >= 0) code = output.pb->error;
         av_packet_unref(packet.get());
         if (code < 0) return code;
     }
@@ -67,7 +66,6 @@ int write_copy(const std::filesystem::path& from, const std::filesystem::path& t
     if (code >= 0) code = open_output(*input, to, output);
     if (code >= 0) code = copy_packets(*input, *output);
     if (code >= 0) code = av_write_trailer(output.get());
-    if (code >= 0) code = output->pb->error;
     if (code >= 0) code = avio_closep(&output->pb);
     return code;
 }
