@@ -159,7 +159,7 @@ TEST(PlanDamping, RestitutionFollowsFromDamping) {
 
 TEST(PlanDamping, DampingFollowsFromRestitution) {
     const Scene scene = read_text(with(box_text, "normal_damping = 2634", "restitution = 0.6"));
-    const PairPlan& pair = make_plan(scene).grain[0];
+    const PairPlan pair = make_plan(scene).grain[0];
     const double natural = std::sqrt(1000 / (sphere_mass(0.001, 2500) / 2));
     const double beta = pair.normal_damping / (2 * natural);
     EXPECT_NEAR(std::exp(-pi * beta / std::sqrt(1 - beta * beta)), 0.6, 1e-14);
