@@ -12,6 +12,6 @@ inline constexpr double rim = 0.50;        // what is left at the silhouette, so
 inline constexpr double rim_width = 0.50;  // cosine between normal and line of sight where that ends
 inline constexpr double shine = 0.16;      // of the highlight
 inline constexpr double shine_power = 40;
-inline constexpr double crowding = 0.95;  // darkening per unit of solid fraction around
+inline constexpr double crowding = 1.25;  // darkening per unit of solid fraction around
 
 }  // namespace grainreel::light

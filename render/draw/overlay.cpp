@@ -39,6 +39,7 @@ TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& fr
     const bool dial = scene.drive.present;
     const double x = portrait ? type.margin : 0.5 * type.margin;
     const double inner = std::max(1.0, width - (portrait ? 2.0 : 1.5) * type.margin);
+    const double radius = portrait ? std::min(2.2 * type.main, 0.14 * inner) : 2.2 * type.main;
     const std::string caption = playback_text(frame, playback);
     const auto write_caption = [&](double y) {
         if (caption.empty()) return TextSize{};
@@ -53,8 +54,8 @@ TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& fr
         write_caption(y);
         y += 2.6 * type.minor + type.gap;
         if (dial) {
-            const TextSize disc = dial_block(writer, nullptr, x, y);
-            dial_block(writer, &frame, x, y);
+            const TextSize disc = dial_block(writer, nullptr, radius, x, y);
+            dial_block(writer, &frame, radius, x, y);
             const TextSize drive = drive_block(writer, scene, x + disc.width + type.gap, y);
             arrows_block(writer, scene, scene.film.camera, x + disc.width + drive.width + 3 * type.gap, y);
             y += disc.height;
@@ -63,8 +64,8 @@ TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& fr
     }
     if (dial) {
         y += 0.6 * type.gap;
-        const TextSize disc = dial_block(writer, nullptr, x, y);
-        dial_block(writer, &frame, x, y);
+        const TextSize disc = dial_block(writer, nullptr, radius, x, y);
+        dial_block(writer, &frame, radius, x, y);
         y += disc.height + 0.6 * type.gap;
         const TextSize drive = drive_block(writer, scene, x, y);
         y += drive.height + type.gap;

@@ -143,8 +143,8 @@ TextSize drive_block(const Writer& writer, const Scene& scene, double x, double 
     return size;
 }
 
-TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y) {
-    const double radius = 2.2 * writer.type.main, pen = std::max(1.0, writer.type.main / 16);
+TextSize dial_block(const Writer& writer, const Frame* frame, double radius, double x, double y) {
+    const double pen = std::max(1.0, writer.type.main / 16);
     const double bar = 2 * radius + 0.9 * writer.type.main;  // from the left, where the displacement is shown
     const TextSize size{bar + 0.6 * writer.type.main, 2 * radius + 2 * pen};
     if (!writer.on) return size;

@@ -32,10 +32,9 @@ struct Row {
 void perspective_row(const Row& row, const ViewSphere& sphere, float slope_y, std::uint32_t number) {
     const auto [x, y, z, r] = sphere;
     const float dot_rest = y * slope_y + z, square_rest = slope_y * slope_y + 1, r_square = r * r;
-    const float* const slope_x = row.slope_x;
-    float* const depth = row.depth;
-    std::uint32_t* const seen = row.seen;
-#pragma GCC ivdep
+    const float* const __restrict slope_x = row.slope_x;
+    float* const __restrict depth = row.depth;
+    std::uint32_t* const __restrict seen = row.seen;
     for (int i = 0; i < row.count; ++i) {
         const float slope = slope_x[i];
         const float inverse = 1 / (slope * slope + square_rest);
@@ -54,10 +53,9 @@ void perspective_row(const Row& row, const ViewSphere& sphere, float slope_y, st
 void orthographic_row(const Row& row, const ViewSphere& sphere, float slope_y, std::uint32_t number) {
     const auto [x, y, z, r] = sphere;
     const float rest_y = r * r - (y - slope_y) * (y - slope_y);
-    const float* const slope_x = row.slope_x;
-    float* const depth = row.depth;
-    std::uint32_t* const seen = row.seen;
-#pragma GCC ivdep
+    const float* const __restrict slope_x = row.slope_x;
+    float* const __restrict depth = row.depth;
+    std::uint32_t* const __restrict seen = row.seen;
     for (int i = 0; i < row.count; ++i) {
         const float miss = x - slope_x[i];
         const float rest = rest_y - miss * miss;

@@ -1,8 +1,10 @@
 // Which grain is seen at the centre of each pixel: exact spheres, met by the pixel's line of sight.
 //
 // This pass runs on the processor, not in OpenGL: the depth of a sphere is known only per pixel, which costs
-// a software rasteriser its early depth test and its speed. Measured at 1080p on one thread, 1,620 grains: 50
-// ms as impostors on llvmpipe, a few ms here. OpenGL lights the result, and each pixel once.
+// a software rasteriser its early depth test and with it its speed. Processor time at 1920x1080, 1,620 grains
+// that cover a quarter of the picture: 50 ms as impostors on llvmpipe, 7.5 ms here; then 52 ms to light each
+// pixel once with eight samples at edges (84 ms before equal neighbours were sorted out, 20 ms without smooth
+// edges).
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& ca
 // f, Gamma and amplitude.
 TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y);
 // A hand that turns once a period, its height the displacement; without `frame` only the still part.
-TextSize dial_block(const Writer& writer, const Frame* frame, double x, double y);
+TextSize dial_block(const Writer& writer, const Frame* frame, double radius, double x, double y);
 // Time and, with a drive, the cycle.
 TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y);
 
