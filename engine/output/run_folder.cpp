@@ -62,9 +62,11 @@ RunFolder::RunFolder(const RunFolderRequest& request) {
 bool RunFolder::make(const fs::path& path) {
     std::error_code error;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-    // create_directory is the test and the taking in one: of two runs that start together, one gets the name.
-    const bool made = !error && fs::create_directory(path, error);
-    if (!error && !made) return false;
+    if (!error) {
+        // The test and the taking in one: of two runs that start together, one gets the name.
+        const bool made = fs::create_directory(path, error);
+        if (!made && (!error || error == std::errc::file_exists)) return false;
+    }
     if (!error && ::access(path.c_str(), W_OK | X_OK) != 0) error = {errno, std::generic_category()};
     if (error) {
         std::error_code ignored;

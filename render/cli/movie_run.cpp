@@ -185,9 +185,7 @@ bool MovieRun::advance_to(std::int64_t target) {
         pace_.took(to - from, seconds);
         const double work = static_cast<double>(to - from) * static_cast<double>(simulation_->grains());
         particle_steps_ += work;
-        // A mean that forgets within about a second.
-        const double weight = std::min(1.0, seconds);
-        if (seconds > 0) recent_rate_ += (recent_rate_ > 0 ? weight : 1.0) * (work / seconds - recent_rate_);
+        rate_.add(work, seconds);
         if (since_checkpoint_.seconds() > checkpoint_interval) save_checkpoint();
         show_progress();
     }
@@ -219,7 +217,7 @@ void MovieRun::show_progress() {
     progress.done = static_cast<double>(step - first_step_) / static_cast<double>(plan_.steps - first_step_);
     progress.time = plan_.clock.time(step);
     progress.end = plan_.clock.time(plan_.steps);
-    progress.particle_steps_per_second = recent_rate_;
+    progress.particle_steps_per_second = rate_.value();
     progress.frames = film_ ? film_->frames_done() : 0;
     progress.frames_planned = pictures_planned_;
     progress.elapsed = watch_.seconds();

@@ -81,7 +81,7 @@ class MovieRun {
     std::optional<Stopwatch> vibrating_;
     Stopwatch since_checkpoint_;
     double particle_steps_ = 0;  // of vibration
-    double recent_rate_ = 0;     // particle-steps/s, of the last second or so
+    RecentRate rate_;            // particle-steps/s
     std::string failure_;        // the first; empty while all is well
 };
 

@@ -1,7 +1,9 @@
-// How many steps to take at a stretch, so that Ctrl-C and the progress line never wait long.
+// How fast a run goes: how many steps to take at a stretch, so that Ctrl-C and the progress line never wait
+// long, and the rate to show.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace grainreel {
@@ -22,6 +24,21 @@ class Pace {
     static constexpr double stretch = 0.1;  // s, of wall time
     static constexpr std::int64_t longest = std::int64_t{1} << 40;
     std::int64_t steps_ = 8;
+};
+
+// Work a second, forgetting what is a few seconds old.
+class RecentRate {
+  public:
+    void add(double work, double seconds) {
+        const double kept = std::exp(-seconds / memory);
+        work_ = kept * work_ + work;
+        seconds_ = kept * seconds_ + seconds;
+    }
+    double value() const { return seconds_ > 0 ? work_ / seconds_ : 0; }
+
+  private:
+    static constexpr double memory = 2;  // s
+    double work_ = 0, seconds_ = 0;
 };
 
 }  // namespace grainreel

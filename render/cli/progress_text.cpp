@@ -21,6 +21,7 @@ std::string to_string(Progress::Stage stage) {
 }
 
 std::string duration_text(double seconds) {
+    if (seconds < 9.95 && seconds != std::floor(seconds)) return fmt::format("{:.1f} s", seconds);
     const auto whole = static_cast<std::int64_t>(std::llround(seconds));
     if (whole < 60) return fmt::format("{} s", whole);
     if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
@@ -38,7 +39,7 @@ std::string progress_line(const Progress& p, int width) {
         parts.push_back(fmt::format("{:.1f} M particle-steps/s", p.particle_steps_per_second * 1e-6));
     }
     if (p.frames_planned > 0) parts.push_back(fmt::format("frame {} of {}", p.frames, p.frames_planned));
-    if (p.remaining >= 0) parts.push_back(duration_text(p.remaining) + " left");
+    if (p.remaining >= 0) parts.push_back(duration_text(std::ceil(p.remaining)) + " left");
 
     std::string line;
     for (const std::string& part : parts) {

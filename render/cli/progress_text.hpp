@@ -26,7 +26,7 @@ std::string progress_line(const Progress& progress, int width);
 // One object, one line, without the line's end.
 std::string progress_json(const Progress& progress);
 
-// "45 s", "1 min 05 s", "2 h 03 min".
+// "0.4 s", "45 s", "1 min 05 s", "2 h 03 min".
 std::string duration_text(double seconds);
 
 }  // namespace grainreel

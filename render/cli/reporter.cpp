@@ -16,7 +16,8 @@ namespace {
 constexpr auto terminal_interval = std::chrono::milliseconds(100);
 constexpr auto json_interval = std::chrono::milliseconds(500);
 constexpr auto pipe_interval = std::chrono::seconds(5);
-constexpr double pipe_share = 0.1;  // of a stage
+constexpr double pipe_share = 0.1;                       // of a stage, when that is sooner ...
+constexpr auto pipe_shortest = std::chrono::seconds(1);  // ... but not much sooner
 
 bool is_terminal() {
     const char* term = std::getenv("TERM");
@@ -91,7 +92,8 @@ bool Reporter::due(const Progress& now, Watch::time_point time) const {
     const bool finished = now.done >= 1 && last_->done < 1;
     if (options_.form == ReporterOptions::Form::json) return finished || since >= json_interval;
     if (terminal_) return finished || since >= terminal_interval;
-    return finished || since >= pipe_interval || now.done - last_->done >= pipe_share;
+    return since >= pipe_interval ||
+           (since >= pipe_shortest && (finished || now.done - last_->done >= pipe_share));
 }
 
 void Reporter::progress(const Progress& progress) {

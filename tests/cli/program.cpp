@@ -1,0 +1,99 @@
+#include "tests/cli/program.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel::test {
+
+namespace {
+
+std::filesystem::path stream_file(const char* name) {
+    static std::atomic<int> count = 0;
+    return std::filesystem::temp_directory_path() /
+           (std::string("grainreel-") + name + "-" + std::to_string(::getpid()) + "-" +
+            std::to_string(++count));
+}
+
+int exit_status(int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+// In the child, between fork and exec.
+void become_program(const std::vector<std::string>& words, const Program::Setting& setting, const char* out,
+                    const char* err) {
+    ::dup2(::open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    ::dup2(::open(err, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+    if (::chdir(setting.folder.c_str()) != 0) ::_exit(127);
+    for (const std::string& variable : setting.environment) ::putenv(const_cast<char*>(variable.c_str()));
+    if (setting.file_size_limit > 0) {
+        const rlimit limit{setting.file_size_limit, setting.file_size_limit};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    std::vector<char*> arguments{const_cast<char*>(GRAINREEL_BINARY)};
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    ::execv(GRAINREEL_BINARY, arguments.data());
+    ::_exit(127);
+}
+
+}  // namespace
+
+Program::Program(const std::vector<std::string>& words, const Setting& setting)
+    : out_(stream_file("out")), err_(stream_file("err")) {
+    process_ = ::fork();
+    if (process_ == 0) become_program(words, setting, out_.c_str(), err_.c_str());
+}
+
+Program::~Program() {
+    if (running()) {
+        send(SIGKILL);
+        wait();
+    }
+    std::filesystem::remove(out_);
+    std::filesystem::remove(err_);
+}
+
+void Program::send(int signal) const {
+    ::kill(process_, signal);
+}
+
+bool Program::running() {
+    if (process_ < 0) return false;
+    int status = 0;
+    if (::waitpid(process_, &status, WNOHANG) == process_) collect(status);
+    return process_ >= 0;
+}
+
+Ended Program::wait() {
+    int status = 0;
+    if (process_ >= 0 && ::waitpid(process_, &status, 0) == process_) collect(status);
+    return {status_, text_of(out_), text_of(err_)};
+}
+
+void Program::collect(int status) {
+    process_ = -1;
+    status_ = exit_status(status);
+}
+
+Ended run_program(const std::vector<std::string>& words, const Program::Setting& setting) {
+    return Program(words, setting).wait();
+}
+
+bool wait_until(Program& program, const std::function<bool()>& condition) {
+    while (!condition()) {
+        if (!program.running()) return condition();
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+}
+
+}  // namespace grainreel::test

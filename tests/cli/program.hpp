@@ -1,0 +1,50 @@
+// The program as its users meet it: started with words, sent signals, read through its pipes.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace grainreel::test {
+
+struct Ended {
+    int status = -1;  // exit status; 128 + signal when a signal ended it
+    std::string out, err;
+};
+
+class Program {
+  public:
+    struct Setting {
+        std::filesystem::path folder = ".";    // to run in
+        std::vector<std::string> environment;  // NAME=value, beside the test's own
+        std::size_t file_size_limit = 0;       // bytes, of every file it writes; 0: none
+    };
+
+    // Starts the program with these words after its name.
+    Program(const std::vector<std::string>& words, const Setting& setting);
+    ~Program();  // kills what still runs
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    void send(int signal) const;
+    bool running();
+    Ended wait();
+
+  private:
+    void collect(int status);
+
+    pid_t process_ = -1;
+    int status_ = -1;
+    std::filesystem::path out_, err_;  // its two streams go to files: no pipe to fill up
+};
+
+// Starts it and waits for its end.
+Ended run_program(const std::vector<std::string>& words, const Program::Setting& setting);
+
+// Waits until `condition` holds or the program has ended; says whether it holds.
+bool wait_until(Program& program, const std::function<bool()>& condition);
+
+}  // namespace grainreel::test

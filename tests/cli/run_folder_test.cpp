@@ -1,0 +1,109 @@
+#include "engine/output/run_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/base/error.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder, test::text_of, test::write_text;
+using testing::HasSubstr;
+
+std::string message_of(const RunFolderRequest& request) {
+    try {
+        RunFolder folder(request);
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+// An earlier run in `path`, with a file to know it by.
+void make_run(const fs::path& path) {
+    fs::create_directory(path);
+    write_text(path / "run.json", "{}");
+    write_text(path / "movie.mp4", "the old film");
+}
+
+std::size_t entries(const fs::path& folder) {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(RunFolder, TakesTheSceneNameThenTheNextFreeNumber) {
+    const TemporaryFolder here;
+    const fs::path base = here / "deep/output";
+    EXPECT_EQ(RunFolder({"wedge", base, {}, false}).path(), base / "wedge");
+    EXPECT_EQ(RunFolder({"wedge", base, {}, false}).path(), base / "wedge-2");
+    write_text(base / "wedge-3", "a file in the way");
+    EXPECT_EQ(RunFolder({"wedge", base, {}, false}).path(), base / "wedge-4");
+    EXPECT_TRUE(fs::is_directory(base / "wedge-4"));
+}
+
+TEST(RunFolder, AnExistingOutIsAnErrorThatNamesForce) {
+    const TemporaryFolder here;
+    make_run(here / "run");
+    const std::string path = (here / "run").string();
+    EXPECT_EQ(message_of({"wedge", "output", here / "run", false}),
+              "--out " + path +
+                  ": exists already; choose another name, or --force to replace it when the new run "
+                  "is complete");
+    EXPECT_EQ(text_of(here / "run/movie.mp4"), "the old film");
+    EXPECT_EQ(entries(here.path()), 1u);
+}
+
+TEST(RunFolder, ForceKeepsTheOldRunUntilTheNewOneIsComplete) {
+    const TemporaryFolder here;
+    make_run(here / "run");
+    RunFolder folder({"wedge", "output", here.path() / "run/", true});
+    EXPECT_EQ(folder.path(), here / "run");
+    EXPECT_TRUE(fs::is_empty(here / "run"));
+    EXPECT_EQ(folder.previous(), here / ".run.old-1");
+    EXPECT_EQ(text_of(folder.previous() / "movie.mp4"), "the old film");
+    folder.remove_previous();
+    EXPECT_FALSE(fs::exists(here / ".run.old-1"));
+    EXPECT_TRUE(fs::exists(here / "run"));
+}
+
+TEST(RunFolder, ForceNeverTouchesAnEarlierRunThatStillWaits) {
+    const TemporaryFolder here;
+    make_run(here / "run");
+    make_run(here / ".run.old-1");
+    RunFolder folder({"wedge", "output", here / "run", true});
+    EXPECT_EQ(folder.previous(), here / ".run.old-2");
+    folder.remove_previous();
+    EXPECT_EQ(text_of(here / ".run.old-1/movie.mp4"), "the old film");
+}
+
+TEST(RunFolder, ForceLeavesAFolderAloneThatHoldsNoRun) {
+    const TemporaryFolder here;
+    fs::create_directory(here / "home");
+    write_text(here / "home/thesis.tex", "years of work");
+    EXPECT_THAT(message_of({"wedge", "output", here / "home", true}), HasSubstr("holds no run"));
+    EXPECT_EQ(text_of(here / "home/thesis.tex"), "years of work");
+}
+
+TEST(RunFolder, DiscardPutsTheOldRunBack) {
+    const TemporaryFolder here;
+    make_run(here / "run");
+    RunFolder folder({"wedge", "output", here / "run", true});
+    write_text(folder.path() / "log.txt", "begun");
+    folder.discard();
+    EXPECT_EQ(text_of(here / "run/movie.mp4"), "the old film");
+    EXPECT_EQ(entries(here.path()), 1u);
+}
+
+TEST(RunFolder, AFolderThatCannotBeMadeIsAUserError) {
+    const TemporaryFolder here;
+    write_text(here / "file", "");
+    const std::string path = (here / "file/run").string();
+    EXPECT_EQ(message_of({"wedge", "output", here / "file/run", false}),
+              path + ": the folder cannot be made: Not a directory; choose another with --out");
+    EXPECT_THAT(message_of({"wedge", here / "file", {}, false}), HasSubstr("the folder cannot be made"));
+}
+
+}  // namespace
+}  // namespace grainreel

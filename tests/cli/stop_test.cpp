@@ -1,0 +1,147 @@
+// Runs that do not reach their end: signals, a full disk. What they had must stay usable.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/output/trajectory.hpp"
+#include "engine/start/grain_table.hpp"
+#include "tests/cli/film_length.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+
+class StoppedMovie : public testing::Test {
+  protected:
+    // An hour of shaking, in run/ of the test's folder.
+    std::vector<std::string> long_run(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words = {"movie", scene.string(), "--duration", "3600 s", "--out", "run"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+
+    std::size_t frames_on_disk() const {
+        try {
+            return TrajectoryReader(here / "run/trajectory.nc").frames();
+        } catch (const UserError&) {
+            return 0;  // not there yet
+        }
+    }
+
+    nlohmann::json record() const { return nlohmann::json::parse(text_of(here / "run/run.json")); }
+
+    TemporaryFolder here;
+    fs::path scene = write_small_scene(here.path());
+};
+
+class SignalledMovie : public StoppedMovie, public testing::WithParamInterface<int> {};
+
+TEST_P(SignalledMovie, EndsInGoodOrder) {
+    Program program(long_run(), {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 5; }));
+    program.send(GetParam());
+    const Ended ended = program.wait();
+    EXPECT_EQ(ended.status, 128 + GetParam()) << ended.err;
+    EXPECT_EQ(ended.out, "run\n");
+    EXPECT_EQ(record()["status"], "interrupted");
+    EXPECT_EQ(record()["exit_status"], 128 + GetParam());
+    EXPECT_EQ(decoded_pictures(here / "run/movie.mp4"), record()["written"]["film_frames"].get<int>());
+    EXPECT_GT(record()["written"]["film_frames"].get<int>(), 0);
+    EXPECT_GE(frames_on_disk(), 5u);
+    EXPECT_EQ(read_grain_table(here / "run/final.csv").size(), 50u);
+    EXPECT_TRUE(fs::exists(here / "run/checkpoint.grs"));
+    // The end state has its row of measures.
+    const std::string measures = text_of(here / "run/measures.csv");
+    const std::size_t last_line = measures.rfind('\n', measures.size() - 2) + 1;
+    EXPECT_EQ(std::stoll(measures.substr(last_line)), record()["engine"]["steps"].get<std::int64_t>());
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SignalledMovie, testing::Values(SIGINT, SIGTERM), [](const auto& signal) {
+    return signal.param == SIGINT ? "Interrupt" : "Terminate";
+});
+
+TEST_F(StoppedMovie, ASecondSignalStopsAtOnce) {
+    Program program(long_run({"--no-film"}), {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 1; }));
+    // Held, so that both signals wait for it and no good order comes between them.
+    program.send(SIGSTOP);
+    program.send(SIGINT);
+    program.send(SIGTERM);
+    program.send(SIGCONT);
+    const int status = program.wait().status;
+    EXPECT_TRUE(status == 130 || status == 143) << status;
+    EXPECT_EQ(record()["status"], "running");
+}
+
+TEST_F(StoppedMovie, KilledLeavesAReadableTrajectoryAndFilm) {
+    Program program(long_run(), {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return decoded_pictures(here / "run/movie.mp4") >= 30; }));
+    program.send(SIGKILL);
+    EXPECT_EQ(program.wait().status, 128 + SIGKILL);
+    EXPECT_EQ(record()["status"], "running");
+    EXPECT_GE(decoded_pictures(here / "run/movie.mp4"), 30);
+    const TrajectoryReader trajectory(here / "run/trajectory.nc");
+    ASSERT_GE(trajectory.frames(), 2u);
+    const Frame last = trajectory.read(trajectory.frames() - 1);
+    EXPECT_EQ(last.size(), 50u);
+    for (const Vec3& position : last.position) EXPECT_TRUE(position.allFinite());
+}
+
+TEST_F(StoppedMovie, InterruptedBeforeTheFirstStepKeepsTheOldRun) {
+    fs::create_directory(here / "run");
+    write_text(here / "run/run.json", "{}");
+    write_text(here / "run/film.txt", "the old film");
+    // So many grains, and so hard ones, that packing takes a while.
+    Program program(long_run({"--force", "--set", "species.small.count=150", "--set", "run.step=1e-7 s"}),
+                    {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/scene.toml"); }));
+    program.send(SIGINT);
+    const Ended ended = program.wait();
+    EXPECT_EQ(ended.status, 130);
+    EXPECT_THAT(ended.err, HasSubstr("the run that was to be replaced is kept in .run.old-1"));
+    EXPECT_EQ(text_of(here / ".run.old-1/film.txt"), "the old film");
+    EXPECT_EQ(record()["status"], "interrupted");
+}
+
+// The limit on a file's size stands for the full disk: the write that passes it fails.
+TEST_F(StoppedMovie, AFullDiskEndsTheRunAndKeepsTheFramesBefore) {
+    const Ended ended = run_program(long_run({"--no-film"}), {here.path(), {}, 300000});
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("cannot be written: File too large"));
+    EXPECT_EQ(record()["status"], "failed");
+    EXPECT_EQ(record()["exit_status"], 1);
+    EXPECT_THAT(record()["error"], HasSubstr("cannot be written"));
+    const TrajectoryReader trajectory(here / "run/trajectory.nc");
+    ASSERT_GE(trajectory.frames(), 10u);
+    EXPECT_EQ(trajectory.frames(), record()["written"]["trajectory_frames"].get<std::size_t>());
+    double time = -1;
+    for (std::size_t i = 0; i < trajectory.frames(); ++i) {
+        const Frame frame = trajectory.read(i);
+        EXPECT_EQ(frame.size(), 50u);
+        EXPECT_GT(frame.time, time);
+        time = frame.time;
+    }
+    EXPECT_EQ(read_grain_table(here / "run/final.csv").size(), 50u);
+}
+
+TEST_F(StoppedMovie, AFilmThatCannotGrowEndsTheRunToo) {
+    const Ended ended =
+        run_program(long_run({"--set", "output.trajectory=false", "--set", "output.measures_interval=10 s"}),
+                    {here.path(), {}, 100000});
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("movie"));
+    EXPECT_GT(decoded_pictures(here / "run/movie.mp4"), 0);
+    EXPECT_EQ(read_grain_table(here / "run/final.csv").size(), 50u);
+}
+
+}  // namespace
+}  // namespace grainreel

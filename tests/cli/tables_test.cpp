@@ -1,0 +1,170 @@
+// measures.csv, final.csv, run.json, log.txt.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "engine/base/error.hpp"
+#include "engine/output/log.hpp"
+#include "engine/output/measures_csv.hpp"
+#include "engine/output/run_json.hpp"
+#include "engine/start/grain_table.hpp"
+#include "tests/cli/made_frame.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using test::made_frame, test::made_measures, test::TemporaryFolder, test::text_of, test::write_text;
+using testing::HasSubstr;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+void expect_same_bits(const Vec3& a, const Vec3& b) {
+    for (int k = 0; k < 3; ++k)
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(a[k]), std::bit_cast<std::uint64_t>(b[k]));
+}
+
+TEST(GrainTable, ReadsBackBitByBit) {
+    const TemporaryFolder here;
+    Frame frame = made_frame(9, 4, true);
+    frame.velocity[0] = {-0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max()};
+    frame.position[1] = {0.1, 1.0 / 3, 5e-324};
+    write_grain_table(here / "final.csv", frame);
+    const Frame back = read_grain_table(here / "final.csv");
+    EXPECT_EQ(back.id, frame.id);
+    EXPECT_EQ(back.species, frame.species);
+    EXPECT_EQ(back.radius, frame.radius);
+    ASSERT_EQ(back.size(), frame.size());
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        expect_same_bits(back.position[i], frame.position[i]);
+        expect_same_bits(back.velocity[i], frame.velocity[i]);
+        expect_same_bits(back.spin[i], frame.spin[i]);
+        EXPECT_EQ(back.orientation[i].coeffs(), frame.orientation[i].coeffs());
+    }
+}
+
+std::string reading_error(const std::string& text) {
+    const TemporaryFolder here;
+    write_text(here / "final.csv", text);
+    try {
+        read_grain_table(here / "final.csv");
+    } catch (const UserError& error) {
+        return std::string(error.what()).substr(here.path().string().size() + 1);
+    }
+    return "no error";
+}
+
+constexpr const char* header = "id,species,radius,x,y,z,vx,vy,vz,wx,wy,wz\n";
+
+TEST(GrainTable, MistakesAreNamedWithTheirPlace) {
+    const std::string good = "0,0,0.1,0,0,0,0,0,0,0,0,0\n";
+    const std::string h = header;
+    EXPECT_EQ(reading_error(h + good), "no error");
+    EXPECT_THAT(reading_error("id,x\n"), HasSubstr("final.csv:1:1: not a table of grains"));
+    EXPECT_THAT(reading_error(h), HasSubstr("no grains"));
+    EXPECT_THAT(reading_error(h + good + good), HasSubstr("final.csv:3:1: grain 0 is here twice"));
+    EXPECT_THAT(reading_error(h + "0,0,0.1,0,oops,0,0,0,0,0,0,0\n"),
+                HasSubstr("final.csv:2:11: `oops` is no number for `y`"));
+    EXPECT_THAT(reading_error(h + "0,0,0.1,0,nan,0,0,0,0,0,0,0\n"), HasSubstr("`y` is nan"));
+    EXPECT_THAT(reading_error(h + "0,0,-1,0,0,0,0,0,0,0,0,0\n"),
+                HasSubstr("final.csv:2:5: `radius` is not positive"));
+    EXPECT_THAT(reading_error(h + "0,0,0.1,0,0,0,0,0,0,0,0\n"), HasSubstr("the row ends before `wz`"));
+    EXPECT_THAT(reading_error(h + "0,0,0.1,0,0,0,0,0,0,0,0,0,7\n"), HasSubstr("more columns"));
+    EXPECT_THROW(read_grain_table("/nowhere/final.csv"), UserError);
+}
+
+TEST(MeasuresCsv, HasAColumnForEveryNumber) {
+    const TemporaryFolder here;
+    {
+        MeasuresWriter writer(here / "m.csv", {"small", "big, \"round\""});
+        writer.write(made_measures(1));
+        writer.write(made_measures(2));
+        EXPECT_EQ(writer.rows(), 2);
+    }
+    const std::vector<std::string> lines = split(text_of(here / "m.csv"), '\n');
+    ASSERT_EQ(lines.size(), 3u);
+    const std::vector<std::string> names = split(lines[0], ','), values = split(lines[2], ',');
+    ASSERT_EQ(names.size(), values.size());
+    const auto value = [&](const std::string& name) {
+        const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+        EXPECT_LT(at, names.size()) << name;
+        double number = std::numeric_limits<double>::quiet_NaN();
+        std::from_chars(values[at].data(), values[at].data() + values[at].size(), number);
+        return number;
+    };
+    const Measures m = made_measures(2);
+    EXPECT_EQ(value("time_s"), m.time);
+    EXPECT_EQ(value("kinetic_J"), m.kinetic);
+    EXPECT_EQ(value("lost_J"), m.lost);
+    EXPECT_EQ(value("centre_z_m"), m.centre_of_mass.z());
+    EXPECT_EQ(value("small_centre_x_m"), m.species_centre[0].x());
+    EXPECT_EQ(value("big_ _round__height_m"), m.species_height[1]);
+    EXPECT_EQ(value("height_difference"), m.height_difference);
+    EXPECT_EQ(value("lacey"), m.lacey);
+    EXPECT_EQ(value("floor_position_m"), m.floor_position);
+}
+
+TEST(MeasuresCsv, AFullDiskIsARunErrorThatNamesFileAndReason) {
+    try {
+        MeasuresWriter writer("/dev/full", {});
+        FAIL() << "/dev/full took a line";
+    } catch (const RunError& error) {
+        EXPECT_STREQ(error.what(), "/dev/full: cannot be written: No space left on device");
+    }
+}
+
+TEST(RunJson, HoldsTheRecord) {
+    const TemporaryFolder here;
+    RunRecord record;
+    record.command = "grainreel movie 'my scene.toml'";
+    record.libraries = {{"NetCDF", "4.9.0"}};
+    record.state_hash = 0x0123456789abcdefull;
+    record.seed = std::numeric_limits<std::uint64_t>::max();
+    record.wall_seconds = {{"engine", 1.5}};
+    record.warnings = {"bytes that are no UTF-8: \xff"};
+    write_run_json(here / "run.json", record);
+    const nlohmann::json running = nlohmann::json::parse(text_of(here / "run.json"));
+    EXPECT_EQ(running["status"], "running");
+    EXPECT_TRUE(running["exit_status"].is_null());
+
+    record.status = RunStatus::interrupted;
+    record.exit_status = 130;
+    write_run_json(here / "run.json", record);
+    const nlohmann::json ended = nlohmann::json::parse(text_of(here / "run.json"));
+    EXPECT_EQ(ended["status"], "interrupted");
+    EXPECT_EQ(ended["exit_status"], 130);
+    EXPECT_EQ(ended["command"], record.command);
+    EXPECT_EQ(ended["program"]["libraries"]["NetCDF"], "4.9.0");
+    EXPECT_EQ(ended["engine"]["state_hash"], "0123456789abcdef");
+    EXPECT_EQ(ended["engine"]["seed"], record.seed);
+    EXPECT_EQ(ended["wall_s"]["engine"], 1.5);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(here.path()), {}), 1);  // nothing left over
+}
+
+TEST(RunLog, EveryLineIsOnDiskAtOnceWithItsTime) {
+    const TemporaryFolder here;
+    RunLog log(here / "log.txt");
+    log.info("begun {} %v");
+    EXPECT_THAT(text_of(here / "log.txt"),
+                testing::MatchesRegex("[0-9-]+ [0-9:.]+  info +begun \\{\\} %v\n"));
+    log.warning("hot");
+    EXPECT_THAT(text_of(here / "log.txt"), HasSubstr("warning  hot\n"));
+}
+
+TEST(RunLog, AFullDiskDoesNotStopTheRun) {
+    RunLog log("/dev/full");
+    EXPECT_NO_THROW(log.info("lost"));
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,230 @@
+#include "engine/output/trajectory.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netcdf.h>
+
+#include "engine/base/error.hpp"
+#include "engine/output/contacts_file.hpp"
+#include "tests/cli/made_frame.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using test::made_frame, test::TemporaryFolder, test::vector_of;
+
+TrajectoryInfo made_info(std::size_t capacity, bool orientation = false) {
+    TrajectoryInfo info;
+    info.title = "A test";
+    info.program_version = "1.2.3";
+    info.species = {"small ones", "big", "glued"};
+    info.capacity = capacity;
+    info.orientation = orientation;
+    info.cell_origin = {-0.1, -0.2, 0};
+    info.periodic_length = {0.2, 0, 0};
+    return info;
+}
+
+// Through memory, since GCC 12 at -O3 takes the rounding out of a vector's way to float and back.
+Vec3 as_floats(const Vec3& v) {
+    Vec3 rounded;
+    for (int k = 0; k < 3; ++k) {
+        const volatile float single = static_cast<float>(v[k]);
+        rounded[k] = single;
+    }
+    return rounded;
+}
+
+// Bit by bit, but for what the file keeps as float.
+void expect_same(const Frame& got, const Frame& wanted) {
+    EXPECT_EQ(got.step, wanted.step);
+    EXPECT_EQ(got.time, wanted.time);
+    EXPECT_EQ(got.cycles, wanted.cycles);
+    EXPECT_EQ(got.phase, wanted.phase);
+    EXPECT_EQ(got.wall_offset, wanted.wall_offset);
+    EXPECT_EQ(got.wall_velocity, wanted.wall_velocity);
+    EXPECT_EQ(got.floor_offset, wanted.floor_offset);
+    EXPECT_EQ(got.floor_velocity, wanted.floor_velocity);
+    EXPECT_EQ(got.id, wanted.id);
+    EXPECT_EQ(got.species, wanted.species);
+    EXPECT_EQ(got.radius, wanted.radius);
+    EXPECT_EQ(got.position, wanted.position);
+    ASSERT_EQ(got.velocity.size(), wanted.size());
+    ASSERT_EQ(got.spin.size(), wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        EXPECT_EQ(got.velocity[i], as_floats(wanted.velocity[i]));
+        EXPECT_EQ(got.spin[i], as_floats(wanted.spin[i]));
+    }
+    ASSERT_EQ(got.orientation.size(), wanted.orientation.size());
+    for (std::size_t i = 0; i < wanted.orientation.size(); ++i) {
+        EXPECT_TRUE(got.orientation[i].coeffs().isApprox(wanted.orientation[i].coeffs(), 1e-6));
+    }
+}
+
+TEST(Trajectory, ReadsBackWhatWasWritten) {
+    const TemporaryFolder here;
+    {
+        TrajectoryWriter writer(here / "t.nc", made_info(5, true));
+        for (int i = 0; i < 3; ++i) writer.write(made_frame(5, i, true));
+        EXPECT_EQ(writer.frames(), 3);
+    }
+    const TrajectoryReader reader(here / "t.nc");
+    ASSERT_EQ(reader.frames(), 3u);
+    EXPECT_EQ(reader.info().title, "A test");
+    EXPECT_EQ(reader.info().species, made_info(5).species);
+    EXPECT_EQ(reader.info().cell_origin, made_info(5).cell_origin);
+    EXPECT_EQ(reader.info().periodic_length, made_info(5).periodic_length);
+    for (std::size_t i = 0; i < 3; ++i) expect_same(reader.read(i), made_frame(5, static_cast<int>(i), true));
+}
+
+TEST(Trajectory, GrainsMayComeAndGo) {
+    const TemporaryFolder here;
+    {
+        TrajectoryWriter writer(here / "t.nc", made_info(7));
+        writer.write(made_frame(3, 0));
+        writer.write(made_frame(7, 1));
+        writer.write(made_frame(0, 2));
+    }
+    const TrajectoryReader reader(here / "t.nc");
+    expect_same(reader.read(0), made_frame(3, 0));
+    expect_same(reader.read(1), made_frame(7, 1));
+    expect_same(reader.read(2), made_frame(0, 2));
+}
+
+// By the trailing fill values OVITO knows how many grains a frame has.
+TEST(Trajectory, PlacesWithoutAGrainHoldFillValues) {
+    const TemporaryFolder here;
+    TrajectoryWriter(here / "t.nc", made_info(3)).write(made_frame(2, 0));
+    int file = -1, variable = -1;
+    ASSERT_EQ(nc_open((here / "t.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+    std::array<double, 9> x{};
+    ASSERT_EQ(nc_inq_varid(file, "coordinates", &variable), NC_NOERR);
+    ASSERT_EQ(nc_get_var_double(file, variable, x.data()), NC_NOERR);
+    for (std::size_t k = 0; k < 6; ++k)
+        EXPECT_EQ(x[k], made_frame(2, 0).position[k / 3][static_cast<int>(k % 3)]);
+    for (std::size_t k = 6; k < 9; ++k) EXPECT_EQ(x[k], NC_FILL_DOUBLE);
+    std::array<int, 3> id{};
+    ASSERT_EQ(nc_inq_varid(file, "id", &variable), NC_NOERR);
+    ASSERT_EQ(nc_get_var_int(file, variable, id.data()), NC_NOERR);
+    EXPECT_THAT(id, testing::ElementsAre(1, 3, -1));
+    nc_close(file);
+}
+
+TEST(Trajectory, TooManyGrainsForTheFileIsARunError) {
+    const TemporaryFolder here;
+    TrajectoryWriter writer(here / "t.nc", made_info(4));
+    EXPECT_THROW(writer.write(made_frame(5, 0)), RunError);
+}
+
+TEST(Trajectory, FollowsTheAmberConvention) {
+    const TemporaryFolder here;
+    TrajectoryWriter(here / "t.nc", made_info(4)).write(made_frame(4, 0));
+    EXPECT_EQ(test::text_of(here / "t.nc").substr(0, 4), "CDF\2");
+    int file = -1;
+    ASSERT_EQ(nc_open((here / "t.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+    const auto attribute = [&](int variable, const char* name) {
+        std::size_t length = 0;
+        EXPECT_EQ(nc_inq_attlen(file, variable, name, &length), NC_NOERR) << name;
+        std::string text(length, ' ');
+        nc_get_att_text(file, variable, name, text.data());
+        return text;
+    };
+    EXPECT_EQ(attribute(NC_GLOBAL, "Conventions"), "AMBER");
+    EXPECT_EQ(attribute(NC_GLOBAL, "ConventionVersion"), "1.0");
+    EXPECT_EQ(attribute(NC_GLOBAL, "program"), "grainreel");
+    EXPECT_EQ(attribute(NC_GLOBAL, "programVersion"), "1.2.3");
+    const std::vector<std::pair<const char*, std::vector<std::string>>> shapes = {
+        {"spatial", {"spatial"}},
+        {"cell_spatial", {"cell_spatial"}},
+        {"cell_angular", {"cell_angular", "label"}},
+        {"time", {"frame"}},
+        {"coordinates", {"frame", "atom", "spatial"}},
+        {"velocities", {"frame", "atom", "spatial"}},
+        {"cell_lengths", {"frame", "cell_spatial"}},
+        {"cell_angles", {"frame", "cell_angular"}},
+        {"radius", {"frame", "atom"}}};
+    for (const auto& [name, dimensions] : shapes) {
+        int variable = -1, rank = 0;
+        std::array<int, NC_MAX_VAR_DIMS> ids{};
+        ASSERT_EQ(nc_inq_varid(file, name, &variable), NC_NOERR) << name;
+        nc_inq_var(file, variable, nullptr, nullptr, &rank, ids.data(), nullptr);
+        ASSERT_EQ(rank, static_cast<int>(dimensions.size())) << name;
+        for (std::size_t d = 0; d < dimensions.size(); ++d) {
+            std::array<char, NC_MAX_NAME + 1> dimension{};
+            nc_inq_dimname(file, ids[d], dimension.data());
+            EXPECT_EQ(dimension.data(), dimensions[d]) << name;
+        }
+    }
+    int coordinates = -1;
+    nc_inq_varid(file, "coordinates", &coordinates);
+    EXPECT_EQ(attribute(coordinates, "units"), "meter");
+    nc_close(file);
+}
+
+// What a program killed now would leave is what another process reads now.
+TEST(Trajectory, IsReadableWhileItIsBeingWritten) {
+    const TemporaryFolder here;
+    TrajectoryWriter writer(here / "t.nc", made_info(4));
+    EXPECT_EQ(TrajectoryReader(here / "t.nc").frames(), 0u);
+    for (int i = 0; i < 4; ++i) {
+        writer.write(made_frame(4, i));
+        std::filesystem::copy_file(here / "t.nc", here / "copy.nc",
+                                   std::filesystem::copy_options::overwrite_existing);
+        const TrajectoryReader reader(here / "copy.nc");
+        ASSERT_EQ(reader.frames(), static_cast<std::size_t>(i + 1));
+        expect_same(reader.read(static_cast<std::size_t>(i)), made_frame(4, i));
+    }
+}
+
+TEST(Trajectory, OtherFilesAreUserErrors) {
+    const TemporaryFolder here;
+    EXPECT_THROW(TrajectoryReader(here / "missing.nc"), UserError);
+    test::write_text(here / "text.nc", "not NetCDF at all");
+    EXPECT_THROW(TrajectoryReader(here / "text.nc"), UserError);
+}
+
+TEST(Trajectory, AFileThatCannotBeMadeIsARunError) {
+    EXPECT_THROW(TrajectoryWriter("/dev/null/t.nc", made_info(4)), RunError);
+}
+
+TEST(ContactsFile, IsATableWithTheFrameOfEveryRow) {
+    const TemporaryFolder here;
+    const auto contact = [](int i) {
+        return Simulation::ContactRecord{i, -1 - i, i + 0.5, vector_of(i), vector_of(i + 0.5)};
+    };
+    {
+        ContactsWriter writer(here / "c.nc", "A test", "1.2.3");
+        writer.write(0, {contact(0), contact(1)});
+        writer.write(1, {});
+        writer.write(2, {contact(2)});
+    }
+    int file = -1;
+    ASSERT_EQ(nc_open((here / "c.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+    const auto column = [&](const char* name, std::size_t width) {
+        int variable = -1;
+        EXPECT_EQ(nc_inq_varid(file, name, &variable), NC_NOERR) << name;
+        std::size_t rows = 0;
+        nc_inq_dimlen(file, 0, &rows);
+        EXPECT_EQ(rows, 3u);
+        std::vector<double> values(rows * width);
+        nc_get_var_double(file, variable, values.data());
+        return values;
+    };
+    EXPECT_THAT(column("frame", 1), testing::ElementsAre(0, 0, 2));
+    EXPECT_THAT(column("first", 1), testing::ElementsAre(0, 1, 2));
+    EXPECT_THAT(column("second", 1), testing::ElementsAre(-1, -2, -3));
+    EXPECT_THAT(column("normal", 1), testing::ElementsAre(0.5, 1.5, 2.5));
+    const std::vector<double> tangential = column("tangential", 3), point = column("point", 3);
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const auto at = static_cast<std::size_t>(3 * i + k);
+            EXPECT_EQ(tangential[at], static_cast<float>(vector_of(i)[k]));
+            EXPECT_EQ(point[at], static_cast<float>(vector_of(i + 0.5)[k]));
+        }
+    }
+    nc_close(file);
+}
+
+}  // namespace
+}  // namespace grainreel
