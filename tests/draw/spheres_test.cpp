@@ -158,7 +158,7 @@ TEST(Spheres, EdgesAreSmoothAndUnbiased) {
             covered +=
                 std::abs(now - before[i]) < 3 ? 0 : std::min(1.0, (before[i] - now) / (before[i] - 40));
         }
-    EXPECT_NEAR(covered / (pi * pixels * pixels), 1, 0.05);
+    EXPECT_NEAR(covered / (pi * pixels * pixels), 1, 0.02);
 }
 
 }  // namespace
