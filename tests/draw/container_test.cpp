@@ -127,16 +127,21 @@ TEST(Framing, KeepsEverythingInThePictureAndFillsIt) {
                             scene.film.camera.elevation = elevation;
                             scene.film.camera.field_of_view = field;
                             const View view = view_of(scene);
-                            double widest = 0;  // share of the half port that the outermost point reaches
+                            const double margin = type_scale(scene.film).margin;
+                            Pixel low(1e9, 1e9), high(-1e9, -1e9);
                             for (const Vec3& point : framing_points(scene)) {
                                 ASSERT_GT(view.to_view(point).z(), view.nearest);
                                 ASSERT_LT(view.to_view(point).z(), view.farthest);
-                                const Pixel at = view.project(point);
-                                widest = std::max({widest, std::abs(2 * at.x() / view.port.width - 1),
-                                                   std::abs(2 * at.y() / view.port.height - 1)});
+                                low = low.cwiseMin(view.project(point));
+                                high = high.cwiseMax(view.project(point));
                             }
-                            ASSERT_LE(widest, 1) << width << "x" << height << " fov " << field;
-                            ASSERT_GE(widest, 0.7) << width << "x" << height << " fov " << field;
+                            // Inside the margin on all sides, and touching it on two opposite ones.
+                            const Pixel size(view.port.width, view.port.height);
+                            ASSERT_GT(low.minCoeff(), margin - 1e-6);
+                            ASSERT_GT((size - high).minCoeff(), margin - 1e-6);
+                            const Pixel slack =
+                                (low.array() - margin).max(size.array() - high.array() - margin);
+                            ASSERT_LT(slack.minCoeff(), 1e-6) << width << "x" << height << " fov " << field;
                         }
 }
 

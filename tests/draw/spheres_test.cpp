@@ -151,14 +151,39 @@ TEST(Spheres, EdgesAreSmoothAndUnbiased) {
         for (int x = 0; x < port.width; ++x) before.push_back(empty.pixel(port.x + x, port.y + y)[0]);
     const Picture& picture = renderer.draw(frame_of({{{0, 0.003, 0.1}, radius, 0}}), "");
     double covered = 0;
+    int partly = 0;
     std::size_t i = 0;
     for (int y = 0; y < port.height; ++y)
         for (int x = 0; x < port.width; ++x, ++i) {
             const double now = picture.pixel(port.x + x, port.y + y)[0];
-            covered +=
-                std::abs(now - before[i]) < 3 ? 0 : std::min(1.0, (before[i] - now) / (before[i] - 40));
+            if (std::abs(now - before[i]) < 3) continue;
+            const double share = std::min(1.0, (before[i] - now) / (before[i] - 40));
+            covered += share;
+            partly += share > 0.15 && share < 0.85;
         }
     EXPECT_NEAR(covered / (pi * pixels * pixels), 1, 0.02);
+    EXPECT_GT(partly, pi * pixels);  // half a pixel of transition for each pixel of the outline, at least
+}
+
+TEST(Spheres, EdgesBetweenGrainsAreSmooth) {
+    Scene scene = wedge();
+    scene.film.camera.field_of_view = 0;
+    scene.species = {species("black", 1, 0.01, {0, 0, 0}), species("white", 1, 0.02, {1, 1, 1})};
+    const View view = view_of(scene);
+    const Vec3 at(0, 0, 0.1);
+    Renderer renderer(scene, 1);
+    const double radius = 0.008;
+    const Frame frame = frame_of({{at - 0.04 * view.forward, radius, 0}, {at, 0.03, 1}});
+    const Picture& picture = renderer.draw(frame, "");
+    const Pixel centre = view.project(at);
+    int partly = 0;
+    for (int y = 0; y < view.port.height; ++y)
+        for (int x = 0; x < view.port.width; ++x) {
+            const double away = std::hypot(x + 0.5 - centre.x(), y + 0.5 - centre.y()) - view.focal * radius;
+            const int value = picture.pixel(view.port.x + x, view.port.y + y)[0];
+            partly += std::abs(away) < 1 && value > 70 && value < 180;
+        }
+    EXPECT_GT(partly, 0.5 * pi * view.focal * radius);
 }
 
 }  // namespace
