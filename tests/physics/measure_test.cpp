@@ -20,7 +20,7 @@ Lattice lattice(const Mark& mark) {
         for (int y = 0; y < 16; ++y) {
             for (int x = 0; x < 16; ++x) {
                 l.position.emplace_back(x, y, z);
-                l.marked.push_back(mark(x, y, z));
+                l.marked.push_back(mark(x, y, z) ? 1 : 0);
             }
         }
     }
