@@ -25,6 +25,7 @@ struct Sheared {
           }()),
           normal(walton_braun_pair(0.8, kFriction)) {
         touch.normal = Vec3(0, 0, 1);
+        touch.slip = touch.slip_velocity = Vec3::Zero();
     }
     // T along x after slipping by `s` in `steps` equal parts.
     double slip(double s, int steps, double normal_force = kNormal) {
