@@ -170,6 +170,9 @@ TEST(StrobeWarnings, GiveTheApparentMotion) {
         strobe_warnings(film_of({motion({}, 1)}), drive_of(31)),
         ElementsAre("film segment 1 shows 0.968 frames a period: the 31 Hz drive will seem to move at 1 Hz; "
                     "lock it to a phase, or set its playback to 0.121 or less"));
+    // Just below F: still k = 1, not the whole number below.
+    EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), drive_of(28)),
+                ElementsAre(HasSubstr("the 28 Hz drive will seem to move at 2 Hz")));
     // F = 15: f = 20 lies nearest to 1 F; |20 - 15| = 5. And F = 60: nearest is 0 F, so 20 itself.
     EXPECT_THAT(
         strobe_warnings(film_of({motion(1.0, 2), locked(1.0, 1, 0), motion({}, 0.5)}), drive_of(20)),
