@@ -144,6 +144,7 @@ BedPlan plan_bed(const Scene& scene) {
     double diameters = 0;
     for (const Species& s : scene.species) {
         bed.largest_density = std::max(bed.largest_density, s.density);
+        bed.largest_mass = std::max(bed.largest_mass, mass_of(s, s.diameter.largest));
         diameters += static_cast<double>(s.count) * s.diameter.mean;
     }
     bed.layers = std::max(1.0, bed.height * static_cast<double>(scene.grains()) / diameters);
@@ -193,8 +194,8 @@ double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& 
                         const Species* b) {
     double largest = 0;
     for (const Touching& t : extremes(a, b)) {
-        const double impact =
-            bed.impact_speed * std::sqrt(t.effective_mass / pair.loading_stiffness) / t.diameter;
+        const double load = std::max(t.effective_mass, bed.largest_mass / 3);
+        const double impact = bed.impact_speed * std::sqrt(load / pair.loading_stiffness) / t.diameter;
         const double weight = static_load(bed, t.diameter) / pair.loading_stiffness;
         largest = std::max({largest, impact, scene.drive.present || bed.gravity > 0 ? weight : 0.0});
     }

@@ -10,7 +10,8 @@
 namespace grainreel {
 namespace {
 
-constexpr double alarming_overlap = 0.02;  // over the smaller diameter; 1 % is the usual aim
+constexpr double alarming_overlap =
+    0.05;  // over the smaller diameter; 1 % is the usual aim for most contacts
 constexpr double alarming_size_ratio = 10;
 
 class Warnings {
@@ -41,21 +42,21 @@ void warn_of_drive(const Scene& scene, const BedPlan& bed, Warnings& warnings) {
                      fmt::format("the drive grows over {:.4g} s, longer than the run of {:.4g} s, and never "
                                  "reaches its amplitude; lengthen the run or shorten the ramp",
                                  drive.ramp / drive.frequency, scene.run.duration));
-    const bool elastic = std::any_of(
-        scene.contact.grain.begin(), scene.contact.grain.end(),
-        [](const PairContact& pair) { return pair.restitution == 1 && !pair.normal_damping; });
+    const bool elastic =
+        std::any_of(scene.contact.grain.begin(), scene.contact.grain.end(),
+                    [](const PairContact& pair) { return pair.restitution == 1 && !pair.normal_damping; });
     if (elastic)
         warnings.add("contact",
                      "restitution 1 loses no energy, so the drive heats the grains without limit; lower it");
 }
 
 void warn_of_softness(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
-    if (plan.expected_overlap > std::max(alarming_overlap, 1.001 * scene.run.overlap))
+    if (plan.expected_overlap > alarming_overlap)
         warnings.add(
             "contact.stiffness",
             fmt::format(
                 "overlaps of {:.2g} of a diameter are expected, more than {:.2g}; raise the stiffness",
-                plan.expected_overlap, std::max(alarming_overlap, scene.run.overlap)));
+                plan.expected_overlap, alarming_overlap));
     double slowest = 0, tunnelling = std::numeric_limits<double>::infinity();
     const std::size_t count = scene.species.size();
     for (std::size_t a = 0; a < count; ++a) {

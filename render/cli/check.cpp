@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
+#include "engine/step/team.hpp"
 #include "render/cli/thread_plan.hpp"
 #include "render/film/sampler.hpp"
 
@@ -176,13 +177,10 @@ void print_time(const Scene& scene, const Plan& plan, Listing& list) {
               scene.start.method == Start::Method::file
                   ? "from " + scene.start.file
                   : fmt::format("layers, then settling for {} at most", span(scene.start.settle_limit)));
-    // The default scene reached 2.1 times the plan's figure in its first 2 s.
-    list.line(
-        "overlap",
-        fmt::format(
-            "{:.2g} % of the smaller diameter, by impacts at {:.3g} m/s and the bed's weight; about twice "
-            "that where a whole bed lands",
-            100 * plan.expected_overlap, plan.impact_speed));
+    list.line("overlap",
+              fmt::format("up to {:.2g} % of the smaller diameter expected, with impacts at {:.3g} m/s; most "
+                          "contacts stay below {:.2g} %",
+                          100 * plan.expected_overlap, plan.impact_speed, 100 * scene.run.overlap));
 }
 
 struct FilmCost {
@@ -231,7 +229,7 @@ void print_cost(const Scene& scene, const Plan& plan, const FilmCost& film, List
     const double settling =
         std::min(static_cast<double>(plan.settle_steps_limit), assumed_settling / plan.clock.step);
     const double work = grains * (static_cast<double>(plan.steps) + settling);
-    const int threads = scene.run.threads > 0 ? scene.run.threads : available_processors();
+    const int threads = scene.run.threads > 0 ? scene.run.threads : usable_processors();
     const double engine = work / steps_a_second;
     list.line("cost", fmt::format("{:.2g} grain-steps, {} of one thread at {:.2g} a second", work,
                                   span(engine), steps_a_second));
