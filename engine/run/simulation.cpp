@@ -4,12 +4,15 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 
 #include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/measure.hpp"
+#include "engine/measure/segregation.hpp"
 #include "engine/start/grain_table.hpp"
 #include "engine/run/health.hpp"
 #include "engine/start/layers.hpp"
@@ -58,6 +61,17 @@ Grains grains_of(const Scene& scene, const Frame& frame) {
     }
     if (!frame.orientation.empty()) grains.orientation = frame.orientation;
     return grains;
+}
+
+double solid_fraction(const Container& container, const Grains& grains) {
+    std::vector<double> heights;
+    for (const Place& p : grains.place) heights.push_back(p.position.z());
+    const double top = std::clamp(bed_height(heights), 0.0, container.height);
+    double solid = 0;
+    for (const Place& p : grains.place) {
+        if (p.position.z() <= top) solid += 4.0 / 3.0 * std::numbers::pi * std::pow(p.radius, 3);
+    }
+    return top > 0 ? solid / container.volume_below(top) : 0;
 }
 
 }  // namespace
@@ -169,6 +183,7 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
         result.settle_time = static_cast<double>(settled.steps) * m.plan.clock.step;
         result.kinetic_per_grain = settled.kinetic_per_grain;
     }
+    result.solid_fraction = solid_fraction(m.scene.container, m.grains);
     m.begin_drive();
     return result;
 }

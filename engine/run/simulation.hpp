@@ -29,7 +29,7 @@ struct PackingResult {
     bool settled = true;            // false when the time limit ended settling
     double settle_time = 0;         // s, simulated
     double kinetic_per_grain = 0;   // J, at the end
-    double solid_fraction = 0;      // of the settled bed, estimated
+    double solid_fraction = 0;      // of the bed below the height under which 95 % of the centres lie
 };
 
 class Simulation {

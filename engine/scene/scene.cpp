@@ -20,10 +20,14 @@ double Container::half_width_at(double z) const {
 }
 
 double Container::volume() const {
-    if (shape == Shape::cylinder) return std::numbers::pi * half_width * half_width * height;
-    const double slanted = shape == Shape::wedge ? std::min(slant_height, height) : 0.0;
+    return volume_below(height);
+}
+
+double Container::volume_below(double z) const {
+    if (shape == Shape::cylinder) return std::numbers::pi * half_width * half_width * z;
+    const double slanted = shape == Shape::wedge ? std::min(slant_height, z) : 0.0;
     const double mean_width = half_width_at(0) + half_width_at(slanted);  // twice the mean half-width
-    return depth * (slanted * mean_width + (height - slanted) * 2 * half_width);
+    return depth * (slanted * mean_width + (z - slanted) * 2 * half_width);
 }
 
 double Drive::speed() const {

@@ -80,9 +80,10 @@ struct Container {
     double half_angle = 0;    // rad, slanted walls against the vertical; wedge only
     double slant_height = 0;  // m, H: height of the slanted part; wedge only
     bool lid = true;
-    bool periodic_depth = false;      // no front and back walls: what leaves at one enters at the other
-    double floor_half_width() const;  // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
-    double volume() const;            // m3, floor to height
+    bool periodic_depth = false;          // no front and back walls: what leaves at one enters at the other
+    double floor_half_width() const;      // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
+    double volume() const;                // m3, floor to height
+    double volume_below(double z) const;  // m3, floor to z, z in [0, height]
     // m, the free half-width at height z above the floor.
     double half_width_at(double z) const;
     bool operator==(const Container&) const = default;

@@ -23,24 +23,13 @@ double draw_diameter(const SizeSpread& spread, Random& random) {
     }
 }
 
-// m3, of the container below z.
-double volume_below(const Container& container, double z) {
-    Container part = container;
-    part.height = z;
-    // Only the volume formula's own shape matters: below the slant's top the widths are those of the whole.
-    if (container.shape == Container::Shape::wedge && z < container.slant_height) {
-        return container.depth * z * (container.half_width_at(0) + container.half_width_at(z));
-    }
-    return part.volume();
-}
-
 // z below which the share of the container's volume lies.
 double height_of_share(const Container& container, double share) {
     const double wanted = share * container.volume();
     double low = 0, high = container.height;
     for (int halving = 0; halving < 60; ++halving) {
         const double middle = 0.5 * (low + high);
-        (volume_below(container, middle) < wanted ? low : high) = middle;
+        (container.volume_below(middle) < wanted ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }

@@ -29,13 +29,17 @@ void wait_while(const std::atomic<int>& value, int old) {
     while (value.load(std::memory_order_acquire) == old) value.wait(old, std::memory_order_acquire);
 }
 
-// Processors' worth of time the cgroup grants; infinite without a quota.
+// Processors' worth of time the cgroup grants; infinite without a quota. Version 2 writes "quota period" or
+// "max period" into one file, version 1 uses two.
 double cgroup_quota() {
-    std::ifstream file("/sys/fs/cgroup/cpu.max");
     std::string quota;
-    double period = 0;
-    if (file >> quota >> period && quota != "max" && period > 0) return std::stod(quota) / period;
-    return INFINITY;
+    double period = 0, microseconds = 0;
+    if (std::ifstream v2("/sys/fs/cgroup/cpu.max"); v2 >> quota >> period) {
+        return quota == "max" || period <= 0 ? INFINITY : std::stod(quota) / period;
+    }
+    std::ifstream v1_quota("/sys/fs/cgroup/cpu/cpu.cfs_quota_us"), v1_period("/sys/fs/cgroup/cpu/cpu.cfs_period_us");
+    const bool limited = v1_quota >> microseconds && v1_period >> period && microseconds > 0 && period > 0;
+    return limited ? microseconds / period : INFINITY;
 }
 
 }  // namespace

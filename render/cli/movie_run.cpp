@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/scene/writer.hpp"
+#include "engine/step/team.hpp"
 #include "render/cli/stop_signal.hpp"
 #include "render/cli/version.hpp"
 
@@ -22,7 +23,7 @@ std::vector<Shot> schedule(const Scene& scene, const Plan& plan, bool wanted) {
 }
 
 ThreadPlan threads_for(const Scene& scene, bool film) {
-    return plan_threads(scene.run.threads > 0 ? scene.run.threads : available_processors(), film);
+    return plan_threads(scene.run.threads > 0 ? scene.run.threads : usable_processors(), film);
 }
 
 }  // namespace

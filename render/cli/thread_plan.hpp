@@ -9,9 +9,6 @@ struct ThreadPlan {
     int encoder = 1;  // of x264
 };
 
-// What this process may use: its affinity mask, cut by a cgroup's quota, at least 1.
-int available_processors();
-
 // processors: as many as the run may keep busy. With a film, about a third of the work is drawing and
 // encoding.
 ThreadPlan plan_threads(int processors, bool film);
