@@ -196,7 +196,8 @@ void TrajectoryWriter::write(const Frame& frame) {
     }
     impl_->write_pose(frame);
     impl_->write_grains(frame);
-    impl_->file.sync(++impl_->frames);
+    impl_->file.sync(impl_->frames + 1);
+    ++impl_->frames;  // only now: one that failed does not count
 }
 
 std::int64_t TrajectoryWriter::frames() const {

@@ -114,9 +114,10 @@ TEST_F(StoppedMovie, InterruptedBeforeTheFirstStepKeepsTheOldRun) {
 
 // The limit on a file's size stands for the full disk: the write that passes it fails.
 TEST_F(StoppedMovie, AFullDiskEndsTheRunAndKeepsTheFramesBefore) {
-    const Ended ended = run_program(long_run({"--no-film"}), {here.path(), {}, 300000});
+    const Ended ended = run_program(long_run({"--no-film", "--set", "output.measures_interval=10 s"}),
+                                    {here.path(), {}, 300000});
     EXPECT_EQ(ended.status, 1) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("cannot be written: File too large"));
+    EXPECT_THAT(ended.err, HasSubstr("trajectory.nc: cannot be written: File too large"));
     EXPECT_EQ(record()["status"], "failed");
     EXPECT_EQ(record()["exit_status"], 1);
     EXPECT_THAT(record()["error"], HasSubstr("cannot be written"));
