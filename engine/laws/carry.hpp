@@ -19,7 +19,8 @@ inline Vec3 carry_along(const Vec3& force, const Vec3& before, const Vec3& now, 
     Vec3 turned = force * cosine + axis.cross(force) + axis * (axis.dot(force) / (1 + cosine));
     turned -= now * now.dot(turned);  // what round-off left along the normal
     const double t = 0.5 * twist;
-    return (turned * (1 - t * t) + now.cross(turned) * (2 * t)) / (1 + t * t);
+    const double scale = 1 / (1 + t * t);
+    return turned * ((1 - t * t) * scale) + now.cross(turned) * (2 * t * scale);
 }
 
 }  // namespace grainreel

@@ -59,11 +59,11 @@ struct IncrementalSlip {
         const double old_size = std::sqrt(old.squaredNorm());
         Vec3 direction;
         if (old_size > 0) {
-            direction = old / old_size;
+            direction = old * (1 / old_size);
         } else {
             const double slip_size = std::sqrt(touch.slip.squaredNorm());
             if (slip_size == 0) return h.force = old;
-            direction = touch.slip / slip_size;
+            direction = touch.slip * (1 / slip_size);
         }
         const double along = direction.dot(touch.slip);
 

@@ -28,7 +28,7 @@ namespace grainreel {
 namespace {
 
 constexpr std::int64_t kStepsPerLook = 200;  // between health checks, at multiples of it
-constexpr double kSkinShare = 0.3;           // of the smallest radius
+constexpr double kSkinShare = 0.4;           // of the smallest radius
 
 double smallest_radius(const Scene& scene) {
     double smallest = scene.species[0].diameter.smallest;

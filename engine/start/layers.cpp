@@ -11,6 +11,8 @@ namespace grainreel {
 
 namespace {
 
+constexpr double kLooseFraction = 1.0 / 3;  // solid share of the space the centres are drawn in
+
 double draw_diameter(const SizeSpread& spread, Random& random) {
     switch (spread.kind) {
         case SizeSpread::Kind::fixed: return spread.largest;
@@ -54,7 +56,9 @@ Vec3 random_centre(const Container& c, double bottom, double top, double margin,
 
 double mean_diameter(const Species& s) { return 0.5 * (s.diameter.smallest + s.diameter.largest); }
 
-double solid_volume(const Species& s) { return static_cast<double>(s.count) * std::pow(mean_diameter(s), 3); }
+double solid_volume(const Species& s) {
+    return static_cast<double>(s.count) * std::numbers::pi / 6 * std::pow(mean_diameter(s), 3);
+}
 
 }  // namespace
 
@@ -66,12 +70,13 @@ Grains place_in_layers(const Scene& scene) {
     });
     double all = 0;
     for (const Species& s : scene.species) all += solid_volume(s);
+    const double filled = std::min(1.0, all / kLooseFraction / scene.container.volume());
     std::vector<double> bottom(scene.species.size()), top(scene.species.size());
     double share = 0;
     for (const std::size_t s : upwards) {
-        bottom[s] = height_of_share(scene.container, share);
+        bottom[s] = height_of_share(scene.container, filled * share);
         share += solid_volume(scene.species[s]) / all;
-        top[s] = height_of_share(scene.container, std::min(share, 1.0));
+        top[s] = height_of_share(scene.container, filled * std::min(share, 1.0));
     }
 
     Random diameters(scene.run.seed, Stream::diameters), centres(scene.run.seed, Stream::centres);

@@ -38,7 +38,7 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
     }
     const double rest = rest_energy(plan, grains, gravity);
     double diameter = 0;
-    for (const Place& p : grains.place) diameter = std::max(diameter, 2 * p.radius);
+    for (const Place& p : grains.place) diameter += 2 * p.radius / static_cast<double>(grains.size());
     const std::int64_t calm_steps = static_cast<std::int64_t>(10 * std::sqrt(diameter / gravity) / plan.clock.step);
     const HealthLimits limits = health_limits(scene, plan);
     std::int64_t calm_since = -1;

@@ -103,13 +103,15 @@ private:
         apart.x() = nearest_image(apart.x(), period);
         const double distance = std::sqrt(apart.squaredNorm());
         Touch touch;
-        touch.normal = apart / distance;
+        const double inverse_distance = 1 / distance;
+        touch.normal = apart * inverse_distance;
         touch.overlap = one.radius + two.radius - distance;
         // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is what
         // keeps angular momentum. The original program took the radii.
         double first_arm = one.radius, second_arm = two.radius;
         if (arms_ == LeverArms::contact_plane) {
-            first_arm = 0.5 * (distance + (one.radius - two.radius) * (one.radius + two.radius) / distance);
+            first_arm =
+                0.5 * (distance + (one.radius - two.radius) * (one.radius + two.radius) * inverse_distance);
             second_arm = distance - first_arm;
         }
         fill_motion(grains, step, i, j, first_arm, second_arm, touch);

@@ -16,10 +16,10 @@ inline Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
 }
 
 // First half for the grains [begin, end): v and w to the middle of the step, x to its end. Returns the largest
-// squared displacement from `listed_at`, m2.
+// squared displacement from `listed_at` + `drift`, m2.
 template <bool rubs, bool predicts>
-double kick_and_drift(Grains& grains, const std::vector<Vec3>& listed_at, const Vec3& gravity, double step,
-                      std::int32_t begin, std::int32_t end) {
+double kick_and_drift(Grains& grains, const std::vector<Vec3>& listed_at, const Vec3& drift, const Vec3& gravity,
+                      double step, std::int32_t begin, std::int32_t end) {
     const double half = 0.5 * step;
     double farthest = 0;
     for (std::int32_t i = begin; i < end; ++i) {
@@ -28,7 +28,7 @@ double kick_and_drift(Grains& grains, const std::vector<Vec3>& listed_at, const 
         m.velocity += half_kick;
         if constexpr (predicts) grains.end_velocity[i] = m.velocity + half_kick;
         grains.place[i].position += step * m.velocity;
-        farthest = std::max(farthest, (grains.place[i].position - listed_at[i]).squaredNorm());
+        farthest = std::max(farthest, (grains.place[i].position - listed_at[i] - drift).squaredNorm());
         if constexpr (rubs) {
             Spin& s = grains.spin[i];
             const Vec3 half_turn = (half * s.inverse_inertia) * grains.torque[i];

@@ -28,16 +28,20 @@ public:
           pairs_(plan.grain, plan.wall.size(), plan.arms),
           walls_(plan.wall, surroundings.faces, plan.arms),
           threads_(team.size()),
-          farthest_(team.size()) {}
+          farthest_(team.size()),
+          parts_(team.size()) {}
 
     void restart() override {
         if constexpr (Law::uses_velocity) {
             grains_.end_velocity.resize(grains_.size());
             grains_.end_spin.resize(grains_.size());
         }
-        new_lists(around_.motion.at(-1));
-        pairs_.clear_history();
-        walls_.clear_history();
+        const Pose rest = around_.motion.at(-1);
+        pairs_.list = {};
+        walls_.list.clear();
+        team_.run([&](int member) { rebuild(member, rest); });
+        rebuilds_ = 0;
+        fresh_ = true;
         if constexpr (Law::uses_velocity) {
             for (std::size_t i = 0; i < grains_.size(); ++i) {
                 grains_.end_velocity[i] = grains_.motion[i].velocity;
@@ -45,12 +49,13 @@ public:
             }
         }
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
-        const Pose rest = around_.motion.at(-1);
         team_.run([&](int member) { evaluate_forces(member, 0, rest, rest); });
     }
 
     void run(std::int64_t from, std::int64_t count, double step, double drag) override {
         const double keep = drag > 0 ? std::exp(-drag * step) : 1.0;
+        if (fresh_) listed_step_ = from;
+        fresh_ = false;
         team_.run([&](int member) {
             for (std::int64_t n = from; n < from + count; ++n) one_step(member, n, step, keep);
         });
@@ -70,7 +75,9 @@ public:
         write_vector(out, walls_.history);
         write_vector(out, walls_.touched);
         write_vector(out, listed_at_);
+        write_value(out, listed_velocity_);
         write_value(out, listed_pose_);
+        write_value(out, listed_step_);
     }
 
     void load(std::istream& in) override {
@@ -82,11 +89,14 @@ public:
         read_vector(in, walls_.history);
         read_vector(in, walls_.touched);
         read_vector(in, listed_at_);
+        read_value(in, listed_velocity_);
         read_value(in, listed_pose_);
+        read_value(in, listed_step_);
         if constexpr (Law::uses_velocity) {
             grains_.end_velocity.resize(grains_.size());
             grains_.end_spin.resize(grains_.size());
         }
+        fresh_ = false;
         share_out();
     }
 
@@ -100,12 +110,14 @@ private:
     // positions and velocities between the second and third barrier, while nobody writes them.
     void one_step(int member, std::int64_t n, double step, double keep) {
         const Pose before = around_.motion.at(n), now = around_.motion.at(n + 1);
+        const Vec3 drift = drift_since_listing(n + 1, step);
         farthest_[member].squared = kick_and_drift<rubs, Law::uses_velocity>(
-            grains_, listed_at_, around_.gravity, step, share_[member], share_[member + 1]);
+            grains_, listed_at_, drift, around_.gravity, step, share_[member], share_[member + 1]);
         team_.barrier();
-        if (lists_expired(now)) {
-            if (team_.size() > 1) team_.barrier();  // nobody may rebuild while another still reads farthest_
-            if (member == 0) rebuild(now);
+        if (lists_expired(now, drift)) {
+            team_.barrier();  // nobody may rebuild while another still reads what lists_expired() reads
+            rebuild(member, now);
+            if (member == 0) listed_step_ = n + 1;
             team_.barrier();
         }
         evaluate_forces(member, step, before, now);
@@ -121,39 +133,56 @@ private:
         walls_.apply(grains_, step, before, now, begin, end);
     }
 
-    bool lists_expired(const Pose& now) const {
+    // How far the bed as a whole has flown since the lists were made, were it in free flight. Displacements
+    // count against this: it takes nothing from the safety of the lists, whatever the bed does, because two
+    // grains come closer by at most the sum of what each moves against any common frame.
+    Vec3 drift_since_listing(std::int64_t n, double step) const {
+        const double time = static_cast<double>(n - listed_step_) * step;
+        return time * (listed_velocity_ + 0.5 * time * around_.gravity);
+    }
+
+    bool lists_expired(const Pose& now, const Vec3& drift) const {
         double squared = 0;
         for (const Farthest& f : farthest_) squared = std::max(squared, f.squared);
         const double moved = std::sqrt(squared);
-        const double wall_moved = (now.offset - listed_pose_.offset).norm();
-        return 2 * moved > around_.skin || moved + wall_moved > around_.skin;
+        const double still_face = drift.norm(), moving_face = (now.offset - listed_pose_.offset - drift).norm();
+        return 2 * moved > around_.skin || moved + std::max(still_face, moving_face) > around_.skin;
     }
 
-    void rebuild(const Pose& now) {
-        const NeighbourList old_pairs = std::move(pairs_.list);
-        const auto old_history = std::move(pairs_.history);
-        const auto old_touched = std::move(pairs_.touched);
-        const auto old_walls = std::move(walls_.list);
-        const auto old_wall_history = std::move(walls_.history);
-        const auto old_wall_touched = std::move(walls_.touched);
-        new_lists(now);
-        std::vector<std::int32_t> new_index(grains_.size());
-        for (std::size_t i = 0; i < new_index.size(); ++i) new_index[cells_.order()[i]] = static_cast<int>(i);
+    // New order, new lists, histories carried over: called by all members; the pair search is shared out.
+    void rebuild(int member, const Pose& pose) {
+        if (member == 0) {
+            old_.take(pairs_, walls_);
+            grains_.reorder(spatial_order(cells_, grains_, around_.skin, around_.period));
+        }
+        team_.barrier();
+        const std::int64_t n = static_cast<std::int64_t>(grains_.size());
+        list_pairs(cells_, grains_, around_.skin, around_.period, static_cast<std::int32_t>(n * member / team_.size()),
+                   static_cast<std::int32_t>(n * (member + 1) / team_.size()), parts_[member]);
+        team_.barrier();
+        if (member != 0) return;
+        join_lists(parts_, pairs_.list);
+        walls_.list = list_wall_neighbours(grains_, around_.faces, pose, around_.skin);
         pairs_.clear_history();
         walls_.clear_history();
-        carry_pairs(old_pairs, old_history, old_touched, new_index);
-        carry_walls(old_walls, old_wall_history, old_wall_touched, new_index);
+        std::vector<std::int32_t> new_index(grains_.size());
+        for (std::size_t i = 0; i < new_index.size(); ++i) new_index[cells_.order()[i]] = static_cast<int>(i);
+        carry_pairs(new_index);
+        carry_walls(new_index);
+        note_listing(pose);
+        share_out();
         ++rebuilds_;
     }
 
-    void new_lists(const Pose& pose) {
-        grains_.reorder(spatial_order(cells_, grains_, around_.skin, around_.period));
-        list_pairs(cells_, grains_, around_.skin, around_.period, pairs_.list);
-        walls_.list = list_wall_neighbours(grains_, around_.faces, pose, around_.skin);
+    void note_listing(const Pose& pose) {
         listed_at_.resize(grains_.size());
-        for (std::size_t i = 0; i < grains_.size(); ++i) listed_at_[i] = grains_.place[i].position;
+        listed_velocity_.setZero();
+        for (std::size_t i = 0; i < grains_.size(); ++i) {
+            listed_at_[i] = grains_.place[i].position;
+            listed_velocity_ += grains_.motion[i].velocity;
+        }
+        listed_velocity_ /= static_cast<double>(grains_.size());
         listed_pose_ = pose;
-        share_out();
     }
 
     // Ranges of grains for the threads, of about equal work: a grain costs about as much as three listed pairs.
@@ -169,13 +198,13 @@ private:
         }
     }
 
-    void carry_pairs(const NeighbourList& old, const std::vector<typename Law::History>& history,
-                     const std::vector<std::uint8_t>& touched, const std::vector<std::int32_t>& new_index) {
+    void carry_pairs(const std::vector<std::int32_t>& new_index) {
+        const NeighbourList& old = old_.pairs;
         for (std::size_t i = 0; i + 1 < old.start.size(); ++i) {
             for (std::int32_t slot = old.start[i]; slot < old.start[i + 1]; ++slot) {
-                if (!touched[slot]) continue;
+                if (!old_.touched[slot]) continue;
                 std::int32_t first = new_index[i], second = new_index[old.partner[slot]];
-                auto kept = history[slot];
+                auto kept = old_.history[slot];
                 if (first > second) {
                     std::swap(first, second);
                     kept.flip();
@@ -191,17 +220,17 @@ private:
         }
     }
 
-    void carry_walls(const std::vector<WallNeighbour>& old, const std::vector<typename Law::History>& history,
-                     const std::vector<std::uint8_t>& touched, const std::vector<std::int32_t>& new_index) {
+    void carry_walls(const std::vector<std::int32_t>& new_index) {
+        const std::vector<WallNeighbour>& old = old_.walls;
         for (std::size_t entry = 0; entry < old.size(); ++entry) {
-            if (!touched[entry]) continue;
+            if (!old_.wall_touched[entry]) continue;
             const std::int32_t grain = new_index[old[entry].grain];
             const auto lower = [](const WallNeighbour& w, std::int32_t g) { return w.grain < g; };
             auto found = std::lower_bound(walls_.list.begin(), walls_.list.end(), grain, lower);
             while (found != walls_.list.end() && found->grain == grain && found->face != old[entry].face) ++found;
             if (found == walls_.list.end() || found->grain != grain) continue;
             const std::size_t place = found - walls_.list.begin();
-            walls_.history[place] = history[entry];
+            walls_.history[place] = old_.wall_history[entry];
             walls_.touched[place] = 1;
         }
     }
@@ -264,6 +293,25 @@ private:
         return v;
     }
 
+    // Lists and histories as they were, while new ones are made; kept to be filled again without allocation.
+    struct Old {
+        NeighbourList pairs;
+        std::vector<typename Law::History> history;
+        std::vector<std::uint8_t> touched;
+        std::vector<WallNeighbour> walls;
+        std::vector<typename Law::History> wall_history;
+        std::vector<std::uint8_t> wall_touched;
+
+        void take(ContactPass<Law>& p, WallPass<Law>& w) {
+            std::swap(pairs, p.list);
+            history.swap(p.history);
+            touched.swap(p.touched);
+            walls.swap(w.list);
+            wall_history.swap(w.history);
+            wall_touched.swap(w.touched);
+        }
+    };
+
     struct alignas(64) Farthest {
         double squared = 0;  // m2
     };
@@ -277,8 +325,14 @@ private:
     std::vector<ThreadContacts> threads_;
     std::vector<Farthest> farthest_;   // of each thread, since the lists were made
     std::vector<std::int32_t> share_;  // thread t owns the grains [share_[t], share_[t + 1])
+    std::vector<NeighbourList> parts_;  // of the pair search, one a thread
+    Old old_;
+    // Where and how the grains and walls were when the lists were made.
     std::vector<Vec3> listed_at_;
+    Vec3 listed_velocity_{0, 0, 0};
     Pose listed_pose_;
+    std::int64_t listed_step_ = 0;
+    bool fresh_ = true;  // restarted: the next run() says at which step the lists were made
     std::int64_t rebuilds_ = 0;
 };
 

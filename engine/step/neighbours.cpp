@@ -22,27 +22,45 @@ const std::vector<std::int32_t>& spatial_order(Cells& cells, Grains& grains, dou
     return cells.order();
 }
 
-void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, NeighbourList& list) {
-    const std::int32_t n = static_cast<std::int32_t>(grains.size());
-    list.start.resize(n + 1);
-    list.partner.clear();
+void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
+                std::int32_t end, NeighbourList& part) {
+    part.start.resize(end - begin + 1);
+    std::size_t count = 0;
     std::array<Cells::Range, 14> ranges;
-    for (std::int32_t i = 0; i < n; ++i) {
-        list.start[i] = static_cast<std::int32_t>(list.partner.size());
-        const Place& me = grains.place[i];
-        const int count = cells.partners_after(me.position, i, ranges);
-        const double reach = me.radius + skin;
-        for (int r = 0; r < count; ++r) {
-            for (std::int32_t j = ranges[r].first; j < ranges[r].last; ++j) {
-                const Place& other = grains.place[j];
-                Vec3 apart = other.position - me.position;
+    const Place* place = grains.place.data();
+    for (std::int32_t i = begin; i < end; ++i) {
+        part.start[i - begin] = static_cast<std::int32_t>(count);
+        const Vec3 centre = place[i].position;
+        const double reach = place[i].radius + skin;
+        const int found = cells.partners_after(centre, i, ranges);
+        for (int r = 0; r < found; ++r) {
+            const auto [first, last] = ranges[r];
+            if (part.partner.size() < count + (last - first)) part.partner.resize(2 * count + 64 + (last - first));
+            // Every candidate is written and the hits are kept: no branch to mispredict.
+            std::int32_t* next = part.partner.data() + count;
+            for (std::int32_t j = first; j < last; ++j) {
+                Vec3 apart = place[j].position - centre;
                 apart.x() = nearest_image(apart.x(), period);
-                const double limit = reach + other.radius;
-                if (apart.squaredNorm() < limit * limit) list.partner.push_back(j);
+                const double limit = reach + place[j].radius;
+                *next = j;
+                next += apart.squaredNorm() < limit * limit;
             }
+            count = next - part.partner.data();
         }
     }
-    list.start[n] = static_cast<std::int32_t>(list.partner.size());
+    part.start[end - begin] = static_cast<std::int32_t>(count);
+    part.partner.resize(count);
+}
+
+void join_lists(const std::vector<NeighbourList>& parts, NeighbourList& whole) {
+    whole.start.clear();
+    whole.partner.clear();
+    for (const NeighbourList& part : parts) {
+        const std::int32_t shift = static_cast<std::int32_t>(whole.partner.size());
+        for (std::size_t i = 0; i + 1 < part.start.size(); ++i) whole.start.push_back(part.start[i] + shift);
+        whole.partner.insert(whole.partner.end(), part.partner.begin(), part.partner.end());
+    }
+    whole.start.push_back(static_cast<std::int32_t>(whole.partner.size()));
 }
 
 std::vector<WallNeighbour> list_wall_neighbours(const Grains& grains, const std::vector<Face>& faces,

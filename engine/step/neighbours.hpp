@@ -35,8 +35,11 @@ inline double nearest_image(double x, double period) {
 // Wraps positions into the period, then gives the spatial order (order[new] = old) to put the grains in.
 const std::vector<std::int32_t>& spatial_order(Cells& cells, Grains& grains, double skin, double period);
 
-// Both want the grains already in spatial order.
-void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, NeighbourList& list);
+// All want the grains already in spatial order. list_pairs lists under the grains [begin, end) only, start
+// counting from 0 at `begin`; join_lists puts the parts of rising ranges together.
+void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
+                std::int32_t end, NeighbourList& part);
+void join_lists(const std::vector<NeighbourList>& parts, NeighbourList& whole);
 std::vector<WallNeighbour> list_wall_neighbours(const Grains& grains, const std::vector<Face>& faces,
                                                 const Pose& pose, double skin);
 
