@@ -25,7 +25,8 @@ template <class T>
 void write_vector(std::ostream& out, const std::vector<T>& values) {
     static_assert(std::is_trivially_destructible_v<T>);
     write_value(out, static_cast<std::uint64_t>(values.size()));
-    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+    out.write(reinterpret_cast<const char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(T)));
 }
 
 // Sets the stream's failbit instead of taking in more than 2^31 entries, which only a damaged file asks for.

@@ -1,4 +1,5 @@
-// Time as a count of steps. With a drive, a whole number of steps makes one period, so the phase never drifts.
+// Time as a count of steps. With a drive, a whole number of steps makes one period, so the phase never
+// drifts.
 #pragma once
 
 #include <cmath>
@@ -18,7 +19,8 @@ struct Clock {
     double phase(std::int64_t n) const {
         if (steps_per_period == 0) return 0;
         const std::int64_t within = ((n % steps_per_period) + steps_per_period) % steps_per_period;
-        const double turns = initial_phase + static_cast<double>(within) / static_cast<double>(steps_per_period);
+        const double turns =
+            initial_phase + static_cast<double>(within) / static_cast<double>(steps_per_period);
         return turns - std::floor(turns);
     }
 

@@ -9,13 +9,13 @@ namespace grainreel {
 // A mistake in what the user gave us. what() is the whole line to print:
 // "scene.toml:12:5: what is wrong; what to do". The program ends with exit code 2.
 class UserError : public std::runtime_error {
-public:
+  public:
     using std::runtime_error::runtime_error;
 };
 
 // A run that cannot go on: a blow-up, a full disk. what() says where, what and the remedy. Exit code 1.
 class RunError : public std::runtime_error {
-public:
+  public:
     using std::runtime_error::runtime_error;
 };
 

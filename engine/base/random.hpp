@@ -11,7 +11,7 @@ namespace grainreel {
 enum class Stream : std::uint64_t { diameters = 1, centres = 2 };
 
 class Random {
-public:
+  public:
     Random(std::uint64_t seed, Stream stream) {
         std::seed_seq mix{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
                           static_cast<std::uint32_t>(stream)};
@@ -27,7 +27,7 @@ public:
         return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
     }
 
-private:
+  private:
     std::mt19937_64 engine_;
 };
 

@@ -7,11 +7,11 @@
 
 namespace grainreel {
 
-// Turns `force` (perpendicular to `before`) by the smallest rotation that takes unit normal `before` to `now`,
-// then by `twist` (rad) about `now`; its length is kept. Projection alone, as in the original program, cannot
-// see the twist. With c = before x now and d = before . now, Rodrigues' formula for f perpendicular to `before`
-// is f d + c x f + c (c . f) / (1 + d). The twist is Cayley's rotation by 2 atan(twist / 2): exact in length,
-// and in angle to twist^3 / 12.
+// Turns `force` (perpendicular to `before`) by the smallest rotation that takes unit normal `before` to
+// `now`, then by `twist` (rad) about `now`; its length is kept. Projection alone, as in the original program,
+// cannot see the twist. With c = before x now and d = before . now, Rodrigues' formula for f perpendicular to
+// `before` is f d + c x f + c (c . f) / (1 + d). The twist is Cayley's rotation by 2 atan(twist / 2): exact
+// in length, and in angle to twist^3 / 12.
 inline Vec3 carry_along(const Vec3& force, const Vec3& before, const Vec3& now, double twist) {
     if (force.x() == 0 && force.y() == 0 && force.z() == 0) return force;
     const Vec3 axis = before.cross(now);

@@ -46,7 +46,8 @@ struct ContactLaw {
     }
 
     // J, what the contact would give back if it were unloaded now.
-    static double stored_energy(const Parameters& p, const History& h, const Touch& touch, double normal_force) {
+    static double stored_energy(const Parameters& p, const History& h, const Touch& touch,
+                                double normal_force) {
         double energy = Normal::stored_energy(p.normal, h.normal, touch, normal_force);
         if constexpr (rubs) energy += Tangential::stored_energy(p.tangential, h.tangential);
         return energy;

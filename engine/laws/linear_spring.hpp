@@ -1,5 +1,6 @@
-// Tangential force: a linear spring with Coulomb's cap, T = k_t s + m_eff c_t v_t, |T| <= mu N (Cundall & Strack
-// 1979, Geotechnique 29, 47), as LAMMPS' hooke/history has it. With a normal law that has no dashpot c_t = 0.
+// Tangential force: a linear spring with Coulomb's cap, T = k_t s + m_eff c_t v_t, |T| <= mu N (Cundall &
+// Strack 1979, Geotechnique 29, 47), as LAMMPS' hooke/history has it. With a normal law that has no dashpot
+// c_t = 0.
 #pragma once
 
 #include <algorithm>

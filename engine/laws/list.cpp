@@ -12,7 +12,8 @@ namespace grainreel {
 namespace {
 
 template <class Normal>
-std::unique_ptr<StepLoop> with_normal(const Plan& plan, const Surroundings& around, Grains& grains, Team& team) {
+std::unique_ptr<StepLoop> with_normal(const Plan& plan, const Surroundings& around, Grains& grains,
+                                      Team& team) {
     switch (plan.tangential) {
         case TangentialLaw::incremental_slip:
             return std::make_unique<LawLoop<ContactLaw<Normal, IncrementalSlip>>>(plan, around, grains, team);
@@ -26,10 +27,13 @@ std::unique_ptr<StepLoop> with_normal(const Plan& plan, const Surroundings& arou
 
 }  // namespace
 
-std::unique_ptr<StepLoop> make_step_loop(const Plan& plan, const Surroundings& around, Grains& grains, Team& team) {
+std::unique_ptr<StepLoop> make_step_loop(const Plan& plan, const Surroundings& around, Grains& grains,
+                                         Team& team) {
     switch (plan.normal) {
-        case NormalLaw::walton_braun: return with_normal<WaltonBraun>(plan, around, grains, team);
-        case NormalLaw::spring_dashpot: return with_normal<SpringDashpot>(plan, around, grains, team);
+        case NormalLaw::walton_braun:
+            return with_normal<WaltonBraun>(plan, around, grains, team);
+        case NormalLaw::spring_dashpot:
+            return with_normal<SpringDashpot>(plan, around, grains, team);
     }
     check_failed("a known normal law", __FILE__, __LINE__);
 }

@@ -1,6 +1,6 @@
-// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, with v_n the closing speed. Not clipped at the
-// end of contact, where it may pull (as in LAMMPS' hooke/history), so that a free impact has
-// e = exp(-pi b / sqrt(1 - b^2)), b = c / (2 sqrt(k / m_eff)) (Schwager & Poeschel 2007, Granul. Matter 9, 465).
+// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, with v_n the closing speed. Not clipped at
+// the end of contact, where it may pull (as in LAMMPS' hooke/history), so that a free impact has e = exp(-pi
+// b / sqrt(1 - b^2)), b = c / (2 sqrt(k / m_eff)) (Schwager & Poeschel 2007, Granul. Matter 9, 465).
 #pragma once
 
 #include <string_view>

@@ -3,8 +3,9 @@
 //   N = max(0, min(K1 a, K2 (a - a0))),   a0 = a_max (1 - K1/K2),   e = sqrt(K1/K2) at any speed
 //
 // Loading goes up slope K1, unloading down K2 to the residual overlap a0, reloading up K2 until it meets K1
-// again. Between 0 and a0 the force is zero. The residual is forgotten when the spheres part. Some codes lower
-// a0 when a contact reloads from inside that gap; the min() rule of the original program does not, nor do we.
+// again. Between 0 and a0 the force is zero. The residual is forgotten when the spheres part. Some codes
+// lower a0 when a contact reloads from inside that gap; the min() rule of the original program does not, nor
+// do we.
 #pragma once
 
 #include <algorithm>

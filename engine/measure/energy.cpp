@@ -16,7 +16,8 @@ Kinetic kinetic_energy(const Grains& grains) {
 
 double gravitational_energy(const Grains& grains, const Vec3& gravity) {
     double sum = 0;
-    for (std::size_t i = 0; i < grains.size(); ++i) sum -= grains.mass(i) * gravity.dot(grains.place[i].position);
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        sum -= grains.mass(i) * gravity.dot(grains.place[i].position);
     return sum;
 }
 

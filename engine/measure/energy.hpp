@@ -12,7 +12,7 @@ struct Kinetic {
 
 Kinetic kinetic_energy(const Grains& grains);
 double gravitational_energy(const Grains& grains, const Vec3& gravity);  // zero at the origin
-double wall_work(const Grains& grains);                                  // by moving walls, since the drive started
+double wall_work(const Grains& grains);  // by moving walls, since the drive started
 
 // What all contacts would give back, and how they stand. One pass over the contacts.
 struct ContactSummary {

@@ -9,7 +9,9 @@ namespace grainreel {
 
 namespace {
 
-double mean_diameter(const Species& s) { return 0.5 * (s.diameter.smallest + s.diameter.largest); }
+double mean_diameter(const Species& s) {
+    return 0.5 * (s.diameter.smallest + s.diameter.largest);
+}
 
 void measure_species(const Scene& scene, const Grains& grains, double floor_height, Measures& m) {
     const std::size_t species = scene.species.size();
@@ -20,7 +22,8 @@ void measure_species(const Scene& scene, const Grains& grains, double floor_heig
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const std::int32_t s = grains.species[i];
         const Vec3& x = grains.place[i].position;
-        m.species_centre[s] += x;  // all grains of a species weigh alike here, also when their sizes are spread
+        m.species_centre[s] +=
+            x;  // all grains of a species weigh alike here, also when their sizes are spread
         m.species_height[s] += x.z() - floor_height;
         count[s] += 1;
         m.centre_of_mass += grains.mass(i) * x;
@@ -58,7 +61,8 @@ void measure_segregation(const Scene& scene, const Grains& grains, double floor_
 
 }  // namespace
 
-double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop, std::int64_t step) {
+double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop,
+                    std::int64_t step) {
     const Kinetic kinetic = kinetic_energy(grains);
     return kinetic.translation + kinetic.rotation + gravitational_energy(grains, around.gravity) +
            summarise_contacts(loop, step).stored;

@@ -14,6 +14,7 @@ Measures measure(const Scene& scene, const Clock& clock, const Surroundings& aro
                  const StepLoop& loop, std::int64_t step, double start_energy);
 
 // J: kinetic, rotational, gravitational and elastic together.
-double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop, std::int64_t step);
+double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop,
+                    std::int64_t step);
 
 }  // namespace grainreel

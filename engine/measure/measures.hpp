@@ -18,14 +18,14 @@ struct Measures {
     // since the drive started; `lost` is what the balance leaves: start + wall_work - all the others.
     double kinetic = 0, rotational = 0, gravitational = 0, elastic = 0, wall_work = 0, lost = 0;
 
-    Vec3 centre_of_mass{0, 0, 0};               // m, all grains
-    std::vector<Vec3> species_centre;           // m, a species each
-    std::vector<double> species_height;         // m, mean height above the moving floor, a species each
-    double height_difference = 0;               // (mean height of the largest species - of the smallest) / bed height
-    double lacey = 0;                           // mixing index: 0 segregated, 1 random; NaN with one species
-    double contact_number = 0;                  // mean number of force-carrying contacts a grain, walls included
-    double largest_overlap = 0;                 // overlap / smaller radius
-    double floor_position = 0;                  // m, along the drive's direction
+    Vec3 centre_of_mass{0, 0, 0};        // m, all grains
+    std::vector<Vec3> species_centre;    // m, a species each
+    std::vector<double> species_height;  // m, mean height above the moving floor, a species each
+    double height_difference = 0;  // (mean height of the largest species - of the smallest) / bed height
+    double lacey = 0;              // mixing index: 0 segregated, 1 random; NaN with one species
+    double contact_number = 0;     // mean number of force-carrying contacts a grain, walls included
+    double largest_overlap = 0;    // overlap / smaller radius
+    double floor_position = 0;     // m, along the drive's direction
 };
 
 }  // namespace grainreel

@@ -61,7 +61,8 @@ double lacey_index(const std::vector<Vec3>& position, const std::vector<std::uin
 
 double bed_height(std::vector<double>& heights) {
     if (heights.empty()) return 0;
-    const auto at = heights.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(heights.size() - 1));
+    const auto at =
+        heights.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(heights.size() - 1));
     std::nth_element(heights.begin(), at, heights.end());
     return *at;
 }

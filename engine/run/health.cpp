@@ -47,20 +47,23 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
         }
         for (const Face& face : around.faces) {
             const Vec3 offset = face.moves ? pose.offset : Vec3::Zero();
-            if (distance_to(face, offset, grains.place[i].position).distance > -grains.place[i].radius) continue;
-            throw RunError(fmt::format("{}: {} went through the {}; take a smaller run.step or a larger "
-                                       "contact.wall.stiffness",
-                                       moment(limits.clock, step), grain_name(limits, grains, i), face.name));
+            if (distance_to(face, offset, grains.place[i].position).distance > -grains.place[i].radius)
+                continue;
+            throw RunError(
+                fmt::format("{}: {} went through the {}; take a smaller run.step or a larger "
+                            "contact.wall.stiffness",
+                            moment(limits.clock, step), grain_name(limits, grains, i), face.name));
         }
     }
     loop.visit_contacts(step, [&](const ContactView& c) {
         if (c.overlap <= limits.overlap * c.smaller_radius) return;
         const std::string other = c.second >= 0 ? fmt::format("grain {}", grains.id[c.second])
                                                 : "the " + around.faces[-1 - c.second].name;
-        throw RunError(fmt::format("{}: {} overlaps {} by {:.2f} of the smaller radius; take a larger "
-                                   "contact.stiffness or a smaller run.step",
-                                   moment(limits.clock, step), grain_name(limits, grains, c.first), other,
-                                   c.overlap / c.smaller_radius));
+        throw RunError(
+            fmt::format("{}: {} overlaps {} by {:.2f} of the smaller radius; take a larger "
+                        "contact.stiffness or a smaller run.step",
+                        moment(limits.clock, step), grain_name(limits, grains, c.first), other,
+                        c.overlap / c.smaller_radius));
     });
 }
 
@@ -72,9 +75,10 @@ void EnergyWatch::check(double energy, double work, double allowance, const Cloc
     const double turnover = std::max(first_ - lowest_, work_done_);
     const double risen = balance - lowest_;
     if (risen <= kTurnoverShare * turnover + allowance) return;
-    throw RunError(fmt::format("{}: the grains gained {:.3g} J that no wall gave them ({:.3g} J turned over so far); "
-                               "take a smaller run.step",
-                               moment(clock, step), risen, turnover));
+    throw RunError(
+        fmt::format("{}: the grains gained {:.3g} J that no wall gave them ({:.3g} J turned over so far); "
+                    "take a smaller run.step",
+                    moment(clock, step), risen, turnover));
 }
 
 }  // namespace grainreel

@@ -14,8 +14,8 @@ namespace grainreel {
 
 struct HealthLimits {
     Clock clock;
-    double overlap = 1.0 / 3.0;       // over the smaller radius
-    std::vector<std::string> species; // names, for messages
+    double overlap = 1.0 / 3.0;        // over the smaller radius
+    std::vector<std::string> species;  // names, for messages
 };
 
 HealthLimits health_limits(const Scene& scene, const Plan& plan);
@@ -26,13 +26,13 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
 
 // Watches the energy balance: without work done on them, grains can only lose energy.
 class EnergyWatch {
-public:
+  public:
     // energy: J, total; work: J, done by walls so far; allowance: J, below which nothing is said.
-    // Throws RunError when energy - work has risen above its lowest value so far by more than 5 % of all that was
-    // turned over, plus the allowance.
+    // Throws RunError when energy - work has risen above its lowest value so far by more than 5 % of all that
+    // was turned over, plus the allowance.
     void check(double energy, double work, double allowance, const Clock& clock, std::int64_t step);
 
-private:
+  private:
     double lowest_ = std::numeric_limits<double>::infinity();
     double first_ = std::numeric_limits<double>::quiet_NaN();
     double work_done_ = 0;

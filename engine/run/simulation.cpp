@@ -13,8 +13,8 @@
 #include "engine/measure/energy.hpp"
 #include "engine/measure/measure.hpp"
 #include "engine/measure/segregation.hpp"
-#include "engine/start/grain_table.hpp"
 #include "engine/run/health.hpp"
+#include "engine/start/grain_table.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/restart.hpp"
@@ -52,10 +52,12 @@ Grains grains_of(const Scene& scene, const Frame& frame) {
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const std::size_t s = static_cast<std::size_t>(frame.species[i]);
         if (s >= scene.species.size()) {
-            throw UserError(fmt::format("{}: '{}' has grains of species {}, but the scene lists only {}; list them all",
-                                        scene.where("start.file"), scene.start.file, s, scene.species.size()));
+            throw UserError(
+                fmt::format("{}: '{}' has grains of species {}, but the scene lists only {}; list them all",
+                            scene.where("start.file"), scene.start.file, s, scene.species.size()));
         }
-        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i], scene.species[s].density);
+        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
+                   scene.species[s].density);
         grains.motion.back().velocity = frame.velocity[i];
         grains.spin.back().rate = frame.spin[i];
     }
@@ -78,7 +80,10 @@ double solid_fraction(const Container& container, const Grains& grains) {
 
 struct Simulation::Impl {
     Impl(const Scene& s, const Plan& p, int threads)
-        : scene(s), plan(p), team(threads > 0 ? threads : usable_processors()), around(make_surroundings(s, p)) {}
+        : scene(s),
+          plan(p),
+          team(threads > 0 ? threads : usable_processors()),
+          around(make_surroundings(s, p)) {}
 
     Scene scene;
     Plan plan;
@@ -139,9 +144,10 @@ void Simulation::Impl::check_grains_fit() const {
     for (std::size_t i = 0; i < grains.size(); ++i) {
         for (const Face& face : around.faces) {
             if (distance_to(face, Vec3::Zero(), grains.place[i].position).distance > 0) continue;
-            throw UserError(fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; give the "
-                                        "container of the run the file comes from",
-                                        scene.where("start.file"), grains.id[i], scene.start.file, face.name));
+            throw UserError(
+                fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; give the "
+                            "container of the run the file comes from",
+                            scene.where("start.file"), grains.id[i], scene.start.file, face.name));
         }
     }
 }
@@ -190,12 +196,14 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
 
 void Simulation::Impl::look_at_health() {
     check_state(health_limits(scene, plan), around, grains, *loop, step);
-    // Round-off and a law's own closed loops must not stop a bed at rest: a hundredth of its weight over a radius.
+    // Round-off and a law's own closed loops must not stop a bed at rest: a hundredth of its weight over a
+    // radius.
     double allowance = 0;
     for (std::size_t i = 0; i < grains.size(); ++i) {
         allowance += 0.01 * grains.mass(i) * around.gravity.norm() * grains.place[i].radius;
     }
-    energy_watch.check(total_energy(around, grains, *loop, step), wall_work(grains), allowance, plan.clock, step);
+    energy_watch.check(total_energy(around, grains, *loop, step), wall_work(grains), allowance, plan.clock,
+                       step);
 }
 
 void Simulation::advance(std::int64_t target) {
@@ -209,9 +217,15 @@ void Simulation::advance(std::int64_t target) {
     }
 }
 
-std::int64_t Simulation::step() const { return impl_->step; }
-std::size_t Simulation::grains() const { return impl_->grains.size(); }
-int Simulation::threads() const { return impl_->team.size(); }
+std::int64_t Simulation::step() const {
+    return impl_->step;
+}
+std::size_t Simulation::grains() const {
+    return impl_->grains.size();
+}
+int Simulation::threads() const {
+    return impl_->team.size();
+}
 
 Frame Simulation::frame() const {
     const Impl& m = *impl_;

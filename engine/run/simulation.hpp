@@ -1,4 +1,5 @@
-// One scene in motion: packing, then the step loop, with health checks. What leaves it are frames and measures.
+// One scene in motion: packing, then the step loop, with health checks. What leaves it are frames and
+// measures.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +19,22 @@ namespace grainreel {
 struct PackingProgress {
     enum class Stage { growing, settling };
     Stage stage = Stage::growing;
-    double done = 0;           // 0 to 1: share of the wanted radii; or of the time limit of settling
-    std::int64_t steps = 0;    // so far
+    double done = 0;         // 0 to 1: share of the wanted radii; or of the time limit of settling
+    std::int64_t steps = 0;  // so far
 };
 // Return false to stop.
 using PackingWatcher = std::function<bool(const PackingProgress&)>;
 
 struct PackingResult {
-    bool finished = true;           // false when the watcher stopped it
-    bool settled = true;            // false when the time limit ended settling
-    double settle_time = 0;         // s, simulated
-    double kinetic_per_grain = 0;   // J, at the end
-    double solid_fraction = 0;      // of the bed below the height under which 95 % of the centres lie
+    bool finished = true;          // false when the watcher stopped it
+    bool settled = true;           // false when the time limit ended settling
+    double settle_time = 0;        // s, simulated
+    double kinetic_per_grain = 0;  // J, at the end
+    double solid_fraction = 0;     // of the bed below the height under which 95 % of the centres lie
 };
 
 class Simulation {
-public:
+  public:
     // threads: 0 takes what the machine gives. Throws UserError for what the scene gets wrong.
     Simulation(const Scene& scene, const Plan& plan, int threads);
     ~Simulation();
@@ -66,7 +67,7 @@ public:
     // Everything needed to go on bit-identically; written to a temporary name and renamed.
     void save_checkpoint(const std::filesystem::path& path) const;
 
-private:
+  private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -15,9 +15,12 @@ constexpr double kLooseFraction = 1.0 / 3;  // solid share of the space the cent
 
 double draw_diameter(const SizeSpread& spread, Random& random) {
     switch (spread.kind) {
-        case SizeSpread::Kind::fixed: return spread.largest;
-        case SizeSpread::Kind::uniform: return random.between(spread.smallest, spread.largest);
-        case SizeSpread::Kind::normal: break;
+        case SizeSpread::Kind::fixed:
+            return spread.largest;
+        case SizeSpread::Kind::uniform:
+            return random.between(spread.smallest, spread.largest);
+        case SizeSpread::Kind::normal:
+            break;
     }
     for (;;) {
         const double d = spread.mean + spread.deviation * random.normal();
@@ -41,12 +44,14 @@ Vec3 random_centre(const Container& c, double bottom, double top, double margin,
         const double z = random.between(bottom, top);
         const double half_width = c.half_width;
         const double half_depth = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
-        const Vec3 centre(random.between(-half_depth, half_depth), random.between(-half_width, half_width), z);
+        const Vec3 centre(random.between(-half_depth, half_depth), random.between(-half_width, half_width),
+                          z);
         if (z < margin || z > c.height - margin) continue;
         if (c.shape == Container::Shape::cylinder) {
             if (std::hypot(centre.x(), centre.y()) > c.half_width - margin) continue;
         } else {
-            const double slope = c.shape == Container::Shape::wedge && z < c.slant_height ? std::cos(c.half_angle) : 1;
+            const double slope =
+                c.shape == Container::Shape::wedge && z < c.slant_height ? std::cos(c.half_angle) : 1;
             if (std::abs(centre.y()) > c.half_width_at(z) - margin / slope) continue;
             if (!c.periodic_depth && std::abs(centre.x()) > half_depth - margin) continue;
         }
@@ -54,7 +59,9 @@ Vec3 random_centre(const Container& c, double bottom, double top, double margin,
     }
 }
 
-double mean_diameter(const Species& s) { return 0.5 * (s.diameter.smallest + s.diameter.largest); }
+double mean_diameter(const Species& s) {
+    return 0.5 * (s.diameter.smallest + s.diameter.largest);
+}
 
 double solid_volume(const Species& s) {
     return static_cast<double>(s.count) * std::numbers::pi / 6 * std::pow(mean_diameter(s), 3);

@@ -8,10 +8,10 @@ namespace grainreel {
 
 // All grains of the scene at rest: ids counting from 0 in the order of the species, diameters drawn from each
 // species' spread, centres at random in the species' layer, at least a quarter radius inside the container.
-// The layers share the container's lower part as the species share the solid volume, so all are equally dense; the
-// species with the largest mean diameter lies lowest. That part is as high as a loose crowd needs (a third of its
-// volume is solid), or the whole container: from higher up grains would only fall longer. Spheres overlap freely:
-// radius growth sorts that out.
+// The layers share the container's lower part as the species share the solid volume, so all are equally
+// dense; the species with the largest mean diameter lies lowest. That part is as high as a loose crowd needs
+// (a third of its volume is solid), or the whole container: from higher up grains would only fall longer.
+// Spheres overlap freely: radius growth sorts that out.
 Grains place_in_layers(const Scene& scene);
 
 }  // namespace grainreel

@@ -14,12 +14,12 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kInflation = 1 + 1e-4;     // grains grow a little beyond, then shrink back clear of each other
-constexpr double kFirstShare = 0.5;         // of the gap to the nearest neighbour, for the first radii
+constexpr double kInflation = 1 + 1e-4;  // grains grow a little beyond, then shrink back clear of each other
+constexpr double kFirstShare = 0.5;      // of the gap to the nearest neighbour, for the first radii
 constexpr double kGrowthPerCycle = 0.02;
 constexpr int kStepsPerCycle = 40;
 constexpr std::int64_t kMostCycles = 5000;
-constexpr double kRestitution = 0.3;        // a plastic contact law lets the crowd come to rest
+constexpr double kRestitution = 0.3;  // a plastic contact law lets the crowd come to rest
 
 // The scene's laws, plastic and without friction.
 Plan growth_plan(const Plan& plan) {
@@ -88,14 +88,16 @@ void first_radii(Growing& g, double reach) {
 // Largest overlap over the smaller wanted radius.
 double largest_overlap(const StepLoop& loop) {
     double largest = 0;
-    loop.visit_contacts(-1, [&](const ContactView& c) { largest = std::max(largest, c.overlap / c.smaller_radius); });
+    loop.visit_contacts(
+        -1, [&](const ContactView& c) { largest = std::max(largest, c.overlap / c.smaller_radius); });
     return largest;
 }
 
 }  // namespace
 
-GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings& surroundings, Grains& grains,
-                        Team& team, const std::function<bool(double, std::int64_t)>& watcher) {
+GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings& surroundings,
+                        Grains& grains, Team& team,
+                        const std::function<bool(double, std::int64_t)>& watcher) {
     const Plan growth = growth_plan(plan);
     const double step = growth_step(growth, grains);
     const double drag = 0.05 / step;  // overdamped: grains creep apart, they do not fly
@@ -124,10 +126,11 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
         }
         if (smallest_share >= 1 && largest_overlap(*loop) < 0.5 * (kInflation - 1)) break;
         if (report.cycles > kMostCycles) {
-            throw RunError(fmt::format(
-                "{}: the grains still overlap by {:.2g} radii after {} cycles of radius growth; take fewer or smaller "
-                "grains, or a larger container",
-                scene.where("species"), largest_overlap(*loop), report.cycles));
+            throw RunError(
+                fmt::format("{}: the grains still overlap by {:.2g} radii after {} cycles of radius growth; "
+                            "take fewer or smaller "
+                            "grains, or a larger container",
+                            scene.where("species"), largest_overlap(*loop), report.cycles));
         }
     }
     for (std::size_t i = 0; i < grains.size(); ++i) {

@@ -24,15 +24,16 @@ std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
     write_value(out, plan.arms);
     for (const auto* table : {&plan.grain, &plan.wall}) {
         for (const PairPlan& p : *table) {
-            for (const double v : {p.loading_stiffness, p.unloading_stiffness, p.tangential_stiffness, p.gamma,
-                                   p.friction, p.normal_damping, p.tangential_damping}) {
+            for (const double v : {p.loading_stiffness, p.unloading_stiffness, p.tangential_stiffness,
+                                   p.gamma, p.friction, p.normal_damping, p.tangential_damping}) {
                 write_value(out, v);
             }
         }
     }
     write_value(out, plan.clock.step);
     write_value(out, plan.clock.steps_per_period);
-    for (const double v : {scene.drive.frequency, scene.drive.amplitude, scene.drive.phase, scene.drive.ramp}) {
+    for (const double v :
+         {scene.drive.frequency, scene.drive.amplitude, scene.drive.phase, scene.drive.ramp}) {
         write_value(out, v);
     }
     for (const double v : {scene.gravity.x(), scene.gravity.y(), scene.gravity.z()}) write_value(out, v);
@@ -59,7 +60,8 @@ UserError cannot_start(const Scene& scene, const std::string& what) {
 
 std::string read_whole(const Scene& scene) {
     std::ifstream in(scene.start.file, std::ios::binary);
-    if (!in) throw cannot_start(scene, "cannot be read; give the checkpoint.grs or final.csv of an earlier run");
+    if (!in)
+        throw cannot_start(scene, "cannot be read; give the checkpoint.grs or final.csv of an earlier run");
     std::ostringstream bytes;
     bytes << in.rdbuf();
     return bytes.str();
@@ -119,8 +121,10 @@ CheckpointHeader load_checkpoint(const Scene& scene, const Plan& plan, Grains& g
     std::int64_t step = 0;
     read_value(in, fingerprint);
     if (loop && fingerprint != plan_fingerprint(scene, plan)) {
-        throw cannot_start(scene, "was made with other laws, stiffness, step or drive; "
-                                  "use the same scene, or set start.keep_clock = false to start anew from its grains");
+        throw cannot_start(
+            scene,
+            "was made with other laws, stiffness, step or drive; "
+            "use the same scene, or set start.keep_clock = false to start anew from its grains");
     }
     read_value(in, header);
     read_value(in, step);

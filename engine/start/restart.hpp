@@ -18,7 +18,8 @@ struct CheckpointHeader {
     Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
 };
 
-// Everything that decides the future, to a temporary name, then renamed. Throws RunError when it cannot be written.
+// Everything that decides the future, to a temporary name, then renamed. Throws RunError when it cannot be
+// written.
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop);
 

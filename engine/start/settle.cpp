@@ -39,7 +39,8 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
     const double rest = rest_energy(plan, grains, gravity);
     double diameter = 0;
     for (const Place& p : grains.place) diameter += 2 * p.radius / static_cast<double>(grains.size());
-    const std::int64_t calm_steps = static_cast<std::int64_t>(10 * std::sqrt(diameter / gravity) / plan.clock.step);
+    const std::int64_t calm_steps =
+        static_cast<std::int64_t>(10 * std::sqrt(diameter / gravity) / plan.clock.step);
     const HealthLimits limits = health_limits(scene, plan);
     std::int64_t calm_since = -1;
     // Steps count from -limit, so that the walls, which stand before step 0, stand still.
@@ -50,9 +51,12 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
         report.steps += now;
         check_state(limits, surroundings, grains, loop, first + report.steps);
         const Kinetic kinetic = kinetic_energy(grains);
-        report.kinetic_per_grain = (kinetic.translation + kinetic.rotation) / static_cast<double>(grains.size());
-        if (report.kinetic_per_grain > rest) calm_since = -1;
-        else if (calm_since < 0) calm_since = report.steps;
+        report.kinetic_per_grain =
+            (kinetic.translation + kinetic.rotation) / static_cast<double>(grains.size());
+        if (report.kinetic_per_grain > rest)
+            calm_since = -1;
+        else if (calm_since < 0)
+            calm_since = report.steps;
         if (calm_since >= 0 && report.steps - calm_since >= calm_steps) {
             report.settled = true;
             return report;

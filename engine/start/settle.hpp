@@ -17,8 +17,8 @@ struct SettleReport {
     double kinetic_per_grain = 0;  // J
 };
 
-// J: at rest means a mean kinetic energy a grain below max(1e-6 m g d, 5 (m g)^2 / K1) for 10 sqrt(d / g), with
-// the means of mass and diameter over the grains and the softest wall contact.
+// J: at rest means a mean kinetic energy a grain below max(1e-6 m g d, 5 (m g)^2 / K1) for 10 sqrt(d / g),
+// with the means of mass and diameter over the grains and the softest wall contact.
 double rest_energy(const Plan& plan, const Grains& grains, double gravity);
 
 // Runs with still walls, the scene's own laws and its extra settling drag. watcher(share of the time limit,

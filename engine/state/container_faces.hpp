@@ -19,11 +19,11 @@ struct Pose {
 struct Face {
     enum class Kind { plane, cylinder };
     Kind kind = Kind::plane;
-    std::string name;        // "floor", "left slant", ... for messages
-    Vec3 point{0, 0, 0};     // m, on the plane; on the axis of a cylinder (vertical)
-    Vec3 normal{0, 0, 1};    // unit, into the container; unused by a cylinder
-    double radius = 0;       // m, of a cylinder
-    bool moves = false;      // follows the drive
+    std::string name;      // "floor", "left slant", ... for messages
+    Vec3 point{0, 0, 0};   // m, on the plane; on the axis of a cylinder (vertical)
+    Vec3 normal{0, 0, 1};  // unit, into the container; unused by a cylinder
+    double radius = 0;     // m, of a cylinder
+    bool moves = false;    // follows the drive
 };
 
 struct FaceDistance {

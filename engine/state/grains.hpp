@@ -28,18 +28,20 @@ struct Grains {
     std::vector<std::int32_t> species;
     std::vector<Place> place;
     std::vector<Motion> motion;
-    std::vector<Spin> spin;              // kept, but at rest and unread, in scenes without friction
-    std::vector<Vec3> force;             // N, of the last force evaluation, gravity left out
-    std::vector<Vec3> torque;            // N m
-    // Velocity and spin at the end of the step, predicted from the last force; kept for laws with a dashpot only.
+    std::vector<Spin> spin;    // kept, but at rest and unread, in scenes without friction
+    std::vector<Vec3> force;   // N, of the last force evaluation, gravity left out
+    std::vector<Vec3> torque;  // N m
+    // Velocity and spin at the end of the step, predicted from the last force; kept for laws with a dashpot
+    // only.
     std::vector<Vec3> end_velocity, end_spin;
-    std::vector<double> wall_work;       // J, done by moving walls on this grain since the drive started
-    std::vector<Quaternion> orientation; // empty unless asked for
+    std::vector<double> wall_work;        // J, done by moving walls on this grain since the drive started
+    std::vector<Quaternion> orientation;  // empty unless asked for
 
     std::size_t size() const { return id.size(); }
 
     // A grain at rest; density kg/m3.
-    void add(std::int32_t grain_id, std::int32_t grain_species, const Vec3& position, double radius, double density);
+    void add(std::int32_t grain_id, std::int32_t grain_species, const Vec3& position, double radius,
+             double density);
     // Mass and inertia of a solid sphere follow the radius.
     void set_radius(std::size_t i, double radius, double density);
     double mass(std::size_t i) const { return 1 / motion[i].inverse_mass; }

@@ -10,7 +10,7 @@
 namespace grainreel {
 
 class WallMotion {
-public:
+  public:
     WallMotion() = default;  // at rest for ever
     WallMotion(const Drive& drive, const Clock& clock);
 
@@ -22,7 +22,7 @@ public:
     // The phase comes from the step count, so it does not drift. Before step 0 the walls are at rest.
     Pose at(std::int64_t step) const;
 
-private:
+  private:
     double amplitude_ = 0, angular_frequency_ = 0, ramp_ = 0, start_phase_ = 0;
     Vec3 direction_{0, 0, 1};
     Clock clock_;

@@ -54,7 +54,8 @@ void Cells::lay(const std::vector<Place>& place, double width, double period) {
 std::array<int, 3> Cells::box_of(const Vec3& position) const {
     std::array<int, 3> box{};
     for (int a = 0; a < 3; ++a) {
-        box[a] = std::clamp(static_cast<int>((position[a] - origin_[a]) * inverse_width_[a]), 0, count_[a] - 1);
+        box[a] =
+            std::clamp(static_cast<int>((position[a] - origin_[a]) * inverse_width_[a]), 0, count_[a] - 1);
     }
     return box;
 }

@@ -11,7 +11,7 @@
 namespace grainreel {
 
 class Cells {
-public:
+  public:
     // Boxes over the grains as they lie, of edge >= width (m). `period` (m): of x, centred on 0; 0 for none.
     // A grain beyond a quarter billion boxes is not to be expected of a healthy run: boxes grow instead.
     void lay(const std::vector<Place>& place, double width, double period);
@@ -28,7 +28,7 @@ public:
     // Ranges that may hold partners of grain i with an index above i; at most 14.
     int partners_after(const Vec3& position, std::int32_t i, std::array<Range, 14>& ranges) const;
 
-private:
+  private:
     std::array<int, 3> box_of(const Vec3& position) const;
     std::int64_t index(int x, int y, int z) const {
         return (static_cast<std::int64_t>(z) * count_[1] + y) * count_[0] + x;
@@ -40,7 +40,7 @@ private:
     bool periodic_ = false;
     std::vector<std::int32_t> start_;  // first grain of each box, and one past the last
     std::vector<std::int32_t> order_;
-    std::vector<std::int32_t> box_;    // of each grain, before sorting
+    std::vector<std::int32_t> box_;  // of each grain, before sorting
 };
 
 }  // namespace grainreel

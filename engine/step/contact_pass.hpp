@@ -15,10 +15,10 @@ namespace grainreel {
 // Force and torque of one contact: `force` acts on the second grain, its opposite on the first. The torque on
 // either is -arm * turning, with turning = k x T.
 struct PairForce {
-    Vec3 force;          // N
-    double first_arm;    // m, from the first grain's centre to where T acts
-    Vec3 turning;        // N
-    double second_arm;   // m
+    Vec3 force;         // N
+    double first_arm;   // m, from the first grain's centre to where T acts
+    Vec3 turning;       // N
+    double second_arm;  // m
 };
 static_assert(sizeof(PairForce) == 64, "one cache line a contact");
 
@@ -34,7 +34,7 @@ struct ThreadContacts {
 
 template <class Law>
 class ContactPass {
-public:
+  public:
     using History = typename Law::History;
     using Parameters = typename Law::Parameters;
 
@@ -90,7 +90,7 @@ public:
         return parameters_[grains.species[i] * species_ + grains.species[j]];
     }
 
-private:
+  private:
     void forget(std::int32_t slot) {
         history[slot] = History{};
         touched[slot] = 0;
@@ -106,8 +106,8 @@ private:
         const double inverse_distance = 1 / distance;
         touch.normal = apart * inverse_distance;
         touch.overlap = one.radius + two.radius - distance;
-        // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is what
-        // keeps angular momentum. The original program took the radii.
+        // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is
+        // what keeps angular momentum. The original program took the radii.
         double first_arm = one.radius, second_arm = two.radius;
         if (arms_ == LeverArms::contact_plane) {
             first_arm =
@@ -129,9 +129,10 @@ private:
         return result;
     }
 
-    static void fill_motion([[maybe_unused]] const Grains& grains, [[maybe_unused]] double step, [[maybe_unused]] std::int32_t i,
-                            [[maybe_unused]] std::int32_t j, [[maybe_unused]] double first_arm,
-                            [[maybe_unused]] double second_arm, [[maybe_unused]] Touch& touch) {
+    static void fill_motion([[maybe_unused]] const Grains& grains, [[maybe_unused]] double step,
+                            [[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j,
+                            [[maybe_unused]] double first_arm, [[maybe_unused]] double second_arm,
+                            [[maybe_unused]] Touch& touch) {
         const Vec3& k = touch.normal;
         if constexpr (Law::uses_velocity) {
             touch.effective_mass = 1 / (grains.motion[i].inverse_mass + grains.motion[j].inverse_mass);

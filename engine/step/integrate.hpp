@@ -15,11 +15,11 @@ inline Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
     return (Quaternion(Eigen::AngleAxisd(angle, rate.normalized())) * q).normalized();
 }
 
-// First half for the grains [begin, end): v and w to the middle of the step, x to its end. Returns the largest
-// squared displacement from `listed_at` + `drift`, m2.
+// First half for the grains [begin, end): v and w to the middle of the step, x to its end. Returns the
+// largest squared displacement from `listed_at` + `drift`, m2.
 template <bool rubs, bool predicts>
-double kick_and_drift(Grains& grains, const std::vector<Vec3>& listed_at, const Vec3& drift, const Vec3& gravity,
-                      double step, std::int32_t begin, std::int32_t end) {
+double kick_and_drift(Grains& grains, const std::vector<Vec3>& listed_at, const Vec3& drift,
+                      const Vec3& gravity, double step, std::int32_t begin, std::int32_t end) {
     const double half = 0.5 * step;
     double farthest = 0;
     for (std::int32_t i = begin; i < end; ++i) {
@@ -46,7 +46,8 @@ double kick_and_drift(Grains& grains, const std::vector<Vec3>& listed_at, const 
 
 // Second half: v and w to the end of the step. `keep` scales them, 1 without drag.
 template <bool rubs>
-void kick(Grains& grains, const Vec3& gravity, double step, double keep, std::int32_t begin, std::int32_t end) {
+void kick(Grains& grains, const Vec3& gravity, double step, double keep, std::int32_t begin,
+          std::int32_t end) {
     const double half = 0.5 * step;
     for (std::int32_t i = begin; i < end; ++i) {
         Motion& m = grains.motion[i];

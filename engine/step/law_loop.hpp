@@ -20,7 +20,7 @@ namespace grainreel {
 
 template <class Law>
 class LawLoop final : public StepLoop {
-public:
+  public:
     LawLoop(const Plan& plan, const Surroundings& surroundings, Grains& grains, Team& team)
         : around_(surroundings),
           grains_(grains),
@@ -61,7 +61,8 @@ public:
         });
     }
 
-    void visit_contacts(std::int64_t at_step, const std::function<void(const ContactView&)>& visit) const override {
+    void visit_contacts(std::int64_t at_step,
+                        const std::function<void(const ContactView&)>& visit) const override {
         visit_pairs(visit);
         visit_walls(around_.motion.at(at_step), visit);
     }
@@ -103,7 +104,7 @@ public:
     std::int64_t rebuilds() const override { return rebuilds_; }
     std::size_t listed_pairs() const override { return pairs_.list.size(); }
 
-private:
+  private:
     static constexpr bool rubs = Law::rubs;
 
     // From step n to n + 1, the part of one thread. A thread touches its own grains only, but for reading
@@ -145,7 +146,8 @@ private:
         double squared = 0;
         for (const Farthest& f : farthest_) squared = std::max(squared, f.squared);
         const double moved = std::sqrt(squared);
-        const double still_face = drift.norm(), moving_face = (now.offset - listed_pose_.offset - drift).norm();
+        const double still_face = drift.norm(),
+                     moving_face = (now.offset - listed_pose_.offset - drift).norm();
         return 2 * moved > around_.skin || moved + std::max(still_face, moving_face) > around_.skin;
     }
 
@@ -157,7 +159,8 @@ private:
         }
         team_.barrier();
         const std::int64_t n = static_cast<std::int64_t>(grains_.size());
-        list_pairs(cells_, grains_, around_.skin, around_.period, static_cast<std::int32_t>(n * member / team_.size()),
+        list_pairs(cells_, grains_, around_.skin, around_.period,
+                   static_cast<std::int32_t>(n * member / team_.size()),
                    static_cast<std::int32_t>(n * (member + 1) / team_.size()), parts_[member]);
         team_.barrier();
         if (member != 0) return;
@@ -185,7 +188,8 @@ private:
         listed_pose_ = pose;
     }
 
-    // Ranges of grains for the threads, of about equal work: a grain costs about as much as three listed pairs.
+    // Ranges of grains for the threads, of about equal work: a grain costs about as much as three listed
+    // pairs.
     void share_out() {
         const std::int32_t n = static_cast<std::int32_t>(grains_.size());
         const std::int64_t all = 3 * std::int64_t{n} + pairs_.list.start[n];
@@ -227,7 +231,8 @@ private:
             const std::int32_t grain = new_index[old[entry].grain];
             const auto lower = [](const WallNeighbour& w, std::int32_t g) { return w.grain < g; };
             auto found = std::lower_bound(walls_.list.begin(), walls_.list.end(), grain, lower);
-            while (found != walls_.list.end() && found->grain == grain && found->face != old[entry].face) ++found;
+            while (found != walls_.list.end() && found->grain == grain && found->face != old[entry].face)
+                ++found;
             if (found == walls_.list.end() || found->grain != grain) continue;
             const std::size_t place = found - walls_.list.begin();
             walls_.history[place] = old_.wall_history[entry];
@@ -263,7 +268,8 @@ private:
             const std::int32_t i = walls_.list[entry].grain;
             const Face& face = around_.faces[walls_.list[entry].face];
             const Place& place = grains_.place[i];
-            const FaceDistance at = distance_to(face, face.moves ? pose.offset : Vec3::Zero(), place.position);
+            const FaceDistance at =
+                distance_to(face, face.moves ? pose.offset : Vec3::Zero(), place.position);
             Touch touch{};
             touch.normal = -at.normal;
             touch.overlap = place.radius - at.distance;
@@ -276,9 +282,9 @@ private:
         }
     }
 
-    static ContactView view(std::int32_t first, std::int32_t second, const Touch& touch, double smaller_radius,
-                            const Vec3& centre, double radius, const typename Law::Parameters& parameters,
-                            typename Law::History history) {
+    static ContactView view(std::int32_t first, std::int32_t second, const Touch& touch,
+                            double smaller_radius, const Vec3& centre, double radius,
+                            const typename Law::Parameters& parameters, typename Law::History history) {
         ContactView v{};
         v.first = first;
         v.second = second;
@@ -323,8 +329,8 @@ private:
     ContactPass<Law> pairs_;
     WallPass<Law> walls_;
     std::vector<ThreadContacts> threads_;
-    std::vector<Farthest> farthest_;   // of each thread, since the lists were made
-    std::vector<std::int32_t> share_;  // thread t owns the grains [share_[t], share_[t + 1])
+    std::vector<Farthest> farthest_;    // of each thread, since the lists were made
+    std::vector<std::int32_t> share_;   // thread t owns the grains [share_[t], share_[t + 1])
     std::vector<NeighbourList> parts_;  // of the pair search, one a thread
     Old old_;
     // Where and how the grains and walls were when the lists were made.

@@ -35,7 +35,8 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
         const int found = cells.partners_after(centre, i, ranges);
         for (int r = 0; r < found; ++r) {
             const auto [first, last] = ranges[r];
-            if (part.partner.size() < count + (last - first)) part.partner.resize(2 * count + 64 + (last - first));
+            if (part.partner.size() < count + (last - first))
+                part.partner.resize(2 * count + 64 + (last - first));
             // Every candidate is written and the hits are kept: no branch to mispredict.
             std::int32_t* next = part.partner.data() + count;
             for (std::int32_t j = first; j < last; ++j) {

@@ -1,9 +1,9 @@
 // The step loop: neighbours -> contacts -> walls -> integrate, by velocity Verlet, on a team of threads.
 //
-// Why the bits do not depend on the number of threads: grains are in one spatial order whatever the team, every
-// contact is computed once, by the thread that owns its first grain, into a slot of its own, and every grain then
-// sums its slots in one order: as second partner by rising index of the first, as first partner by rising index
-// of the second, walls last.
+// Why the bits do not depend on the number of threads: grains are in one spatial order whatever the team,
+// every contact is computed once, by the thread that owns its first grain, into a slot of its own, and every
+// grain then sums its slots in one order: as second partner by rising index of the first, as first partner by
+// rising index of the second, walls last.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ struct ContactView {
 };
 
 class StepLoop {
-public:
+  public:
     virtual ~StepLoop() = default;
 
     // Takes the grains as they are now: all contacts are new. Call after changing positions, radii or faces.

@@ -37,7 +37,8 @@ double cgroup_quota() {
     if (std::ifstream v2("/sys/fs/cgroup/cpu.max"); v2 >> quota >> period) {
         return quota == "max" || period <= 0 ? INFINITY : std::stod(quota) / period;
     }
-    std::ifstream v1_quota("/sys/fs/cgroup/cpu/cpu.cfs_quota_us"), v1_period("/sys/fs/cgroup/cpu/cpu.cfs_period_us");
+    std::ifstream v1_quota("/sys/fs/cgroup/cpu/cpu.cfs_quota_us"),
+        v1_period("/sys/fs/cgroup/cpu/cpu.cfs_period_us");
     const bool limited = v1_quota >> microseconds && v1_period >> period && microseconds > 0 && period > 0;
     return limited ? microseconds / period : INFINITY;
 }

@@ -12,7 +12,7 @@ namespace grainreel {
 int usable_processors();
 
 class Team {
-public:
+  public:
     explicit Team(int members);  // >= 1; the caller of run() is member 0
     ~Team();
     Team(const Team&) = delete;
@@ -23,11 +23,11 @@ public:
     // Calls work(member) on every member and returns when all have come back. `work` must not throw.
     void run(const std::function<void(int)>& work);
 
-    // Waits until all members are here. Spins for some 20 us, then sleeps, so that a renderer or an encoder on
-    // the same processors gets its turn.
+    // Waits until all members are here. Spins for some 20 us, then sleeps, so that a renderer or an encoder
+    // on the same processors gets its turn.
     void barrier();
 
-private:
+  private:
     void serve(int member);
 
     const int size_;

@@ -13,7 +13,7 @@ namespace grainreel {
 
 template <class Law>
 class WallPass {
-public:
+  public:
     using History = typename Law::History;
     using Parameters = typename Law::Parameters;
 
@@ -31,9 +31,10 @@ public:
         touched.assign(list.size(), 0);
     }
 
-    // Adds the walls' forces to the grains [begin, end). `before` and `now`: the walls at the step's two ends.
-    void apply(Grains& grains, double step, const Pose& before, const Pose& now,
-               std::int32_t begin, std::int32_t end) {
+    // Adds the walls' forces to the grains [begin, end). `before` and `now`: the walls at the step's two
+    // ends.
+    void apply(Grains& grains, double step, const Pose& before, const Pose& now, std::int32_t begin,
+               std::int32_t end) {
         const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
         std::size_t entry = std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin();
         for (; entry < list.size() && list[entry].grain < end; ++entry) {
@@ -45,7 +46,7 @@ public:
         return parameters_[grains.species[i]];
     }
 
-private:
+  private:
     void touch_wall(Grains& grains, std::size_t entry, double step, const Pose& before, const Pose& now) {
         const std::int32_t i = list[entry].grain;
         const Face& face = faces_[list[entry].face];
@@ -79,8 +80,8 @@ private:
 
     static void fill_motion([[maybe_unused]] const Grains& grains, [[maybe_unused]] std::int32_t i,
                             [[maybe_unused]] double arm, [[maybe_unused]] const Vec3& wall_velocity,
-                            [[maybe_unused]] const Vec3& wall_step,
-                            [[maybe_unused]] double step, [[maybe_unused]] Touch& touch) {
+                            [[maybe_unused]] const Vec3& wall_step, [[maybe_unused]] double step,
+                            [[maybe_unused]] Touch& touch) {
         const Vec3& k = touch.normal;
         if constexpr (Law::uses_velocity) {
             touch.effective_mass = 1 / grains.motion[i].inverse_mass;

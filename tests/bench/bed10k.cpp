@@ -56,7 +56,8 @@ double seconds() {
 int main(int argc, char** argv) {
     if (argc < 2) return fmt::print(stderr, "usage: bed10k FILE [threads] [settle steps] [steps]\n"), 2;
     const int threads = argc > 2 ? std::atoi(argv[2]) : 1;
-    const std::int64_t settle = argc > 3 ? std::atoll(argv[3]) : 60000, steps = argc > 4 ? std::atoll(argv[4]) : 20000;
+    const std::int64_t settle = argc > 3 ? std::atoll(argv[3]) : 60000,
+                       steps = argc > 4 ? std::atoll(argv[4]) : 20000;
     Container box;
     box.shape = Container::Shape::box;
     box.half_width = 0.01;
@@ -93,11 +94,13 @@ int main(int argc, char** argv) {
         double height = 0;
         for (const Place& p : grains.place) height += p.position.z();
         const double n = static_cast<double>(grains.size());
-        fmt::print("{:8s} {:7.3f} M particle-steps/s ({:.3f} M a processor second), {:.2f} listed, {:.4f} contacts a grain, mean height {:.5f} mm, "
-                   "kinetic {:.3g} J, {} rebuilds\n",
-                   name, n * static_cast<double>(count) / took / 1e6,
-                   n * static_cast<double>(count) / cpu / 1e6, static_cast<double>(loop->listed_pairs()) / n,
-                   contacts.carrying / n, 1e3 * height / n, kinetic_energy(grains).translation, loop->rebuilds());
+        fmt::print(
+            "{:8s} {:7.3f} M particle-steps/s ({:.3f} M a processor second), {:.2f} listed, {:.4f} contacts "
+            "a grain, mean height {:.5f} mm, "
+            "kinetic {:.3g} J, {} rebuilds\n",
+            name, n * static_cast<double>(count) / took / 1e6, n * static_cast<double>(count) / cpu / 1e6,
+            static_cast<double>(loop->listed_pairs()) / n, contacts.carrying / n, 1e3 * height / n,
+            kinetic_energy(grains).translation, loop->rebuilds());
     };
     phase("settled", settle);
     phase("rising", 10000);

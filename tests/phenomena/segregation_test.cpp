@@ -50,8 +50,10 @@ TEST(SegregationLong, ChangesByMoreThanThreeDeviationsInEverySeed) {
             lacey.push_back(m.lacey);
         }
         const Change h = change_of(height), l = change_of(lacey);
-        fmt::print("seed {}: height difference {:+.3f} -> {:+.3f} (scatter {:.3f}), Lacey {:.3f} -> {:.3f} ({:.3f})\n", seed,
-                   h.before.mean, h.after.mean, h.scatter(), l.before.mean, l.after.mean, l.scatter());
+        fmt::print(
+            "seed {}: height difference {:+.3f} -> {:+.3f} (scatter {:.3f}), Lacey {:.3f} -> {:.3f} "
+            "({:.3f})\n",
+            seed, h.before.mean, h.after.mean, h.scatter(), l.before.mean, l.after.mean, l.scatter());
         EXPECT_GT(std::abs(h.change()), 3 * h.scatter()) << "seed " << seed;
         EXPECT_GT(std::abs(l.change()), 3 * l.scatter()) << "seed " << seed;
         signs_height.push_back(std::copysign(1, h.change()));

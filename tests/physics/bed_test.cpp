@@ -60,7 +60,8 @@ Simulation packed(const Scene& scene, const Plan& plan, int threads) {
 }
 
 std::filesystem::path scratch(const std::string& name) {
-    const auto folder = std::filesystem::temp_directory_path() / ("grainreel-bed-" + std::to_string(::getpid()));
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("grainreel-bed-" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
     return folder / name;
 }
@@ -76,8 +77,10 @@ TEST(Layers, PutBigGrainsBelowSmallOnesInsideTheContainer) {
             EXPECT_GT(distance_to(face, Vec3::Zero(), grains.place[i].position).distance, 0) << face.name;
         }
         const double z = grains.place[i].position.z();
-        if (grains.species[i] == 1) highest_big = std::max(highest_big, z);
-        else lowest_small = std::min(lowest_small, z);
+        if (grains.species[i] == 1)
+            highest_big = std::max(highest_big, z);
+        else
+            lowest_small = std::min(lowest_small, z);
     }
     EXPECT_LE(highest_big, lowest_small);
 }
@@ -105,7 +108,8 @@ TEST(RadiusGrowth, EndsWithoutOverlapInsideTheAskedRange) {
                 EXPECT_GE(apart.norm(), grains.place[i].radius + grains.place[j].radius);
             }
             for (const Face& face : around.faces) {
-                EXPECT_GE(distance_to(face, Vec3::Zero(), grains.place[i].position).distance, grains.place[i].radius);
+                EXPECT_GE(distance_to(face, Vec3::Zero(), grains.place[i].position).distance,
+                          grains.place[i].radius);
             }
         }
     }
@@ -240,14 +244,16 @@ TEST(Checkpoint, RefusesAnotherPlanAndADamagedFile) {
         return std::string("accepted");
     };
     EXPECT_EQ(message(scene), "accepted");
-    EXPECT_NE(message(scene_of({"contact.friction=0.1"})).find("was made with other laws"), std::string::npos);
+    EXPECT_NE(message(scene_of({"contact.friction=0.1"})).find("was made with other laws"),
+              std::string::npos);
     std::filesystem::resize_file(file, std::filesystem::file_size(file) - 8);
     EXPECT_NE(message(scene).find("is damaged"), std::string::npos);
 }
 
 // Perfectly elastic, frictionless grains lose nothing: what the walls put in is what they have.
 TEST(Energy, WallWorkIsWhatElasticGrainsGain) {
-    const Scene scene = scene_of({"contact.restitution=1", "contact.friction=0", "start.settle_damping=20", kFullSettling});
+    const Scene scene =
+        scene_of({"contact.restitution=1", "contact.friction=0", "start.settle_damping=20", kFullSettling});
     const Plan plan = make_plan(scene);
     Simulation simulation = packed(scene, plan, 1);
     simulation.advance(6 * plan.clock.steps_per_period);

@@ -52,20 +52,23 @@ TEST(NormalImpact, FollowsTheClosedFormsOfWaltonAndBraun) {
     }
 }
 
-// physics.md section 6 (derived): largest error of e over the phase of the first touch, plain velocity Verlet.
+// physics.md section 6 (derived): largest error of e over the phase of the first touch, plain velocity
+// Verlet.
 TEST(NormalImpact, RestitutionErrorOfCoarseStepsIsTheTableOfSectionSix) {
     struct Row {
         double e;
         int steps;
         double error;
     };
-    for (const Row& row : {Row{0.9, 5, 0.019}, Row{0.9, 10, 0.0032}, Row{0.3, 10, 0.013}, Row{0.3, 20, 0.0014}}) {
+    for (const Row& row :
+         {Row{0.9, 5, 0.019}, Row{0.9, 10, 0.0032}, Row{0.3, 10, 0.013}, Row{0.3, 20, 0.0014}}) {
         const double effective = sphere_mass() / 2, v = 0.3;
         const double time = std::numbers::pi / 2 * (1 + row.e) * std::sqrt(effective / kStiffness);
         const double step = time / row.steps;
         double largest = 0;
         for (int phase = 0; phase < 200; ++phase) {
-            const Impact impact = head_on(walton_braun_pair(row.e, 0), v, step, (phase + 0.5) / 200 * v * step);
+            const Impact impact =
+                head_on(walton_braun_pair(row.e, 0), v, step, (phase + 0.5) / 200 * v * step);
             largest = std::max(largest, std::abs(impact.e - row.e));
         }
         EXPECT_NEAR(largest, row.error, 0.08 * row.error) << row.e << " with " << row.steps << " steps";
@@ -118,7 +121,8 @@ TEST(ObliqueImpact, StickingContactTurnsTheSlipAsTheClosedFormSays) {
 TEST(ObliqueImpact, SlidingContactTakesCoulombsShare) {
     const double e = 0.9, mu = 0.2, vn = 0.05, ratio = 0.8;
     const double vt = 1.5 * vn * mu * std::max({3.5, 1 / ratio, 3.5 * (1 + e) - 1 / (e * ratio)});
-    World w = make_world(walton_braun_pair(e, mu, ratio), 0, NormalLaw::walton_braun, TangentialLaw::linear_spring);
+    World w =
+        make_world(walton_braun_pair(e, mu, ratio), 0, NormalLaw::walton_braun, TangentialLaw::linear_spring);
     w.plan.clock.step = std::numbers::pi / 2 * (1 + e) * std::sqrt(sphere_mass() / kStiffness) / 2000;
     w.around.faces = {floor_face()};
     w.grains.add(0, 0, Vec3(0, 0, kRadius + 0.4 * vn * w.plan.clock.step), kRadius, kDensity);

@@ -50,7 +50,8 @@ TEST(OnTheFloor, SlidesDownAnInclineThatIsTooSteepToRoll) {
     const std::int64_t steps = 50000;
     w.run(steps);
     const double expected = kGravity * (std::sin(angle) - mu * std::cos(angle));
-    EXPECT_NEAR(w.velocity(0).x() / (static_cast<double>(steps) * w.plan.clock.step), expected, 2e-3 * expected);
+    EXPECT_NEAR(w.velocity(0).x() / (static_cast<double>(steps) * w.plan.clock.step), expected,
+                2e-3 * expected);
 }
 
 TEST(OnTheFloor, RollingWithoutSlipMeetsNoFriction) {

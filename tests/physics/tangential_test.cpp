@@ -37,8 +37,8 @@ struct Sheared {
     }
 };
 
-// dT/ds = K0 (1 - T/(mu N))^gamma from rest: T/(mu N) = 1 - (1 - (1 - gamma) x)^(1/(1 - gamma)), x = K0 s/(mu N);
-// for gamma = 1, 1 - exp(-x).
+// dT/ds = K0 (1 - T/(mu N))^gamma from rest: T/(mu N) = 1 - (1 - (1 - gamma) x)^(1/(1 - gamma)), x = K0 s/(mu
+// N); for gamma = 1, 1 - exp(-x).
 double virgin_loading(double gamma, double slip, double stiffness) {
     const double limit = kFriction * kNormal, x = stiffness * slip / limit;
     if (gamma == 1) return limit * (1 - std::exp(-x));
@@ -60,7 +60,8 @@ TEST(IncrementalSlip, UnloadsFromItsTurningPointThroughZero) {
     const double limit = kFriction * kNormal;
     const double top = s.slip(1.0 * limit / s.parameters.stiffness, 20000);
     const double back = 1.5 * limit / s.parameters.stiffness;
-    const double expected = top - (limit + top) * (1 - std::exp(-s.parameters.stiffness * back / (limit + top)));
+    const double expected =
+        top - (limit + top) * (1 - std::exp(-s.parameters.stiffness * back / (limit + top)));
     ASSERT_LT(expected, 0) << "it should pass zero";
     EXPECT_NEAR(s.slip(-back, 20000), expected, 2e-4 * limit);
     EXPECT_NEAR(s.history.turning_force, -top, 1e-9) << "T* changes sign with the direction";
@@ -98,7 +99,8 @@ TEST(IncrementalSlip, IsLinearAndUncappedWithInfiniteFriction) {
     EXPECT_NEAR(h.force.y(), plan.tangential_stiffness * 3e-4, 1e-9);
 }
 
-// A touching pair that turns as one body: T turns with it, |T| constant, also when it spins about its own axis.
+// A touching pair that turns as one body: T turns with it, |T| constant, also when it spins about its own
+// axis.
 TEST(IncrementalSlip, TurnsWithTheContact) {
     const Vec3 axis = Vec3(1, 2, -0.5).normalized();
     Sheared s(1.0 / 3.0);
@@ -110,7 +112,8 @@ TEST(IncrementalSlip, TurnsWithTheContact) {
     s.touch.slip.setZero();
     for (int k = 1; k <= steps; ++k) {
         s.touch.normal = Eigen::AngleAxisd(angle * k / steps, axis) * normal;
-        s.touch.twist = angle / steps * axis.dot(Vec3(Eigen::AngleAxisd(angle * (k - 0.5) / steps, axis) * normal));
+        s.touch.twist =
+            angle / steps * axis.dot(Vec3(Eigen::AngleAxisd(angle * (k - 0.5) / steps, axis) * normal));
         IncrementalSlip::force(s.parameters, s.normal, s.history, s.touch, kNormal);
         ASSERT_NEAR(s.history.force.norm(), size, 1e-12 * size);
     }
@@ -127,7 +130,8 @@ TEST(IncrementalSlip, GivesTheSameForceWhenTheBodiesChangePlaces) {
     s.touch.slip = Vec3(-3e-7, 2e-7, 0);
     other.touch.slip = -s.touch.slip;
     const Vec3 one = IncrementalSlip::force(s.parameters, s.normal, s.history, s.touch, 1.1 * kNormal);
-    const Vec3 two = IncrementalSlip::force(other.parameters, other.normal, other.history, other.touch, 1.1 * kNormal);
+    const Vec3 two =
+        IncrementalSlip::force(other.parameters, other.normal, other.history, other.touch, 1.1 * kNormal);
     EXPECT_EQ(one, Vec3(-two));
 }
 

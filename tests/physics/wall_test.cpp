@@ -35,8 +35,11 @@ TEST(Wedge, DistancesAreTheSeedsFormulas) {
             const bool right = y > 0;
             const double wall = c.half_width - std::abs(y);
             const double slant =
-                (c.half_width - std::abs(y) - (c.slant_height - z) * std::tan(c.half_angle)) * std::cos(c.half_angle);
-            const auto at = [&](const std::string& name) { return distance_to(face_named(faces, name), Vec3::Zero(), x); };
+                (c.half_width - std::abs(y) - (c.slant_height - z) * std::tan(c.half_angle)) *
+                std::cos(c.half_angle);
+            const auto at = [&](const std::string& name) {
+                return distance_to(face_named(faces, name), Vec3::Zero(), x);
+            };
             EXPECT_NEAR(at(right ? "right wall" : "left wall").distance, wall, 1e-15);
             const FaceDistance d = at(right ? "right slant" : "left slant");
             EXPECT_NEAR(d.distance, slant, 1e-15);
@@ -54,7 +57,8 @@ TEST(Wedge, MovesWithItsWalls) {
     const auto faces = container_faces(wedge(), Drive{});
     const Vec3 x(0, 0.01, 0.02), lift(0, 0, 0.003);
     for (const Face& face : faces) {
-        EXPECT_NEAR(distance_to(face, lift, x + lift).distance, distance_to(face, Vec3::Zero(), x).distance, 1e-16);
+        EXPECT_NEAR(distance_to(face, lift, x + lift).distance, distance_to(face, Vec3::Zero(), x).distance,
+                    1e-16);
     }
 }
 
@@ -69,7 +73,8 @@ TEST(Wedge, BallInACornerTouchesBothFaces) {
     const double lean = 0.2;
     w.around.gravity = 9.81 * Vec3(0, std::sin(lean), -std::cos(lean));
     // Centre at distance r from the floor and from the right slant.
-    const double y = c.half_width - (c.slant_height - kRadius) * std::tan(c.half_angle) - kRadius / std::cos(c.half_angle);
+    const double y =
+        c.half_width - (c.slant_height - kRadius) * std::tan(c.half_angle) - kRadius / std::cos(c.half_angle);
     w.grains.add(0, 0, Vec3(0, y, kRadius), kRadius, kDensity);
     w.start();
     w.run(50000);
@@ -90,7 +95,8 @@ TEST(Cylinder, DistanceIsRadial) {
     c.half_width = 0.04;
     c.height = 0.1;
     const auto faces = container_faces(c, Drive{});
-    const FaceDistance d = distance_to(face_named(faces, "wall"), Vec3(0.001, 0, 0), Vec3(0.004, 0.004, 0.05));
+    const FaceDistance d =
+        distance_to(face_named(faces, "wall"), Vec3(0.001, 0, 0), Vec3(0.004, 0.004, 0.05));
     EXPECT_NEAR(d.distance, 0.04 - 0.005, 1e-15);
     EXPECT_NEAR(d.normal.x(), -0.6, 1e-12);
     EXPECT_NEAR(d.normal.y(), -0.8, 1e-12);
@@ -113,7 +119,8 @@ TEST(Drive, FollowsItsSineAndItsVelocityIsItsDerivative) {
         EXPECT_EQ(motion.at(-5).velocity.z(), 0);
         const double speed = drive.speed();
         for (std::int64_t n = 10; n < 40000; n += 777) {
-            const double slope = (motion.at(n + 1).offset.z() - motion.at(n - 1).offset.z()) / (2 * clock.step);
+            const double slope =
+                (motion.at(n + 1).offset.z() - motion.at(n - 1).offset.z()) / (2 * clock.step);
             EXPECT_NEAR(motion.at(n).velocity.z(), slope, 1e-6 * speed) << n;
         }
         const std::int64_t late = 5 * 8000 + 1000;

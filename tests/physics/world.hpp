@@ -43,9 +43,9 @@ struct World {
     }
 };
 
-constexpr double kRadius = 0.002;     // m
-constexpr double kDensity = 2500;     // kg/m3
-constexpr double kStiffness = 1e5;    // N/m
+constexpr double kRadius = 0.002;   // m
+constexpr double kDensity = 2500;   // kg/m3
+constexpr double kStiffness = 1e5;  // N/m
 inline double sphere_mass(double radius = kRadius) {
     return kDensity * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
