@@ -100,8 +100,8 @@ int main(int argc, char** argv) {
             "a grain, mean height {:.5f} mm, "
             "kinetic {:.3g} J, {} rebuilds\n",
             name, n * static_cast<double>(count) / took / 1e6, n * static_cast<double>(count) / cpu / 1e6,
-            static_cast<double>(loop->listed_pairs()) / n, 2 * static_cast<double>(touching) / n, 1e3 * height / n,
-            kinetic_energy(grains).translation, loop->rebuilds());
+            static_cast<double>(loop->listed_pairs()) / n, 2 * static_cast<double>(touching) / n,
+            1e3 * height / n, kinetic_energy(grains).translation, loop->rebuilds());
     };
     phase("settled", settle);
     phase("rising", 10000);
