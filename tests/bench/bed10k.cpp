@@ -96,8 +96,8 @@ int main(int argc, char** argv) {
         for (const Place& p : grains.place) height += p.position.z();
         const double n = static_cast<double>(grains.size());
         fmt::print(
-            "{:8s} {:7.3f} M particle-steps/s ({:.3f} M a processor second), {:.2f} listed, {:.4f} contacts "
-            "a grain, mean height {:.5f} mm, "
+            "{:8s} {:7.3f} M particle-steps/s ({:.3f} M a processor second), {:.2f} listed, {:.4f} touched "
+            "by a grain, mean height {:.5f} mm, "
             "kinetic {:.3g} J, {} rebuilds\n",
             name, n * static_cast<double>(count) / took / 1e6, n * static_cast<double>(count) / cpu / 1e6,
             static_cast<double>(loop->listed_pairs()) / n, 2 * static_cast<double>(touching) / n,
