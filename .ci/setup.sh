@@ -17,6 +17,7 @@ nlohmann-json3-dev   nlohmann_json
 libtomlplusplus-dev  tomlplusplus
 libudunits2-dev      udunits2, with its XML database
 libxxhash-dev        libxxhash
+libhwy-dev           libhwy (Highway)
 libnetcdf-dev        netcdf
 libpng-dev           libpng
 libpango1.0-dev      pangocairo, pangoft2, cairo

@@ -95,7 +95,7 @@ struct Simulation::Impl {
     double start_energy = 0;
     EnergyWatch energy_watch;
 
-    void make_loop() { loop = make_step_loop(plan, around, grains, team); }
+    void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void pack_from_file();
     void begin_drive();

@@ -107,7 +107,7 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
     for (std::size_t i = 0; i < grains.size(); ++i) g.wanted[grains.id[i]] = grains.place[i].radius;
     first_radii(g, still.skin);
 
-    const auto loop = make_step_loop(growth, still, grains, team);
+    StepLoop loop(growth, still, grains, team);
     GrowthReport report;
     for (;; ++report.cycles) {
         double smallest_share = 1;
@@ -117,28 +117,27 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
             smallest_share = std::min(smallest_share, radius / full);
             g.set_radius(i, radius);
         }
-        loop->restart();
-        loop->run(0, kStepsPerCycle, step, drag);
+        loop.restart();
+        loop.run(0, kStepsPerCycle, step, drag);
         report.steps += kStepsPerCycle;
         if (!watcher(smallest_share, report.steps)) {
             report.finished = false;
             return report;
         }
-        if (smallest_share >= 1 && largest_overlap(*loop) < 0.5 * (kInflation - 1)) break;
+        if (smallest_share >= 1 && largest_overlap(loop) < 0.5 * (kInflation - 1)) break;
         if (report.cycles > kMostCycles) {
             throw RunError(
                 fmt::format("{}: the grains still overlap by {:.2g} radii after {} cycles of radius growth; "
                             "take fewer or smaller "
                             "grains, or a larger container",
-                            scene.where("species"), largest_overlap(*loop), report.cycles));
+                            scene.where("species"), largest_overlap(loop), report.cycles));
         }
     }
     for (std::size_t i = 0; i < grains.size(); ++i) {
         g.set_radius(i, g.wanted_of(i));
         grains.motion[i].velocity.setZero();
         grains.spin[i].rate.setZero();
-        grains.force[i].setZero();
-        grains.torque[i].setZero();
+        grains.load[i] = {};
     }
     return report;
 }

@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '1'};
+constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '2'};
 
 // What must be equal for a continuation to be the same run: laws, stiffness, step, drive.
 std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
@@ -48,8 +48,7 @@ void transfer_grains(Stream& stream, Grain& g, const Transfer& transfer) {
     transfer(stream, g.place);
     transfer(stream, g.motion);
     transfer(stream, g.spin);
-    transfer(stream, g.force);
-    transfer(stream, g.torque);
+    transfer(stream, g.load);
     transfer(stream, g.wall_work);
     transfer(stream, g.orientation);
 }

@@ -11,8 +11,7 @@ void Grains::add(std::int32_t grain_id, std::int32_t grain_species, const Vec3& 
     place.push_back({position, radius});
     motion.push_back({Vec3::Zero(), 0});
     spin.push_back({Vec3::Zero(), 0});
-    force.push_back(Vec3::Zero());
-    torque.push_back(Vec3::Zero());
+    load.push_back({});
     wall_work.push_back(0);
     set_radius(size() - 1, radius, density);
 }
@@ -42,10 +41,7 @@ void Grains::reorder(const std::vector<std::int32_t>& order) {
     permute(place, order);
     permute(motion, order);
     permute(spin, order);
-    permute(force, order);
-    permute(torque, order);
-    permute(end_velocity, order);
-    permute(end_spin, order);
+    permute(load, order);
     permute(wall_work, order);
     permute(orientation, order);
 }

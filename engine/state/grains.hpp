@@ -23,17 +23,22 @@ struct alignas(32) Spin {
     double inverse_inertia;  // 1/(kg m2)
 };
 
+// Force and torque of the last evaluation, gravity left out. The numbers between hold what the vector code
+// leaves there.
+struct alignas(64) Load {
+    Vec3 force{0, 0, 0};  // N
+    double unused_one = 0;
+    Vec3 torque{0, 0, 0};  // N m
+    double unused_two = 0;
+};
+
 struct Grains {
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> species;
     std::vector<Place> place;
     std::vector<Motion> motion;
-    std::vector<Spin> spin;    // kept, but at rest and unread, in scenes without friction
-    std::vector<Vec3> force;   // N, of the last force evaluation, gravity left out
-    std::vector<Vec3> torque;  // N m
-    // Velocity and spin at the end of the step, predicted from the last force; kept for laws with a dashpot
-    // only.
-    std::vector<Vec3> end_velocity, end_spin;
+    std::vector<Spin> spin;  // kept, but at rest and unread, in scenes without friction
+    std::vector<Load> load;
     std::vector<double> wall_work;        // J, done by moving walls on this grain since the drive started
     std::vector<Quaternion> orientation;  // empty unless asked for
 

@@ -1,67 +1,44 @@
-// Velocity Verlet (Swope et al. 1982): half a kick and a drift before the forces, half a kick after them.
+// Velocity Verlet (Swope et al. 1982): half a kick and a drift before the forces, half a kick after them. And
+// the sum of the forces in between.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "engine/state/grains.hpp"
+#include "engine/step/contact_geometry.hpp"
 
 namespace grainreel {
 
-// Rotates q by the angle rate * step about the rate's axis; q stays of unit length.
-inline Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
-    const double angle = rate.norm() * step;
-    if (angle == 0) return q;
-    return (Quaternion(Eigen::AngleAxisd(angle, rate.normalized())) * q).normalized();
-}
+struct KickInput {
+    Vec3 gravity;     // m/s2
+    double step;      // s
+    bool rubs;        // spins follow torques
+    Vec3 frame;       // m/s, velocity against which speeds are measured
+    double keep = 1;  // share of velocity and spin that drag leaves
+};
 
-// First half for the grains [begin, end): v and w to the middle of the step, x to its end. Returns the
-// largest squared displacement from `listed_at` + `drift`, m2.
-template <bool rubs, bool predicts>
-double kick_and_drift(Grains& grains, const std::vector<Vec3>& listed_at, const Vec3& drift,
-                      const Vec3& gravity, double step, std::int32_t begin, std::int32_t end) {
-    const double half = 0.5 * step;
-    double farthest = 0;
-    for (std::int32_t i = begin; i < end; ++i) {
-        Motion& m = grains.motion[i];
-        const Vec3 half_kick = half * (grains.force[i] * m.inverse_mass + gravity);
-        m.velocity += half_kick;
-        if constexpr (predicts) grains.end_velocity[i] = m.velocity + half_kick;
-        grains.place[i].position += step * m.velocity;
-        farthest = std::max(farthest, (grains.place[i].position - listed_at[i] - drift).squaredNorm());
-        if constexpr (rubs) {
-            Spin& s = grains.spin[i];
-            const Vec3 half_turn = (half * s.inverse_inertia) * grains.torque[i];
-            s.rate += half_turn;
-            if constexpr (predicts) grains.end_spin[i] = s.rate + half_turn;
-        }
-    }
-    if (rubs && !grains.orientation.empty()) {
-        for (std::int32_t i = begin; i < end; ++i) {
-            grains.orientation[i] = turned(grains.orientation[i], grains.spin[i].rate, step);
-        }
-    }
-    return farthest;
-}
+// First half for the grains [begin, end): v and w to the middle of the step, x to its end; loads are used up
+// and set to zero. Returns the largest components (m/s) of their velocities against the frame.
+Vec3 kick_and_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// Second half: v and w to the end of the step. `keep` scales them, 1 without drag.
-template <bool rubs>
-void kick(Grains& grains, const Vec3& gravity, double step, double keep, std::int32_t begin,
-          std::int32_t end) {
-    const double half = 0.5 * step;
-    for (std::int32_t i = begin; i < end; ++i) {
-        Motion& m = grains.motion[i];
-        m.velocity += half * (grains.force[i] * m.inverse_mass + gravity);
-        if constexpr (rubs) {
-            Spin& s = grains.spin[i];
-            s.rate += (half * s.inverse_inertia) * grains.torque[i];
-        }
-    }
-    if (keep == 1) return;
-    for (std::int32_t i = begin; i < end; ++i) {
-        grains.motion[i].velocity *= keep;
-        grains.spin[i].rate *= keep;
-    }
-}
+// Second half: v and w to the end of the step. Loads stay, cleared of what the contact pass left beside them.
+void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// The second half of a step and the first of the next at once, the same bits as one after the other.
+Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// Contacts in order of their first grain, and what they do.
+struct ContactForces {
+    const std::int32_t *first, *second;
+    const ContactForce* force;
+    std::int32_t count;
+};
+
+// Adds contacts to the loads of those of their grains that lie in [begin, end).
+void add_pairs(Grains& grains, const ContactForces& contacts, bool rubs, std::int32_t begin,
+               std::int32_t end);
+// Of grains and walls: to the grains, and what moving walls do to their work.
+void add_walls(Grains& grains, const ContactForces& contacts, bool rubs, const WallState& walls, double step);
 
 }  // namespace grainreel

@@ -26,6 +26,7 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
                 std::int32_t end, NeighbourList& part) {
     part.start.resize(end - begin + 1);
     std::size_t count = 0;
+    std::int32_t farthest = 0;
     std::array<Cells::Range, 14> ranges;
     const Place* place = grains.place.data();
     for (std::int32_t i = begin; i < end; ++i) {
@@ -47,18 +48,23 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
                 next += apart.squaredNorm() < limit * limit;
             }
             count = next - part.partner.data();
+            farthest = std::max(farthest, last - 1 - i);
         }
     }
     part.start[end - begin] = static_cast<std::int32_t>(count);
+    part.farthest_partner = farthest;
     part.partner.resize(count);
 }
 
-void join_lists(const std::vector<NeighbourList>& parts, NeighbourList& whole) {
+void join_lists(const std::vector<const NeighbourList*>& parts, NeighbourList& whole) {
     whole.start.clear();
     whole.partner.clear();
-    for (const NeighbourList& part : parts) {
+    whole.farthest_partner = 0;
+    for (const NeighbourList* each : parts) {
+        const NeighbourList& part = *each;
         const std::int32_t shift = static_cast<std::int32_t>(whole.partner.size());
         for (std::size_t i = 0; i + 1 < part.start.size(); ++i) whole.start.push_back(part.start[i] + shift);
+        whole.farthest_partner = std::max(whole.farthest_partner, part.farthest_partner);
         whole.partner.insert(whole.partner.end(), part.partner.begin(), part.partner.end());
     }
     whole.start.push_back(static_cast<std::int32_t>(whole.partner.size()));

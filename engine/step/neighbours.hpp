@@ -14,6 +14,7 @@ namespace grainreel {
 struct NeighbourList {
     std::vector<std::int32_t> start;    // grain i's partners are partner[start[i]] .. partner[start[i + 1]]
     std::vector<std::int32_t> partner;  // index of the other grain, always above i
+    std::int32_t farthest_partner = 0;  // no partner's index is farther from i than this
 
     std::size_t size() const { return partner.size(); }
 };
@@ -21,6 +22,11 @@ struct NeighbourList {
 struct WallNeighbour {
     std::int32_t grain;
     std::int32_t face;
+};
+
+struct NeighbourLists {
+    NeighbourList pairs;
+    std::vector<WallNeighbour> walls;  // by rising grain, then face
 };
 
 // x shortened to the nearest image when the depth is periodic; period in m, 0 for none.
@@ -39,7 +45,7 @@ const std::vector<std::int32_t>& spatial_order(Cells& cells, Grains& grains, dou
 // counting from 0 at `begin`; join_lists puts the parts of rising ranges together.
 void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
                 std::int32_t end, NeighbourList& part);
-void join_lists(const std::vector<NeighbourList>& parts, NeighbourList& whole);
+void join_lists(const std::vector<const NeighbourList*>& parts, NeighbourList& whole);
 std::vector<WallNeighbour> list_wall_neighbours(const Grains& grains, const std::vector<Face>& faces,
                                                 const Pose& pose, double skin);
 

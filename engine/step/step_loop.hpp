@@ -1,21 +1,23 @@
 // The step loop: neighbours -> contacts -> walls -> integrate, by velocity Verlet, on a team of threads.
 //
 // Why the bits do not depend on the number of threads: grains are in one spatial order whatever the team,
-// every contact is computed once, by the thread that owns its first grain, into a slot of its own, and every
-// grain then sums its slots in one order: as second partner by rising index of the first, as first partner by
-// rising index of the second, walls last.
+// every thread computes all contacts of its own grains, and every grain sums its contacts in one order: as
+// second partner by rising index of the first, as first partner by rising index of the second, walls last.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
-#include <memory>
 #include <vector>
 
 #include "engine/scene/plan.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/state/wall_motion.hpp"
+#include "engine/step/cells.hpp"
+#include "engine/step/contact_pass.hpp"
+#include "engine/step/integrate.hpp"
+#include "engine/step/neighbours.hpp"
 #include "engine/step/team.hpp"
 
 namespace grainreel {
@@ -44,28 +46,81 @@ struct ContactView {
 
 class StepLoop {
   public:
-    virtual ~StepLoop() = default;
+    // Grains, surroundings and team must outlive the loop.
+    StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& grains, Team& team);
 
     // Takes the grains as they are now: all contacts are new. Call after changing positions, radii or faces.
-    virtual void restart() = 0;
+    void restart();
 
     // Runs `count` steps of `step` seconds from absolute step `from` (which sets the walls' phase).
     // drag: 1/s, slows every grain's velocity and spin; 0 for none (settling and growing only).
-    virtual void run(std::int64_t from, std::int64_t count, double step, double drag) = 0;
+    void run(std::int64_t from, std::int64_t count, double step, double drag);
 
-    virtual void visit_contacts(std::int64_t at_step,
-                                const std::function<void(const ContactView&)>& visit) const = 0;
+    void visit_contacts(std::int64_t at_step, const std::function<void(const ContactView&)>& visit) const;
 
     // Lists and histories, bit by bit, for checkpoints and hashes. Grains are saved by their owner.
-    virtual void save(std::ostream& out) const = 0;
-    virtual void load(std::istream& in) = 0;
+    void save(std::ostream& out) const;
+    void load(std::istream& in);
 
-    virtual std::int64_t rebuilds() const = 0;
-    virtual std::size_t listed_pairs() const = 0;
+    std::int64_t rebuilds() const { return rebuilds_; }
+    std::int64_t refreshes() const { return refreshes_; }
+    std::size_t listed_pairs() const { return lists_.pairs.size(); }
+
+  private:
+    // How far the contact lists reach, and what has used that up since their last refresh. Every thread keeps
+    // its own, and all are alike.
+    struct Reach {
+        double skin = 0;            // m
+        double moved = 0;           // m, that no grain has surpassed against the bed's free flight
+        double fastest = 0;         // m/s, of the last step
+        Vec3 drift{0, 0, 0};        // m, of the free flight at the refresh
+        Vec3 wall_offset{0, 0, 0};  // m, likewise
+    };
+
+    // What a thread writes; a cache line apart from the next thread's.
+    struct alignas(64) Member {
+        ContactPass contacts;
+        WallState walls;
+        KeptContacts kept;
+        NeighbourList part;  // of the pair search
+        Reach reach;
+        Vec3 fastest{0, 0, 0};  // m/s, largest components of its grains against the bed's free flight
+        double farthest = 0;    // m, from where they were listed
+    };
+
+    void run_member(int member, std::int64_t from, std::int64_t to, KickInput kicks);
+    void renew_contacts(int member, std::int64_t n, const Pose& now, const KickInput& kicks);
+
+    Vec3 drift_since_listing(std::int64_t n, double step) const;
+    bool contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double step) const;
+    bool lists_expired(const Member& mine, const Pose& now, const Vec3& drift) const;
+    double farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const;
+    void set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame, double step) const;
+    void refresh(int member, bool same_lists);
+    void rebuild(int member, const Pose& pose);
+    void note_listing(const Pose& pose);
+    void share_out();
+    ContactView view(std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
+                     const ForceChunk& force) const;
+    KeptContacts all_kept() const;
+
+    const Surroundings& around_;
+    Grains& grains_;
+    Team& team_;
+    const ContactRules rules_;
+    Cells cells_;
+    NeighbourLists lists_;
+    std::vector<Member> members_;
+    std::vector<std::int32_t> share_;      // thread t owns the grains [share_[t], share_[t + 1])
+    std::vector<std::int32_t> new_index_;  // of the grains before the last reordering
+
+    // Where and how the grains and walls were when the lists were made.
+    std::vector<Vec3> listed_at_;
+    Vec3 listed_velocity_{0, 0, 0};
+    Pose listed_pose_;
+    std::int64_t listed_step_ = 0;
+    bool fresh_ = true;  // restarted: the next run() says at which step the lists were made
+    std::int64_t rebuilds_ = 0, refreshes_ = 0;
 };
-
-// The one place where a law is chosen at run time. Grains, plan, surroundings and team must outlive the loop.
-std::unique_ptr<StepLoop> make_step_loop(const Plan& plan, const Surroundings& surroundings, Grains& grains,
-                                         Team& team);
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 #include "render/cli/version.hpp"
 
 #include <cairo.h>
+#include <hwy/highway.h>
 #include <pango/pango.h>
 #include <png.h>
 #include <toml++/toml.h>
@@ -20,6 +21,7 @@ extern "C" {
 }
 
 #include "build_info.hpp"
+#include "engine/laws/law_kernel.hpp"
 #include "engine/output/netcdf_file.hpp"
 
 namespace grainreel {
@@ -40,6 +42,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
     const unsigned xxhash = XXH_versionNumber();
     return {
         {"Eigen", three(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+        {"Highway", three(HWY_MAJOR, HWY_MINOR, HWY_PATCH)},
         {"NetCDF", netcdf_version()},
         {"FFmpeg", av_version_info()},
         {"libavformat", ffmpeg(avformat_version())},
@@ -56,20 +59,6 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
         {"spdlog", three(SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
         {"xxHash", three(xxhash / 10000, xxhash / 100 % 100, xxhash % 100)},
     };
-}
-
-std::string vector_instructions() {
-#if defined(__AVX512F__)
-    return "AVX-512";
-#elif defined(__AVX2__)
-    return "AVX2";
-#elif defined(__SSE2__)
-    return "x86-64 baseline (SSE2)";
-#elif defined(__ARM_NEON)
-    return "NEON";
-#else
-    return "none";
-#endif
 }
 
 std::string version_text() {

@@ -10,9 +10,6 @@ namespace grainreel {
 // Name and version of every library in use, shared ones as loaded.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
-// The vector instructions the engine was compiled for.
-std::string vector_instructions();
-
 // Several lines: the program, its commit, compiler and libraries.
 std::string version_text();
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <memory>
 #include <string>
 
 #include "engine/measure/energy.hpp"
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
     around.skin = 0.0002;
     Grains grains = read_bed(argv[1]);
     Team team(threads);
-    const auto loop = make_step_loop(plan, around, grains, team);
+    const auto loop = std::make_unique<StepLoop>(plan, around, grains, team);
     loop->restart();
 
     std::int64_t at = -settle;
@@ -98,10 +99,10 @@ int main(int argc, char** argv) {
         fmt::print(
             "{:8s} {:7.3f} M particle-steps/s ({:.3f} M a processor second), {:.2f} listed, {:.4f} touched "
             "by a grain, mean height {:.5f} mm, "
-            "kinetic {:.3g} J, {} rebuilds\n",
+            "kinetic {:.3g} J, {} rebuilds, {} refreshes\n",
             name, n * static_cast<double>(count) / took / 1e6, n * static_cast<double>(count) / cpu / 1e6,
             static_cast<double>(loop->listed_pairs()) / n, 2 * static_cast<double>(touching) / n,
-            1e3 * height / n, kinetic_energy(grains).translation, loop->rebuilds());
+            1e3 * height / n, kinetic_energy(grains).translation, loop->rebuilds(), loop->refreshes());
     };
     phase("settled", settle);
     phase("rising", 10000);

@@ -1,7 +1,7 @@
 // Closed forms of single impacts.
 #include <gtest/gtest.h>
 
-#include "engine/laws/walton_braun.hpp"
+#include "engine/laws/walton_braun-inl.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -27,7 +27,7 @@ Impact head_on(const PairPlan& pair, double v, double step, double gap) {
         const double overlap = 2 * kRadius - (w.position(1) - w.position(0)).norm();
         impact.largest_overlap = std::max(impact.largest_overlap, overlap);
         // The force ends at the residual overlap, before the spheres part.
-        const bool pushes = w.grains.force[0].squaredNorm() > 0;
+        const bool pushes = w.grains.load[0].force.squaredNorm() > 0;
         touching += pushes;
         if (met && !pushes) break;
         met = met || pushes;
@@ -79,9 +79,10 @@ TEST(NormalImpact, EndsAtTheResidualOverlap) {
     const double e = 0.6, v = 0.3, effective = sphere_mass() / 2;
     const double deepest = v * std::sqrt(effective / kStiffness);
     const PairPlan pair = walton_braun_pair(e, 0);
-    WaltonBraun::Parameters p(pair);
-    WaltonBraun::History h;
-    Touch touch{};
+    using namespace HWY_NAMESPACE;
+    const WaltonBraun::Parameters<double> p = WaltonBraun::from(pair);
+    WaltonBraun::History<double> h{};
+    Touch<double> touch{};
     touch.overlap = deepest;
     EXPECT_DOUBLE_EQ(WaltonBraun::force(p, h, touch), kStiffness * deepest);
     const double residual = (1 - e * e) * deepest;
@@ -109,7 +110,8 @@ TEST(ObliqueImpact, StickingContactTurnsTheSlipAsTheClosedFormSays) {
             w.grains.motion[0].velocity = Vec3(vt, 0, -vn);
             w.start();
             w.run(1);
-            while (w.grains.force[0].z() > 0 || w.step < 100) w.run(1);  // up to the end of the normal force
+            while (w.grains.load[0].force.z() > 0 || w.step < 100)
+                w.run(1);  // up to the end of the normal force
             const double slip = w.velocity(0).x() - kRadius * w.spin(0).y();
             const double angle = std::sqrt(3.5 * ratio) * std::numbers::pi / 2 * (1 + e);
             EXPECT_NEAR(w.velocity(0).z(), e * vn, 2e-3 * vn);

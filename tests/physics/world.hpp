@@ -20,7 +20,7 @@ struct World {
 
     void start() {
         if (around.skin == 0) around.skin = 0.2 * grains.place[0].radius;
-        loop = make_step_loop(plan, around, grains, *team);
+        loop = std::make_unique<StepLoop>(plan, around, grains, *team);
         loop->restart();
     }
     void run(std::int64_t count) {

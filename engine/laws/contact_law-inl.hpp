@@ -1,0 +1,128 @@
+// A normal and a tangential law as one: the contact force between two grains, or a grain and a wall.
+// How to add a law: docs/architecture.md, "Adding a contact law".
+#if defined(GRAINREEL_LAWS_CONTACT_LAW_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_CONTACT_LAW_INL
+#undef GRAINREEL_LAWS_CONTACT_LAW_INL
+#else
+#define GRAINREEL_LAWS_CONTACT_LAW_INL
+#endif
+
+#include "engine/laws/touch-inl.hpp"
+#include "engine/scene/plan.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+// The velocity of the step before, for laws with a dashpot.
+template <class R, bool kept>
+struct VelocityBefore {
+    template <class Each>
+    HWY_INLINE void each(const Each&) {}
+};
+template <class R>
+struct VelocityBefore<R, true> {
+    Triple<R> velocity;  // m/s, at the middle of the last step; zero for a new contact
+
+    template <class Each>
+    HWY_INLINE void each(const Each& visit) {
+        visit.turning(velocity);
+    }
+};
+
+template <class NormalLawType, class TangentialLawType>
+struct ContactLaw {
+    using Normal = NormalLawType;
+    using Tangential = TangentialLawType;
+    static constexpr bool rubs = Tangential::rubs;  // needs slip, twist and spin
+    static constexpr bool uses_velocity = Normal::uses_velocity;
+
+    template <class R>
+    struct Parameters {
+        typename Normal::template Parameters<R> normal;
+        typename Tangential::template Parameters<R> tangential;
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            normal.each(visit), tangential.each(visit);
+        }
+    };
+    static Parameters<double> from(const PairPlan& plan) {
+        return {Normal::from(plan), Tangential::from(plan)};
+    }
+
+    template <class R>
+    struct History {
+        typename Normal::template History<R> normal;
+        typename Tangential::template History<R> tangential;
+        VelocityBefore<R, uses_velocity> before;
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            normal.each(visit), tangential.each(visit), before.each(visit);
+        }
+    };
+
+    // On body j (the wall): normal force along k, tangential force across it. N.
+    template <class R>
+    struct Force {
+        R normal;
+        Triple<R> tangential;
+    };
+
+    // `velocity`: m/s, of i's surface against j's at the middle of the step; `step` in s.
+    template <class R>
+    static HWY_INLINE Force<R> force(const Parameters<R>& p, History<R>& h, Touch<R> touch,
+                                     const Triple<R>& velocity, R step) {
+        if constexpr (rubs) touch.slip = across(velocity, touch.normal) * step;
+        if constexpr (uses_velocity) {
+            set_velocity(touch, at_end_of_step(velocity, h.before.velocity));
+            h.before.velocity = velocity;
+        }
+        Force<R> f{Normal::force(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
+        if constexpr (rubs) {
+            f.tangential = Tangential::force(p.tangential, p.normal, h.tangential, touch, f.normal);
+        }
+        return f;
+    }
+
+    // The force as it stands, `velocity` being that of now, and J, what the contact would give back if it were
+    // unloaded.
+    template <class R>
+    static HWY_INLINE Force<R> now(const Parameters<R>& p, const History<R>& h, Touch<R> touch,
+                                   const Triple<R>& velocity, R& stored_energy) {
+        if constexpr (uses_velocity) set_velocity(touch, velocity);
+        Force<R> f{Normal::now(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
+        stored_energy = Normal::stored_energy(p.normal, touch, f.normal);
+        if constexpr (rubs) {
+            f.tangential = Tangential::now(p.tangential, p.normal, h.tangential, touch, f.normal);
+            stored_energy += Tangential::stored_energy(p.tangential, h.tangential);
+        }
+        return f;
+    }
+
+  private:
+    template <class R>
+    static HWY_INLINE Triple<R> across(const Triple<R>& velocity, const Triple<R>& normal) {
+        return velocity - normal * normal.dot(velocity);
+    }
+
+    // Dashpots want the velocity at the end of the step, half a step ahead of the known one: it goes on as it
+    // changed over the last step. For free grains this is the half kick of the old force, exactly. Nothing is
+    // known of a new contact, and it keeps its velocity.
+    template <class R>
+    static HWY_INLINE Triple<R> at_end_of_step(const Triple<R>& velocity, const Triple<R>& before) {
+        const auto known = before.squared() > R(0);
+        return velocity + select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}) * R(0.5);
+    }
+
+    template <class R>
+    static HWY_INLINE void set_velocity(Touch<R>& touch, const Triple<R>& velocity) {
+        touch.closing_speed = touch.normal.dot(velocity);
+        touch.slip_velocity = velocity - touch.normal * touch.closing_speed;
+    }
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

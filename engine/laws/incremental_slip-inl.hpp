@@ -1,0 +1,132 @@
+// Tangential force: Walton's incremental slip (Walton 1993, in Particulate Two-Phase Flow, ch. 25; physics of
+// the original program, its section 2.5.2). The stiffness falls from K0 to zero as |T| nears mu N:
+//
+//   |T| growing:    K_T = K0 [1 - (T - T*) / (mu N - T*)]^gamma
+//   |T| shrinking:  K_T = K0 [1 - (T* - T) / (mu N + T*)]^gamma
+//
+// T is the signed magnitude along the present friction direction, T* its value at the last turning point.
+// gamma = 1/3 resembles Mindlin's elastic contact, 1 or 2 contacts with plastic flow.
+#if defined(GRAINREEL_LAWS_INCREMENTAL_SLIP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_INCREMENTAL_SLIP_INL
+#undef GRAINREEL_LAWS_INCREMENTAL_SLIP_INL
+#else
+#define GRAINREEL_LAWS_INCREMENTAL_SLIP_INL
+#endif
+
+#include "engine/laws/carry-inl.hpp"
+#include "engine/laws/friction-inl.hpp"
+#include "engine/laws/power-inl.hpp"
+#include "engine/laws/touch-inl.hpp"
+#include "engine/scene/plan.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+struct IncrementalSlip {
+    static constexpr bool rubs = true;
+
+    template <class R>
+    struct Parameters {
+        R stiffness;  // N/m, K0
+        R friction;   // mu
+        R gamma;
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(stiffness), visit(friction), visit(gamma);
+        }
+    };
+    static Parameters<double> from(const PairPlan& plan) {
+        return {plan.tangential_stiffness, finite_friction(plan.friction), plan.gamma};
+    }
+
+    template <class R>
+    struct History {
+        Triple<R> force;   // N, on j, perpendicular to `normal`
+        Triple<R> normal;  // k of the last step; zero for a new contact
+        R normal_force;          // N, of the last step
+        R turning_force;         // N, T*
+        R shrinking;             // 1 while |T| shrinks, else 0
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit.turning(force), visit.turning(normal);
+            visit(normal_force), visit(turning_force), visit(shrinking);
+        }
+    };
+
+    // N, on j. `normal_force` N >= 0.
+    template <class R, class Normal>
+    static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal&, History<R>& h,
+                                      const Touch<R>& touch, R normal_force) {
+        const R limit = p.friction * normal_force;
+        const Triple<R> old = carry_along(h.force, h.normal, touch.normal, touch.twist);
+        h.normal = touch.normal;
+        rescale_turning_force(h, limit, normal_force);
+
+        // The friction direction: of the old force, or of the slip where there is no force yet.
+        const R old_squared = old.squared();
+        const auto loaded = old_squared > R(0);
+        const Triple<R> guide = select(loaded, old, touch.slip);
+        const R guide_squared = select(loaded, old_squared, touch.slip.squared());
+        const R guide_size = root(guide_squared);
+        const R old_size = select(loaded, guide_size, R(0));
+        const R inverse_size = select(guide_squared > R(0), R(1) / guide_size, R(0));
+        const Triple<R> direction = guide * inverse_size;
+        const R along = direction.dot(touch.slip);
+
+        note_turning(h, along, old_size);
+        const R parallel = old_size + p.stiffness * softening(p, h, old_size, limit) * along;
+        const Triple<R> now = direction * parallel + (touch.slip - direction * along) * p.stiffness;
+        const auto through_zero = parallel < R(0);  // the direction flips, and what shrank now grows
+        h.turning_force = select(through_zero, -h.turning_force, h.turning_force);
+        h.shrinking = select(through_zero, R(0), h.shrinking);
+        h.force = capped_at(now, limit);
+        return h.force;
+    }
+    // N, on j, as it stands at an instant, without a step.
+    template <class R, class Normal>
+    static HWY_INLINE Triple<R> now(const Parameters<R>&, const Normal&, const History<R>& h,
+                                    const Touch<R>&, R) {
+        return h.force;
+    }
+
+    template <class R>
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h) {
+        return h.force.squared() / (R(2) * p.stiffness);
+    }
+
+  private:
+    template <class R>
+    static HWY_INLINE void rescale_turning_force(History<R>& h, R limit, R normal_force) {
+        const auto set = size_of(h.turning_force) > R(0);
+        if (!none(set)) {
+            const R ratio = select(h.normal_force > R(0), normal_force / h.normal_force, R(0));
+            const R scaled = larger(-limit, smaller(limit, h.turning_force * ratio));
+            h.turning_force = select(set, scaled, h.turning_force);
+        }
+        h.normal_force = normal_force;
+    }
+
+    template <class R>
+    static HWY_INLINE void note_turning(History<R>& h, R along, R old_size) {
+        const R shrinking = select(along < R(0), R(1), R(0));
+        h.turning_force = select(shrinking == h.shrinking, h.turning_force, old_size);
+        h.shrinking = shrinking;
+    }
+
+    // [..]^gamma of the law, its base held in [0, 1]; no room left to grow or shrink means no stiffness.
+    template <class R>
+    static HWY_INLINE R softening(const Parameters<R>& p, const History<R>& h, R old_size, R limit) {
+        const R sign = R(1) - R(2) * h.shrinking;
+        const R room = limit - sign * h.turning_force;
+        const R used = sign * (old_size - h.turning_force) / room;
+        const R base = larger(R(0), smaller(R(1), R(1) - used));
+        return select(room > R(0), power(base, p.gamma), R(0));
+    }
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,48 @@
+// A combination of laws as the step loop sees it: functions over chunks of contacts, in the vector code of the
+// machine it runs on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/laws/touch_chunk.hpp"
+#include "engine/scene/plan.hpp"
+
+namespace grainreel {
+
+// Parameters of all kinds of contact: of kind k, number p is values[p * kinds + k].
+struct LawParameters {
+    std::vector<double> values;
+    int kinds = 0;
+};
+
+struct LawInput {
+    int count;  // of contacts, a multiple of kBlock, at most kChunk
+    const TouchChunk* touch;
+    const double* effective_mass;  // kg, aligned to 64 bytes; read only by laws that use velocity
+    const std::int32_t* kind;      // of each contact; not read where there is only one
+    const LawParameters* parameters;
+    double step;  // s
+};
+
+struct LawKernel {
+    int history_size;            // doubles a contact, all zero for a new one
+    std::vector<bool> turns;     // of each: changes sign when the bodies change places
+    bool rubs;                   // asks for spin, twist and arms
+    bool uses_velocity;          // asks for velocity; so does a law that rubs
+    LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
+
+    // `history`: in blocks of kBlock contacts, within a block number by number. Zeroed where nothing touches.
+    void (*step)(const LawInput& in, double* history, ForceChunk& out);
+    // Forces as they stand, without a step; velocities are those of now.
+    void (*observe)(const LawInput& in, const double* history, ForceChunk& out);
+};
+
+// The one place where laws are chosen at run time.
+const LawKernel& law_kernel(NormalLaw normal, TangentialLaw tangential);
+
+// "AVX-512", "AVX2", ...: what the kernels chosen on this machine are compiled for.
+std::string vector_instructions();
+
+}  // namespace grainreel

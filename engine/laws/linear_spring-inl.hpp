@@ -1,0 +1,86 @@
+// Tangential force: a linear spring with Coulomb's cap, T = k_t s + m_eff c_t v_t, |T| <= mu N (Cundall &
+// Strack 1979, Geotechnique 29, 47), as LAMMPS' hooke/history has it. With a normal law that has no dashpot
+// c_t = 0.
+#if defined(GRAINREEL_LAWS_LINEAR_SPRING_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_LINEAR_SPRING_INL
+#undef GRAINREEL_LAWS_LINEAR_SPRING_INL
+#else
+#define GRAINREEL_LAWS_LINEAR_SPRING_INL
+#endif
+
+#include "engine/laws/carry-inl.hpp"
+#include "engine/laws/friction-inl.hpp"
+#include "engine/laws/touch-inl.hpp"
+#include "engine/scene/plan.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+struct LinearSpring {
+    static constexpr bool rubs = true;
+
+    template <class R>
+    struct Parameters {
+        R stiffness;  // N/m, k_t
+        R friction;   // mu
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(stiffness), visit(friction);
+        }
+    };
+    static Parameters<double> from(const PairPlan& plan) {
+        return {plan.tangential_stiffness, finite_friction(plan.friction)};
+    }
+
+    template <class R>
+    struct History {
+        Triple<R> spring_force;  // N, on j, the spring's part of it, k_t s
+        Triple<R> normal;        // k of the last step; zero for a new contact
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit.turning(spring_force), visit.turning(normal);
+        }
+    };
+
+    // N, on j. A normal force that pulls caps by its size, as in LAMMPS.
+    template <class R, class Normal>
+    static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal& normal, History<R>& h,
+                                      const Touch<R>& touch, R normal_force) {
+        h.spring_force = carry_along(h.spring_force, h.normal, touch.normal, touch.twist);
+        h.normal = touch.normal;
+        h.spring_force += touch.slip * p.stiffness;
+        const Triple<R> damping = dashpot(normal, touch);
+        const Triple<R> whole = h.spring_force + damping;
+        const Triple<R> capped = capped_at(whole, p.friction * size_of(normal_force));
+        h.spring_force = capped - damping;  // sliding, the spring keeps what the cap leaves it
+        return capped;
+    }
+    // N, on j, as it stands at an instant, without a step.
+    template <class R, class Normal>
+    static HWY_INLINE Triple<R> now(const Parameters<R>& p, const Normal& normal, const History<R>& h,
+                                    const Touch<R>& touch, R normal_force) {
+        return capped_at(h.spring_force + dashpot(normal, touch), p.friction * size_of(normal_force));
+    }
+
+    template <class R>
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h) {
+        return h.spring_force.squared() / (R(2) * p.stiffness);
+    }
+
+  private:
+    template <class R, class Normal>
+    static HWY_INLINE Triple<R> dashpot(const Normal& normal, const Touch<R>& touch) {
+        if constexpr (requires { normal.tangential_damping; }) {
+            return touch.slip_velocity * (normal.tangential_damping * touch.effective_mass);
+        } else {
+            return {R(0), R(0), R(0)};
+        }
+    }
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,61 @@
+// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, with v_n the closing speed. Not clipped at
+// the end of contact, where it may pull (as in LAMMPS' hooke/history), so that a free impact has e = exp(-pi
+// b / sqrt(1 - b^2)), b = c / (2 sqrt(k / m_eff)) (Schwager & Poeschel 2007, Granul. Matter 9, 465).
+#if defined(GRAINREEL_LAWS_SPRING_DASHPOT_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_SPRING_DASHPOT_INL
+#undef GRAINREEL_LAWS_SPRING_DASHPOT_INL
+#else
+#define GRAINREEL_LAWS_SPRING_DASHPOT_INL
+#endif
+
+#include "engine/laws/touch-inl.hpp"
+#include "engine/scene/plan.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+struct SpringDashpot {
+    static constexpr bool uses_velocity = true;
+
+    template <class R>
+    struct Parameters {
+        R stiffness;           // N/m
+        R damping;             // 1/s, times the effective mass
+        R tangential_damping;  // 1/s, likewise; for the tangential law
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(stiffness), visit(damping), visit(tangential_damping);
+        }
+    };
+    static Parameters<double> from(const PairPlan& plan) {
+        return {plan.loading_stiffness, plan.normal_damping, plan.tangential_damping};
+    }
+
+    template <class R>
+    struct History {
+        template <class Each>
+        HWY_INLINE void each(const Each&) {}
+    };
+
+    // N, may be negative just before the spheres part.
+    template <class R>
+    static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
+        return now(p, h, touch);
+    }
+    template <class R>
+    static HWY_INLINE R now(const Parameters<R>& p, const History<R>&, const Touch<R>& touch) {
+        return p.stiffness * touch.overlap + p.damping * touch.effective_mass * touch.closing_speed;
+    }
+
+    // J, k a^2 / 2.
+    template <class R>
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const Touch<R>& touch, R) {
+        return R(0.5) * p.stiffness * touch.overlap * touch.overlap;
+    }
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

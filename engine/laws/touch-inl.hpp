@@ -1,0 +1,29 @@
+// What a contact law is told of a touching pair (or of a grain and a wall), all at consistent time levels:
+// geometry and velocities at the end of the step, slip and twist over the step.
+#if defined(GRAINREEL_LAWS_TOUCH_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_TOUCH_INL
+#undef GRAINREEL_LAWS_TOUCH_INL
+#else
+#define GRAINREEL_LAWS_TOUCH_INL
+#endif
+
+#include "engine/vector/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+template <class R>
+struct Touch {
+    Triple<R> normal;         // unit k, from grain i to grain j, or from the grain to the wall
+    R overlap;                // m, > 0
+    R effective_mass;         // kg; set only for laws that use velocity
+    R closing_speed;          // m/s, k . (v_i - v_j), > 0 when approaching; likewise
+    Triple<R> slip;           // m, of i over j at the contact during this step; set only for laws that rub
+    R twist;                  // rad, mean rotation of the two bodies about k during this step; likewise
+    Triple<R> slip_velocity;  // m/s; set only for laws that rub and use velocity
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,72 @@
+// Normal force: the partially latching spring of Walton & Braun (1986, J. Rheol. 30, 949).
+//
+//   N = max(0, min(K1 a, K2 (a - a0))),   a0 = a_max (1 - K1/K2),   e = sqrt(K1/K2) at any speed
+//
+// Loading goes up slope K1, unloading down K2 to the residual overlap a0, reloading up K2 until it meets K1
+// again. Between 0 and a0 the force is zero. The residual is forgotten when the spheres part. Some codes
+// lower a0 when a contact reloads from inside that gap; the min() rule of the original program does not, nor
+// do we.
+#if defined(GRAINREEL_LAWS_WALTON_BRAUN_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_WALTON_BRAUN_INL
+#undef GRAINREEL_LAWS_WALTON_BRAUN_INL
+#else
+#define GRAINREEL_LAWS_WALTON_BRAUN_INL
+#endif
+
+#include "engine/laws/touch-inl.hpp"
+#include "engine/scene/plan.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+struct WaltonBraun {
+    static constexpr bool uses_velocity = false;
+
+    template <class R>
+    struct Parameters {
+        R loading, unloading;  // N/m: K1, K2
+        R residual_share;      // 1 - K1/K2
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(loading), visit(unloading), visit(residual_share);
+        }
+    };
+    static Parameters<double> from(const PairPlan& plan) {
+        return {plan.loading_stiffness, plan.unloading_stiffness,
+                1 - plan.loading_stiffness / plan.unloading_stiffness};
+    }
+
+    template <class R>
+    struct History {
+        R largest_overlap;  // m, a_max since the spheres met
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(largest_overlap);
+        }
+    };
+
+    // N, >= 0.
+    template <class R>
+    static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
+        h.largest_overlap = larger(h.largest_overlap, touch.overlap);
+        return now(p, h, touch);
+    }
+    template <class R>
+    static HWY_INLINE R now(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch) {
+        const R residual = h.largest_overlap * p.residual_share;
+        return larger(R(0), smaller(p.loading * touch.overlap, p.unloading * (touch.overlap - residual)));
+    }
+
+    // J, what unloading from here gives back: N^2 / (2 K2).
+    template <class R>
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const Touch<R>&, R normal_force) {
+        return normal_force * normal_force / (R(2) * p.unloading);
+    }
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,175 @@
+#include "engine/step/contact_geometry.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/step/contact_geometry.cpp"
+#include "engine/vector/targets.hpp"
+//
+#include "engine/vector/records-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+template <class Record>
+HWY_INLINE const double* numbers(const std::vector<Record>& records) {
+    return reinterpret_cast<const double*>(records.data());
+}
+
+HWY_INLINE void put(const Triple<Lanes>& t, double (*to)[kChunk], int c) {
+    store(t.x, to[0] + c), store(t.y, to[1] + c), store(t.z, to[2] + c);
+}
+
+HWY_INLINE Triple<Lanes> take(const double (*from)[kChunk], int c) {
+    return {load(from[0] + c), load(from[1] + c), load(from[2] + c)};
+}
+
+HWY_INLINE Triple<Lanes> triple(const Four<Doubles>& f) {
+    return {Lanes(f.a), Lanes(f.b), Lanes(f.c)};
+}
+
+HWY_INLINE Lanes nearest(Lanes x, Lanes period) {
+    const Lanes half = period * Lanes(0.5);
+    const Lanes low = select(x > half, x - period, x);
+    return select(x < -half, x + period, low);
+}
+
+template <Wants wants>
+void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
+    const double* place = numbers(in.grains->place);
+    const double* motion = numbers(in.grains->motion);
+    const double* spin = numbers(in.grains->spin);
+    for (int c = 0; c < in.count; c += kLanes) {
+        const std::int32_t *i = in.first + c, *j = in.second + c;
+        const auto one = load_records(place, 4, i), two = load_records(place, 4, j);
+        Triple<Lanes> apart = triple(two) - triple(one);
+        if (period > 0) apart.x = nearest(apart.x, Lanes(period));
+        const Lanes radius_one(one.d), radius_two(two.d);
+        const Lanes distance = root(apart.squared()), overlap = radius_one + radius_two - distance;
+        store(overlap, out.overlap + c);
+        if (none(overlap > Lanes(0.0))) continue;
+
+        const Lanes inverse_distance = Lanes(1.0) / distance;
+        const Triple<Lanes> k = apart * inverse_distance;
+        put(k, out.normal, c);
+        if constexpr (wants == Wants::overlap) continue;
+
+        const auto motion_one = load_records(motion, 4, i), motion_two = load_records(motion, 4, j);
+        Triple<Lanes> velocity = triple(motion_one) - triple(motion_two);
+        if constexpr (wants == Wants::spin) {
+            // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which
+            // is what keeps angular momentum. The original program took the radii.
+            Lanes first_arm = radius_one, second_arm = radius_two;
+            if (in.arms == LeverArms::contact_plane) {
+                first_arm = Lanes(0.5) * (distance + (radius_one - radius_two) * (radius_one + radius_two) *
+                                                         inverse_distance);
+                second_arm = distance - first_arm;
+            }
+            const Triple<Lanes> spin_one = triple(load_records(spin, 4, i));
+            const Triple<Lanes> spin_two = triple(load_records(spin, 4, j));
+            velocity += (spin_one * first_arm + spin_two * second_arm).cross(k);
+            store(first_arm, out.first_arm + c);
+            store(second_arm, out.second_arm + c);
+            store(Lanes(0.5 * in.step) * (spin_one + spin_two).dot(k), out.twist + c);
+        }
+        put(velocity, out.velocity, c);
+    }
+}
+
+template <Wants wants>
+void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& out) {
+    const double* place = numbers(in.grains->place);
+    const double* motion = numbers(in.grains->motion);
+    const double* spin = numbers(in.grains->spin);
+    for (int c = 0; c < in.count; c += kLanes) {
+        const std::int32_t *i = in.first + c, *face = in.second + c;
+        const auto grain = load_records(place, 4, i);
+        const auto plane = load_records(numbers(walls.faces), 8, face);
+        const auto cylinder = load_records(numbers(walls.faces) + 4, 8, face);
+        const Triple<Lanes> centre = triple(grain), into = triple(plane);
+        Triple<Lanes> out_from_axis = centre - triple(cylinder);
+        out_from_axis.z = Lanes(0.0);
+        const Lanes from_axis = root(out_from_axis.squared());
+        const auto round = Lanes(cylinder.d) > Lanes(0.0);
+        const Lanes distance =
+            select(round, Lanes(cylinder.d) - from_axis, into.dot(centre) - Lanes(plane.d));
+        const Lanes radius(grain.d), overlap = radius - distance;
+        store(overlap, out.overlap + c);
+        if (none(overlap > Lanes(0.0))) continue;
+
+        const Lanes inverse = select(from_axis > Lanes(0.0), Lanes(1.0) / from_axis, Lanes(0.0));
+        const Triple<Lanes> k = select(round, out_from_axis * inverse, -into);
+        put(k, out.normal, c);
+        if constexpr (wants == Wants::overlap) continue;
+
+        Triple<Lanes> velocity =
+            triple(load_records(motion, 4, i)) - triple(load_records(numbers(walls.motion), 8, face));
+        if constexpr (wants == Wants::spin) {
+            const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
+            const Triple<Lanes> rate = triple(load_records(spin, 4, i));
+            velocity += (rate * arm).cross(k);
+            store(arm, out.first_arm + c);
+            store(Lanes(0.5 * in.step) * rate.dot(k), out.twist + c);
+        }
+        put(velocity, out.velocity, c);
+    }
+}
+
+void pairs(const GeometryInput& in, double period, TouchChunk& out) {
+    switch (in.wants) {
+        case Wants::overlap: return pairs_chunk<Wants::overlap>(in, period, out);
+        case Wants::velocity: return pairs_chunk<Wants::velocity>(in, period, out);
+        case Wants::spin: return pairs_chunk<Wants::spin>(in, period, out);
+    }
+}
+
+void walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
+    switch (in.wants) {
+        case Wants::overlap: return walls_chunk<Wants::overlap>(in, state, out);
+        case Wants::velocity: return walls_chunk<Wants::velocity>(in, state, out);
+        case Wants::spin: return walls_chunk<Wants::spin>(in, state, out);
+    }
+}
+
+void contact_forces(const TouchChunk& touch, const ForceChunk& force, int count, bool rubs,
+                    ContactForce* out) {
+    double* slots = reinterpret_cast<double*>(out);
+    for (int c = 0; c < count; c += kLanes) {
+        const Triple<Lanes> k = take(touch.normal, c);
+        Triple<Lanes> whole = k * load(force.normal + c);
+        if (!rubs) {
+            store_records({whole.x.value, whole.y.value, whole.z.value, Lanes(0.0).value}, slots + 8 * c, 8);
+            continue;
+        }
+        const Triple<Lanes> across = take(force.tangential, c), turning = k.cross(across);
+        whole += across;
+        store_records({whole.x.value, whole.y.value, whole.z.value, load(touch.first_arm + c).value},
+                      slots + 8 * c, 8);
+        store_records({turning.x.value, turning.y.value, turning.z.value, load(touch.second_arm + c).value},
+                      slots + 8 * c + 4, 8);
+    }
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grainreel {
+
+HWY_EXPORT(pairs);
+HWY_EXPORT(walls);
+HWY_EXPORT(contact_forces);
+
+void touch_pairs(const GeometryInput& in, double period, TouchChunk& out) {
+    HWY_DYNAMIC_DISPATCH(pairs)(in, period, out);
+}
+
+void touch_walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
+    HWY_DYNAMIC_DISPATCH(walls)(in, state, out);
+}
+
+void to_contact_forces(const TouchChunk& touch, const ForceChunk& force, int count, bool rubs,
+                       ContactForce* out) {
+    HWY_DYNAMIC_DISPATCH(contact_forces)(touch, force, count, rubs, out);
+}
+
+}  // namespace grainreel
+#endif

@@ -1,0 +1,72 @@
+// The step loop's lists: made anew, refreshed, and histories handed over.
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+// The thread's own contacts, out of the neighbour lists.
+void StepLoop::refresh(int member, bool same_lists) {
+    Member& mine = members_[member];
+    if (!same_lists) mine.contacts.own(lists_, share_[member], share_[member + 1]);
+    mine.contacts.refresh(rules_, grains_, lists_, mine.walls, mine.reach.skin, same_lists);
+}
+
+// New order, new neighbour lists, new contacts, histories carried over: called by all members.
+void StepLoop::rebuild(int member, const Pose& pose) {
+    Member& mine = members_[member];
+    mine.kept.clear();
+    mine.contacts.keep_pairs(mine.kept);
+    mine.kept.pairs = mine.kept.size();
+    mine.contacts.keep_walls(mine.kept);
+    team_.barrier();
+    if (member == 0) {
+        const auto& order = spatial_order(cells_, grains_, around_.skin, around_.period);
+        grains_.reorder(order);
+        new_index_.resize(order.size());
+        for (std::size_t i = 0; i < order.size(); ++i) new_index_[order[i]] = static_cast<std::int32_t>(i);
+    }
+    team_.barrier();
+    const std::int64_t n = static_cast<std::int64_t>(grains_.size());
+    list_pairs(cells_, grains_, around_.skin, around_.period,
+               static_cast<std::int32_t>(n * member / team_.size()),
+               static_cast<std::int32_t>(n * (member + 1) / team_.size()), mine.part);
+    team_.barrier();
+    if (member == 0) {
+        std::vector<const NeighbourList*> parts;
+        for (const Member& m : members_) parts.push_back(&m.part);
+        join_lists(parts, lists_.pairs);
+        lists_.walls = list_wall_neighbours(grains_, around_.faces, pose, around_.skin);
+        note_listing(pose);
+        share_out();
+        ++rebuilds_;
+    }
+    team_.barrier();
+    refresh(member, false);
+    for (const Member& m : members_) mine.contacts.restore(rules_, m.kept, new_index_);
+}
+
+void StepLoop::note_listing(const Pose& pose) {
+    listed_at_.resize(grains_.size());
+    listed_velocity_.setZero();
+    for (std::size_t i = 0; i < grains_.size(); ++i) {
+        listed_at_[i] = grains_.place[i].position;
+        listed_velocity_ += grains_.motion[i].velocity;
+    }
+    listed_velocity_ /= static_cast<double>(grains_.size());
+    listed_pose_ = pose;
+}
+
+// Ranges of grains for the threads, of about equal work: a grain costs about as much as three listed pairs.
+void StepLoop::share_out() {
+    const std::int32_t n = static_cast<std::int32_t>(grains_.size());
+    const std::vector<std::int32_t>& start = lists_.pairs.start;
+    const std::int64_t all = 3 * std::int64_t{n} + start[n];
+    share_.assign(team_.size() + 1, n);
+    share_[0] = 0;
+    std::int32_t i = 0;
+    for (int t = 1; t < team_.size(); ++t) {
+        while (i < n && (3 * std::int64_t{i} + start[i]) * team_.size() < all * t) ++i;
+        share_[t] = i;
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,99 @@
+// What the step loop shows of its contacts, and what it saves.
+#include <numeric>
+
+#include "engine/base/binary.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+void StepLoop::visit_contacts(std::int64_t at_step,
+                              const std::function<void(const ContactView&)>& visit) const {
+    WallState walls;
+    const Pose pose = around_.motion.at(at_step);
+    walls.set(around_.faces, pose, pose, 0);
+    for (const bool of_pairs : {true, false}) {
+        for (const Member& m : members_) {
+            m.contacts.observe(rules_, grains_, walls, of_pairs,
+                               [&](std::int32_t i, std::int32_t j, int at, const TouchChunk& touch,
+                                   const ForceChunk& force) {
+                                   visit(view(i, of_pairs ? j : -1 - j, at, touch, force));
+                               });
+        }
+    }
+}
+
+ContactView StepLoop::view(std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
+                           const ForceChunk& force) const {
+    const auto of = [at](const double (*axes)[kChunk]) { return Vec3(axes[0][at], axes[1][at], axes[2][at]); };
+    const Place& one = grains_.place[first];
+    ContactView v{};
+    v.first = first;
+    v.second = second;
+    v.normal = of(touch.normal);
+    v.overlap = touch.overlap[at];
+    v.smaller_radius = second < 0 ? one.radius : std::min(one.radius, grains_.place[second].radius);
+    v.normal_force = force.normal[at];
+    v.tangential = rules_.law->rubs ? of(force.tangential) : Vec3::Zero();
+    v.stored_energy = force.stored[at];
+    v.point = one.position + v.normal * (one.radius - 0.5 * v.overlap);
+    return v;
+}
+
+// Contacts with a history in one order, whoever works on them: pairs, then walls, by rising first grain.
+KeptContacts StepLoop::all_kept() const {
+    KeptContacts all;
+    for (const Member& m : members_) m.contacts.keep_pairs(all);
+    all.pairs = all.size();
+    for (const Member& m : members_) m.contacts.keep_walls(all);
+    return all;
+}
+
+void StepLoop::save(std::ostream& out) const {
+    const KeptContacts kept = all_kept();
+    write_vector(out, kept.first);
+    write_vector(out, kept.second);
+    write_vector(out, kept.history);
+    write_value(out, kept.pairs);
+    write_vector(out, lists_.pairs.start);
+    write_vector(out, lists_.pairs.partner);
+    write_value(out, lists_.pairs.farthest_partner);
+    write_vector(out, lists_.walls);
+    write_vector(out, listed_at_);
+    write_value(out, listed_velocity_);
+    write_value(out, listed_pose_);
+    write_value(out, listed_step_);
+    write_value(out, members_[0].reach);
+}
+
+void StepLoop::load(std::istream& in) {
+    KeptContacts kept;
+    Reach reach;
+    read_vector(in, kept.first);
+    read_vector(in, kept.second);
+    read_vector(in, kept.history);
+    read_value(in, kept.pairs);
+    read_vector(in, lists_.pairs.start);
+    read_vector(in, lists_.pairs.partner);
+    read_value(in, lists_.pairs.farthest_partner);
+    read_vector(in, lists_.walls);
+    read_vector(in, listed_at_);
+    read_value(in, listed_velocity_);
+    read_value(in, listed_pose_);
+    read_value(in, listed_step_);
+    read_value(in, reach);
+    if (!in) return;  // the caller says so
+    fresh_ = false;
+    share_out();
+    std::vector<std::int32_t> same(grains_.size());
+    std::iota(same.begin(), same.end(), 0);
+    Pose listed = listed_pose_;
+    for (int member = 0; member < team_.size(); ++member) {
+        members_[member].reach = reach;
+        listed.offset = reach.wall_offset;
+        members_[member].walls.set(around_.faces, listed, listed, 0);
+        refresh(member, false);
+        members_[member].contacts.restore(rules_, kept, same);
+    }
+}
+
+}  // namespace grainreel

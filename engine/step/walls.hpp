@@ -1,0 +1,34 @@
+// The walls over one step, as the vector code reads them.
+#pragma once
+
+#include <vector>
+
+#include "engine/state/container_faces.hpp"
+
+namespace grainreel {
+
+struct alignas(64) FaceRecord {
+    Vec3 normal;    // unit, into the container; zero for a cylinder
+    double level;   // m, normal . point
+    Vec3 axis;      // m, a point on a cylinder's axis
+    double radius;  // m, of a cylinder; 0 for a plane
+
+    double distance(const Vec3& centre) const;  // m, from a grain's centre
+};
+
+struct alignas(64) FaceMotion {
+    Vec3 velocity;  // m/s, mean over the step
+    double unused_one;
+    Vec3 at_end;  // m/s
+    double unused_two;
+};
+
+struct WallState {
+    std::vector<FaceRecord> faces;  // where they are at the step's end
+    std::vector<FaceMotion> motion;
+
+    // From `before` to `now` within `step` seconds; without a step the velocity is that of `now`.
+    void set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step);
+};
+
+}  // namespace grainreel

@@ -1,0 +1,108 @@
+// Four doubles a record in memory, one number a lane in registers: loads and stores records that lie anywhere.
+#if defined(GRAINREEL_VECTOR_RECORDS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_VECTOR_RECORDS_INL
+#undef GRAINREEL_VECTOR_RECORDS_INL
+#else
+#define GRAINREEL_VECTOR_RECORDS_INL
+#endif
+
+#include "engine/vector/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+template <class D>
+struct Four {
+    hn::Vec<D> a, b, c, d;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_INLINE Four<Doubles> load_records(const double* base, std::size_t stride, const std::int32_t* index) {
+    const Doubles d;
+    const double* at = base + stride * static_cast<std::size_t>(*index);
+    return {hn::Load(d, at), hn::Load(d, at + 1), hn::Load(d, at + 2), hn::Load(d, at + 3)};
+}
+
+HWY_INLINE void store_records(const Four<Doubles>& f, double* base, std::size_t) {
+    const Doubles d;
+    hn::Store(f.a, d, base), hn::Store(f.b, d, base + 1);
+    hn::Store(f.c, d, base + 2), hn::Store(f.d, d, base + 3);
+}
+
+#else
+
+// Rows of 128-bit blocks: on entry row k holds the blocks (a b)(c d) of records k and k + 4; on return `a`
+// holds the first number of all of them, and so on. The same steps undo it.
+template <class D>
+HWY_INLINE Four<D> transposed(D d, const Four<D>& r) {
+    const auto low01 = hn::InterleaveLower(d, r.a, r.b), high01 = hn::InterleaveUpper(d, r.a, r.b);
+    const auto low23 = hn::InterleaveLower(d, r.c, r.d), high23 = hn::InterleaveUpper(d, r.c, r.d);
+    return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(low23), low01),
+            hn::OddEvenBlocks(hn::SwapAdjacentBlocks(high23), high01),
+            hn::OddEvenBlocks(low23, hn::SwapAdjacentBlocks(low01)),
+            hn::OddEvenBlocks(high23, hn::SwapAdjacentBlocks(high01))};
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> both_halves(D d, const double* low, const double* high) {
+    const hn::Half<D> half;
+    return hn::Combine(d, hn::Load(half, high), hn::Load(half, low));
+}
+
+template <class D>
+HWY_INLINE void store_halves(D, hn::Vec<D> row, double* low, double* high) {
+    const hn::Half<D> half;
+    hn::Store(hn::LowerHalf(half, row), half, low);
+    hn::Store(hn::UpperHalf(half, row), half, high);
+}
+
+// Records index[0] .. index[lanes - 1] of `stride` doubles each, their first four numbers. base and stride
+// aligned to 32 bytes.
+template <class D = Doubles>
+HWY_INLINE Four<D> load_records(const double* base, std::size_t stride, const std::int32_t* index) {
+    const D d;
+    const double* at[hn::MaxLanes(D())];
+    for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k) at[k] = base + stride * static_cast<std::size_t>(index[k]);
+    if constexpr (hn::MaxLanes(D()) == 8) {
+        return transposed(d, Four<D>{both_halves(d, at[0], at[4]), both_halves(d, at[1], at[5]),
+                                     both_halves(d, at[2], at[6]), both_halves(d, at[3], at[7])});
+    } else if constexpr (hn::MaxLanes(D()) == 4) {
+        return transposed(
+            d, Four<D>{hn::Load(d, at[0]), hn::Load(d, at[1]), hn::Load(d, at[2]), hn::Load(d, at[3])});
+    } else {
+        const auto ab0 = hn::Load(d, at[0]), ab1 = hn::Load(d, at[1]);
+        const auto cd0 = hn::Load(d, at[0] + 2), cd1 = hn::Load(d, at[1] + 2);
+        return {hn::InterleaveLower(d, ab0, ab1), hn::InterleaveUpper(d, ab0, ab1),
+                hn::InterleaveLower(d, cd0, cd1), hn::InterleaveUpper(d, cd0, cd1)};
+    }
+}
+
+// The other way, to records that lie one behind the other.
+template <class D = Doubles>
+HWY_INLINE void store_records(const Four<D>& f, double* base, std::size_t stride) {
+    const D d;
+    if constexpr (hn::MaxLanes(D()) == 8) {
+        const Four<D> r = transposed(d, f);
+        store_halves(d, r.a, base, base + 4 * stride);
+        store_halves(d, r.b, base + stride, base + 5 * stride);
+        store_halves(d, r.c, base + 2 * stride, base + 6 * stride);
+        store_halves(d, r.d, base + 3 * stride, base + 7 * stride);
+    } else if constexpr (hn::MaxLanes(D()) == 4) {
+        const Four<D> r = transposed(d, f);
+        hn::Store(r.a, d, base), hn::Store(r.b, d, base + stride);
+        hn::Store(r.c, d, base + 2 * stride), hn::Store(r.d, d, base + 3 * stride);
+    } else {
+        hn::Store(hn::InterleaveLower(d, f.a, f.b), d, base);
+        hn::Store(hn::InterleaveLower(d, f.c, f.d), d, base + 2);
+        hn::Store(hn::InterleaveUpper(d, f.a, f.b), d, base + stride);
+        hn::Store(hn::InterleaveUpper(d, f.c, f.d), d, base + stride + 2);
+    }
+}
+
+#endif
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,184 @@
+// The vector code: against the same laws on plain doubles, and the same bits at every width.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <random>
+
+#include "engine/laws/contact_law-inl.hpp"
+#include "engine/laws/frictionless-inl.hpp"
+#include "engine/laws/incremental_slip-inl.hpp"
+#include "engine/laws/law_kernel.hpp"
+#include "engine/laws/linear_spring-inl.hpp"
+#include "engine/laws/spring_dashpot-inl.hpp"
+#include "engine/laws/walton_braun-inl.hpp"
+#include "engine/step/contact_list.hpp"
+#include "tests/physics/world.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace HWY_NAMESPACE;
+
+// Calls work() for each instruction set that this processor has and the kernels are compiled for.
+template <class Work>
+void for_each_width(const Work& work) {
+    for (const std::int64_t target : {std::int64_t{HWY_SCALAR}, std::int64_t{HWY_EMU128}, std::int64_t{HWY_SSE4},
+                                      std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}}) {
+        const bool plain = target == HWY_SCALAR || target == HWY_EMU128;
+        if (!plain && !(hwy::SupportedTargets() & target)) continue;
+        hwy::GetChosenTarget().Update(target);
+        work();
+    }
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+struct Push {
+    double*& at;
+    void operator()(double& x) const { *at = x, at += kBlock; }
+    void turning(Triple<double>& t) const { (*this)(t.x), (*this)(t.y), (*this)(t.z); }
+};
+std::vector<PairPlan> three_kinds() {
+    std::vector<PairPlan> kinds;
+    for (const double e : {0.5, 0.8, 0.98}) {
+        PairPlan p = walton_braun_pair(e, 0.2 + 0.3 * e);
+        p.normal_damping = 2000 * (1 - e);
+        p.tangential_damping = 1000 * (1 - e);
+        p.gamma = e == 0.8 ? 0.7 : e == 0.5 ? 2 : 1.0 / 3.0;
+        kinds.push_back(p);
+    }
+    return kinds;
+}
+
+// A crowd of contacts that slip, turn, part and meet again; the kernel's answer must be the scalar law's.
+template <class Normal, class Tangential>
+void compare(NormalLaw normal, TangentialLaw tangential, const std::vector<PairPlan>& kinds) {
+    using Law = ContactLaw<Normal, Tangential>;
+    const LawKernel& kernel = law_kernel(normal, tangential);
+    const LawParameters parameters = kernel.parameters(kinds);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> one(-1, 1);
+    TouchChunk touch;
+    ForceChunk force;
+    std::vector<Block> history(kChunk / kBlock * kernel.history_size, Block{});
+    std::vector<typename Law::template History<double>> expected(kChunk);
+    Block mass[kChunk / kBlock];
+    std::int32_t kind[kChunk];
+    for (int c = 0; c < kChunk; ++c) {
+        mass[c / kBlock].value[c % kBlock] = 1e-4 * (1.5 + one(random));
+        kind[c] = static_cast<std::int32_t>(c % kinds.size());
+        const Vec3 k = Vec3(one(random), one(random), one(random)).normalized();
+        for (int a = 0; a < 3; ++a) touch.normal[a][c] = k[a];
+    }
+    const double step = 1e-6;
+    for (int n = 0; n < 200; ++n) {
+        for (int c = 0; c < kChunk; ++c) {
+            Vec3 k(touch.normal[0][c], touch.normal[1][c], touch.normal[2][c]);
+            k = (k + 1e-3 * Vec3(one(random), one(random), one(random))).normalized();
+            const bool apart = (n / 20 + c) % 9 == 0;
+            touch.overlap[c] = apart ? -1e-6 : 1e-5 * (1.1 + one(random));
+            touch.twist[c] = 1e-3 * one(random);
+            for (int a = 0; a < 3; ++a) {
+                touch.normal[a][c] = k[a];
+                touch.velocity[a][c] = one(random);
+            }
+        }
+        kernel.step({kChunk, &touch, mass[0].value, kind, &parameters, step}, history[0].value, force);
+        for (int c = 0; c < kChunk; ++c) {
+            auto& h = expected[c];
+            Touch<double> t{};
+            t.normal = {touch.normal[0][c], touch.normal[1][c], touch.normal[2][c]};
+            t.overlap = touch.overlap[c];
+            t.twist = touch.twist[c];
+            t.effective_mass = mass[c / kBlock].value[c % kBlock];
+            typename Law::template Force<double> f{0, {0, 0, 0}};
+            if (t.overlap > 0) {
+                const Triple<double> velocity{touch.velocity[0][c], touch.velocity[1][c], touch.velocity[2][c]};
+                f = Law::force(Law::from(kinds[kind[c]]), h, t, velocity, step);
+            } else {
+                h = {};
+            }
+            ASSERT_EQ(force.normal[c], f.normal) << "step " << n << ", contact " << c;
+            if (Law::rubs) {
+                ASSERT_EQ(force.tangential[0][c], f.tangential.x) << "step " << n << ", contact " << c;
+                ASSERT_EQ(force.tangential[2][c], f.tangential.z) << "step " << n << ", contact " << c;
+            }
+            std::vector<double> numbers(kernel.history_size * kBlock + kBlock);
+            double* at = numbers.data();
+            h.each(Push{at});
+            for (int k = 0; k < kernel.history_size; ++k) {
+                ASSERT_EQ(history[c / kBlock * kernel.history_size + k].value[c % kBlock], numbers[k * kBlock]);
+            }
+        }
+    }
+}
+
+// 12,800 contact states a combination and width.
+TEST(VectorLaws, AreTheScalarLawsToTheLastBitAtEveryWidth) {
+    for (const bool several : {false, true}) {
+        auto kinds = three_kinds();
+        if (!several) kinds.resize(1);
+        for_each_width([&] {
+            SCOPED_TRACE(vector_instructions());
+            using WB = WaltonBraun;
+            using SD = SpringDashpot;
+            constexpr auto wb = NormalLaw::walton_braun, sd = NormalLaw::spring_dashpot;
+            compare<WB, IncrementalSlip>(wb, TangentialLaw::incremental_slip, kinds);
+            compare<WB, LinearSpring>(wb, TangentialLaw::linear_spring, kinds);
+            compare<WB, Frictionless>(wb, TangentialLaw::none, kinds);
+            compare<SD, IncrementalSlip>(sd, TangentialLaw::incremental_slip, kinds);
+            compare<SD, LinearSpring>(sd, TangentialLaw::linear_spring, kinds);
+            compare<SD, Frictionless>(sd, TangentialLaw::none, kinds);
+        });
+    }
+}
+
+TEST(VectorLaws, PowersAreThoseOfTheLibrary) {
+    for (double base = 0; base <= 1; base += 1.0 / 4096) {
+        EXPECT_NEAR(power(base, 1.0 / 3.0), std::cbrt(base), 4e-15 * std::cbrt(base));
+        EXPECT_EQ(power(base, 0.7), std::pow(base, 0.7));
+    }
+    EXPECT_NEAR(power(1e-40, 1.0 / 3.0), std::cbrt(1e-40), 1e-14 * std::cbrt(1e-40));
+}
+
+// A tumbling heap of two sizes in a corner with a round wall: every kind of contact there is.
+std::vector<double> tumble(TangentialLaw tangential, int threads) {
+    World w = make_world(walton_braun_pair(0.8, 0.4), 2e-6, NormalLaw::walton_braun, tangential);
+    w.team = std::make_unique<Team>(threads);
+    Face round;
+    round.kind = Face::Kind::cylinder;
+    round.radius = 0.02;
+    Face slant = floor_face();
+    slant.normal = Vec3(0.3, 0.1, 1).normalized();
+    w.around.faces = {floor_face(), round, slant};
+    w.around.gravity = {0, 0, -9.81};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> one(-1, 1);
+    for (int k = 0; k < 300; ++k) {
+        const double r = k % 7 == 0 ? 0.0016 : 0.0008;
+        w.grains.add(k, 0, Vec3(0.01 * one(random), 0.01 * one(random), 0.012 + 0.008 * one(random)), r, kDensity);
+        w.grains.motion.back().velocity = 0.3 * Vec3(one(random), one(random), one(random));
+        w.grains.spin.back().rate = 100 * Vec3(one(random), one(random), one(random));
+    }
+    w.start();
+    w.run(1000);
+    std::vector<double> state;
+    for (int k = 0; k < 300; ++k) {
+        const Vec3 &x = w.position(k), &v = w.velocity(k), &s = w.spin(k);
+        state.insert(state.end(), {x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), s.x(), s.y(), s.z()});
+    }
+    return state;
+}
+
+TEST(VectorSteps, GiveTheSameBitsAtEveryWidthAndNumberOfThreads) {
+    for (const auto law : {TangentialLaw::incremental_slip, TangentialLaw::linear_spring, TangentialLaw::none}) {
+        const std::vector<double> expected = tumble(law, 1);
+        for_each_width([&] {
+            for (const int threads : {1, 3, 8}) {
+                EXPECT_EQ(tumble(law, threads), expected) << vector_instructions() << " on " << threads;
+            }
+        });
+    }
+}
+
+}  // namespace
+}  // namespace grainreel
