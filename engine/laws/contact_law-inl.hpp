@@ -85,8 +85,8 @@ struct ContactLaw {
         return f;
     }
 
-    // The force as it stands, `velocity` being that of now, and J, what the contact would give back if it were
-    // unloaded.
+    // The force as it stands, `velocity` being that of now, and J, what the contact would give back if it
+    // were unloaded.
     template <class R>
     static HWY_INLINE Force<R> now(const Parameters<R>& p, const History<R>& h, Touch<R> touch,
                                    const Triple<R>& velocity, R& stored_energy) {

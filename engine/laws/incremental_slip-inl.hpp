@@ -44,9 +44,9 @@ struct IncrementalSlip {
     struct History {
         Triple<R> force;   // N, on j, perpendicular to `normal`
         Triple<R> normal;  // k of the last step; zero for a new contact
-        R normal_force;          // N, of the last step
-        R turning_force;         // N, T*
-        R shrinking;             // 1 while |T| shrinks, else 0
+        R normal_force;    // N, of the last step
+        R turning_force;   // N, T*
+        R shrinking;       // 1 while |T| shrinks, else 0
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
@@ -86,8 +86,8 @@ struct IncrementalSlip {
     }
     // N, on j, as it stands at an instant, without a step.
     template <class R, class Normal>
-    static HWY_INLINE Triple<R> now(const Parameters<R>&, const Normal&, const History<R>& h,
-                                    const Touch<R>&, R) {
+    static HWY_INLINE Triple<R> now(const Parameters<R>&, const Normal&, const History<R>& h, const Touch<R>&,
+                                    R) {
         return h.force;
     }
 

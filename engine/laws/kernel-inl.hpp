@@ -129,12 +129,12 @@ void step_chunk(const LawInput& in, double* history, ForceChunk& out) {
     const Lanes step(in.step);
     for (int c = 0; c < in.count; c += kLanes) {
         double* kept = history + (c / kBlock) * (size * kBlock) + c % kBlock;
-        const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
-        if (none(touching)) {
+        if (!in.touch->any_touching(c, kLanes)) {
             put_nothing<Law>(c, out);
             for (std::size_t k = 0; k < size; ++k) store(Lanes(0.0), kept + k * kBlock);
             continue;
         }
+        const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
         if constexpr (!one_kind) p = parameters_at<Law>(in, c);
         typename Law::template History<Lanes> h;
         h.each(LoadHistory(kept));

@@ -1,5 +1,5 @@
-// A combination of laws as the step loop sees it: functions over chunks of contacts, in the vector code of the
-// machine it runs on.
+// A combination of laws as the step loop sees it: functions over chunks of contacts, in the vector code of
+// the machine it runs on.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct LawParameters {
 };
 
 struct LawInput {
-    int count;  // of contacts, a multiple of kBlock, at most kChunk
+    int count;  // of contacts, at most kChunk; rounded up to a multiple of kBlock all can be read
     const TouchChunk* touch;
     const double* effective_mass;  // kg, aligned to 64 bytes; read only by laws that use velocity
     const std::int32_t* kind;      // of each contact; not read where there is only one
@@ -27,10 +27,10 @@ struct LawInput {
 };
 
 struct LawKernel {
-    int history_size;            // doubles a contact, all zero for a new one
-    std::vector<bool> turns;     // of each: changes sign when the bodies change places
-    bool rubs;                   // asks for spin, twist and arms
-    bool uses_velocity;          // asks for velocity; so does a law that rubs
+    int history_size;         // doubles a contact, all zero for a new one
+    std::vector<bool> turns;  // of each: changes sign when the bodies change places
+    bool rubs;                // asks for spin, twist and arms
+    bool uses_velocity;       // asks for velocity; so does a law that rubs
     LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
 
     // `history`: in blocks of kBlock contacts, within a block number by number. Zeroed where nothing touches.

@@ -12,11 +12,18 @@ constexpr int kChunk = 64;  // contacts
 // What geometry and motion say of each contact; see Touch for the meaning. Only what the law asks for is set.
 struct alignas(64) TouchChunk {
     double normal[3][kChunk] = {};
-    double overlap[kChunk] = {};      // m, not above 0 where they do not touch
-    double velocity[3][kChunk] = {};  // m/s, of i's surface against j's
-    double twist[kChunk] = {};        // rad
+    double overlap[kChunk] = {};                             // m
+    double velocity[3][kChunk] = {};                         // m/s, of i's surface against j's
+    double twist[kChunk] = {};                               // rad
     double first_arm[kChunk] = {}, second_arm[kChunk] = {};  // m, from the centres to where T acts
+    std::uint64_t touching = 0;  // a bit a contact: overlap > 0. Last: it would shift the arrays
+
+    // Of `count` contacts from c on.
+    bool any_touching(int c, int count) const {
+        return (touching >> c & ((std::uint64_t{2} << (count - 1)) - 1)) != 0;
+    }
 };
+static_assert(kChunk == 64, "a bit for each contact");
 
 // What the law answers; zero where they do not touch.
 struct alignas(64) ForceChunk {

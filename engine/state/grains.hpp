@@ -23,13 +23,12 @@ struct alignas(32) Spin {
     double inverse_inertia;  // 1/(kg m2)
 };
 
-// Force and torque of the last evaluation, gravity left out. The numbers between hold what the vector code
-// leaves there.
+// Force and torque of the last evaluation, gravity left out.
 struct alignas(64) Load {
     Vec3 force{0, 0, 0};  // N
-    double unused_one = 0;
+    double zero = 0;
     Vec3 torque{0, 0, 0};  // N m
-    double unused_two = 0;
+    double zero_too = 0;
 };
 
 struct Grains {

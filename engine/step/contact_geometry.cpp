@@ -18,10 +18,6 @@ HWY_INLINE void put(const Triple<Lanes>& t, double (*to)[kChunk], int c) {
     store(t.x, to[0] + c), store(t.y, to[1] + c), store(t.z, to[2] + c);
 }
 
-HWY_INLINE Triple<Lanes> take(const double (*from)[kChunk], int c) {
-    return {load(from[0] + c), load(from[1] + c), load(from[2] + c)};
-}
-
 HWY_INLINE Triple<Lanes> triple(const Four<Doubles>& f) {
     return {Lanes(f.a), Lanes(f.b), Lanes(f.c)};
 }
@@ -37,6 +33,7 @@ void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
     const double* motion = numbers(in.grains->motion);
     const double* spin = numbers(in.grains->spin);
+    out.touching = 0;
     for (int c = 0; c < in.count; c += kLanes) {
         const std::int32_t *i = in.first + c, *j = in.second + c;
         const auto one = load_records(place, 4, i), two = load_records(place, 4, j);
@@ -45,7 +42,9 @@ void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
         const Lanes radius_one(one.d), radius_two(two.d);
         const Lanes distance = root(apart.squared()), overlap = radius_one + radius_two - distance;
         store(overlap, out.overlap + c);
-        if (none(overlap > Lanes(0.0))) continue;
+        const LanesMask touching = overlap > Lanes(0.0);
+        if (none(touching)) continue;
+        out.touching |= bits(touching) << c;
 
         const Lanes inverse_distance = Lanes(1.0) / distance;
         const Triple<Lanes> k = apart * inverse_distance;
@@ -79,6 +78,7 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
     const double* place = numbers(in.grains->place);
     const double* motion = numbers(in.grains->motion);
     const double* spin = numbers(in.grains->spin);
+    out.touching = 0;
     for (int c = 0; c < in.count; c += kLanes) {
         const std::int32_t *i = in.first + c, *face = in.second + c;
         const auto grain = load_records(place, 4, i);
@@ -93,7 +93,9 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
             select(round, Lanes(cylinder.d) - from_axis, into.dot(centre) - Lanes(plane.d));
         const Lanes radius(grain.d), overlap = radius - distance;
         store(overlap, out.overlap + c);
-        if (none(overlap > Lanes(0.0))) continue;
+        const LanesMask touching = overlap > Lanes(0.0);
+        if (none(touching)) continue;
+        out.touching |= bits(touching) << c;
 
         const Lanes inverse = select(from_axis > Lanes(0.0), Lanes(1.0) / from_axis, Lanes(0.0));
         const Triple<Lanes> k = select(round, out_from_axis * inverse, -into);
@@ -115,36 +117,23 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
 
 void pairs(const GeometryInput& in, double period, TouchChunk& out) {
     switch (in.wants) {
-        case Wants::overlap: return pairs_chunk<Wants::overlap>(in, period, out);
-        case Wants::velocity: return pairs_chunk<Wants::velocity>(in, period, out);
-        case Wants::spin: return pairs_chunk<Wants::spin>(in, period, out);
+        case Wants::overlap:
+            return pairs_chunk<Wants::overlap>(in, period, out);
+        case Wants::velocity:
+            return pairs_chunk<Wants::velocity>(in, period, out);
+        case Wants::spin:
+            return pairs_chunk<Wants::spin>(in, period, out);
     }
 }
 
 void walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
     switch (in.wants) {
-        case Wants::overlap: return walls_chunk<Wants::overlap>(in, state, out);
-        case Wants::velocity: return walls_chunk<Wants::velocity>(in, state, out);
-        case Wants::spin: return walls_chunk<Wants::spin>(in, state, out);
-    }
-}
-
-void contact_forces(const TouchChunk& touch, const ForceChunk& force, int count, bool rubs,
-                    ContactForce* out) {
-    double* slots = reinterpret_cast<double*>(out);
-    for (int c = 0; c < count; c += kLanes) {
-        const Triple<Lanes> k = take(touch.normal, c);
-        Triple<Lanes> whole = k * load(force.normal + c);
-        if (!rubs) {
-            store_records({whole.x.value, whole.y.value, whole.z.value, Lanes(0.0).value}, slots + 8 * c, 8);
-            continue;
-        }
-        const Triple<Lanes> across = take(force.tangential, c), turning = k.cross(across);
-        whole += across;
-        store_records({whole.x.value, whole.y.value, whole.z.value, load(touch.first_arm + c).value},
-                      slots + 8 * c, 8);
-        store_records({turning.x.value, turning.y.value, turning.z.value, load(touch.second_arm + c).value},
-                      slots + 8 * c + 4, 8);
+        case Wants::overlap:
+            return walls_chunk<Wants::overlap>(in, state, out);
+        case Wants::velocity:
+            return walls_chunk<Wants::velocity>(in, state, out);
+        case Wants::spin:
+            return walls_chunk<Wants::spin>(in, state, out);
     }
 }
 
@@ -156,7 +145,6 @@ namespace grainreel {
 
 HWY_EXPORT(pairs);
 HWY_EXPORT(walls);
-HWY_EXPORT(contact_forces);
 
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out) {
     HWY_DYNAMIC_DISPATCH(pairs)(in, period, out);
@@ -164,11 +152,6 @@ void touch_pairs(const GeometryInput& in, double period, TouchChunk& out) {
 
 void touch_walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
     HWY_DYNAMIC_DISPATCH(walls)(in, state, out);
-}
-
-void to_contact_forces(const TouchChunk& touch, const ForceChunk& force, int count, bool rubs,
-                       ContactForce* out) {
-    HWY_DYNAMIC_DISPATCH(contact_forces)(touch, force, count, rubs, out);
 }
 
 }  // namespace grainreel

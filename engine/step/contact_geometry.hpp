@@ -1,4 +1,4 @@
-// Vector code around the laws: what touches how, and from a law's answer to forces and torques on grains.
+// What touches how: geometry and motion of contacts, for the laws.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,6 @@
 
 namespace grainreel {
 
-// Force and torque of one contact: `force` acts on the second grain, its opposite on the first. The torque on
-// either is -arm * turning, with turning = k x T. Without friction only `force` is set.
-struct alignas(64) ContactForce {
-    Vec3 force;         // N
-    double first_arm;   // m, from the first grain's centre to where T acts
-    Vec3 turning;       // N
-    double second_arm;  // m
-};
-static_assert(sizeof(ContactForce) == 64, "one cache line a contact");
-
 // What a law wants to know of the motion.
 enum class Wants { overlap, velocity, spin };
 inline Wants wants_of(const LawKernel& law) {
@@ -30,7 +20,7 @@ inline Wants wants_of(const LawKernel& law) {
 struct GeometryInput {
     const Grains* grains;
     const std::int32_t *first, *second;  // of the chunk's contacts; of a wall contact: grain, face
-    int count;                           // a multiple of kBlock, at most kChunk
+    int count;                           // at most kChunk; rounded up to a multiple of kBlock all can be read
     Wants wants;
     LeverArms arms;
     double step;  // s
@@ -39,9 +29,5 @@ struct GeometryInput {
 // period: m, of x; 0 for none.
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out);
 void touch_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
-
-// Forces of the chunk's contacts, one behind the other.
-void to_contact_forces(const TouchChunk& touch, const ForceChunk& force, int count, bool rubs,
-                       ContactForce* out);
 
 }  // namespace grainreel

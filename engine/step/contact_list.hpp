@@ -29,8 +29,8 @@ class ContactList {
     std::vector<std::int32_t> first, second;  // of a wall contact: grain, face
     std::vector<std::int32_t> kind;           // row of the law's parameters
 
-    std::int32_t size() const { return size_; }                                            // without the fill
-    std::int32_t filled() const { return static_cast<std::int32_t>(first.size()); }        // with it
+    std::int32_t size() const { return size_; }                                      // without the fill
+    std::int32_t filled() const { return static_cast<std::int32_t>(first.size()); }  // with it
 
     // Of the block of contacts that starts with `contact`, laid out as LawKernel and LawInput have it.
     double* history_of_block(std::int32_t contact) {

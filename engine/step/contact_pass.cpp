@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/step/integrate.hpp"
+#include "engine/step/loads.hpp"
 
 namespace grainreel {
 
@@ -124,28 +124,28 @@ void ContactPass::each_chunk(const ContactRules& rules, const Grains& grains, co
                              bool of_pairs, double step, const Law& law) const {
     const ContactList& list = of_pairs ? pairs_ : walls_;
     const LawParameters* parameters = of_pairs ? &rules.of_pairs : &rules.of_walls;
-    for (std::int32_t c = 0; c < list.filled(); c += kChunk) {
-        const int count = std::min(kChunk, list.filled() - c);
-        const GeometryInput in{&grains,   list.first.data() + c, list.second.data() + c, count,
-                               wants_of(*rules.law), rules.arms, step};
+    for (std::int32_t c = 0; c < list.size(); c += kChunk) {
+        const int count = std::min(kChunk, list.size() - c);
+        const GeometryInput in{&grains, list.first.data() + c, list.second.data() + c,
+                               count,   wants_of(*rules.law),  rules.arms,
+                               step};
         of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
+        if (count < kChunk) touch_.touching &= (std::uint64_t{1} << count) - 1;  // not the fill
         law(LawInput{count, &touch_, list.mass_of_block(c), list.kind.data() + c, parameters, step}, c);
     }
 }
 
 void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state, double step) {
-    const bool rubs = rules.law->rubs;
-    const auto forces = [&](const LawInput& in, ContactList& list, std::int32_t c) {
+    const auto chunk = [&](const LawInput& in, ContactList& list, std::int32_t c) {
         rules.law->step(in, list.history_of_block(c), force_);
-        to_contact_forces(touch_, force_, in.count, rubs, contact_force_.data());
-        return ContactForces{list.first.data() + c, list.second.data() + c, contact_force_.data(),
-                             std::min(in.count, list.size() - c)};
+        return ChunkOfContacts{list.first.data() + c, list.second.data() + c, in.count, &touch_, &force_,
+                               rules.law->rubs};
     };
     each_chunk(rules, grains, state, true, step, [&](const LawInput& in, std::int32_t c) {
-        add_pairs(grains, forces(in, pairs_, c), rubs, begin_, end_);
+        add_pairs(chunk(in, pairs_, c), loads_, begin_, end_, grains);
     });
     each_chunk(rules, grains, state, false, step, [&](const LawInput& in, std::int32_t c) {
-        add_walls(grains, forces(in, walls_, c), rubs, state, step);
+        add_walls(chunk(in, walls_, c), loads_, state, step, grains);
     });
 }
 
@@ -154,8 +154,9 @@ void ContactPass::observe(const ContactRules& rules, const Grains& grains, const
     const ContactList& list = of_pairs ? pairs_ : walls_;
     each_chunk(rules, grains, state, of_pairs, 0, [&](const LawInput& in, std::int32_t c) {
         rules.law->observe(in, list.history_of_block(c), force_);
-        for (int k = 0; k < in.count && c + k < list.size(); ++k) {
-            if (touch_.overlap[k] > 0 && list.first[c + k] >= begin_) seen(list.first[c + k], list.second[c + k], k, touch_, force_);
+        for (int k = 0; k < in.count; ++k) {
+            if ((touch_.touching >> k & 1) && list.first[c + k] >= begin_)
+                seen(list.first[c + k], list.second[c + k], k, touch_, force_);
         }
     });
 }

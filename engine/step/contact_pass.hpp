@@ -1,6 +1,7 @@
-// The contact pass of one thread: all contacts of its own grains, chunk by chunk through geometry and law, into
-// the loads of its grains. A contact between grains of two threads is computed by both, each for its own grain:
-// cheaper than handing forces over, and every grain sums its contacts in one order, whatever the threads.
+// The contact pass of one thread: all contacts of its own grains, chunk by chunk through geometry and law,
+// into the loads of its grains. A contact between grains of two threads is computed by both, each for its own
+// grain: cheaper than handing forces over, and every grain sums its contacts in one order, whatever the
+// threads.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 #include "engine/step/contact_geometry.hpp"
 #include "engine/step/contact_list.hpp"
+#include "engine/step/loads.hpp"
 #include "engine/step/neighbours.hpp"
 
 namespace grainreel {
@@ -44,7 +46,8 @@ class ContactPass {
     // moving walls' work to them.
     void compute(const ContactRules& rules, Grains& grains, const WallState& state, double step);
 
-    // Shows every pair under an own grain, or every wall contact, that touches: its bodies, and where to find it in the chunks.
+    // Shows every pair under an own grain, or every wall contact, that touches: its bodies, and where to find
+    // it in the chunks.
     using Seen = std::function<void(std::int32_t first, std::int32_t second, int at, const TouchChunk&,
                                     const ForceChunk&)>;
     void observe(const ContactRules& rules, const Grains& grains, const WallState& state, bool of_pairs,
@@ -63,7 +66,7 @@ class ContactPass {
     std::vector<Pair> incoming_;  // listed pairs of an earlier thread's grain and an own one
     mutable TouchChunk touch_;
     mutable ForceChunk force_;
-    std::vector<ContactForce> contact_force_ = std::vector<ContactForce>(kChunk);
+    LoadChunk loads_;
 };
 
 }  // namespace grainreel

@@ -1,12 +1,9 @@
-// Velocity Verlet (Swope et al. 1982): half a kick and a drift before the forces, half a kick after them. And
-// the sum of the forces in between.
+// Velocity Verlet (Swope et al. 1982): half a kick and a drift before the forces, half a kick after them.
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "engine/state/grains.hpp"
-#include "engine/step/contact_geometry.hpp"
 
 namespace grainreel {
 
@@ -22,23 +19,10 @@ struct KickInput {
 // and set to zero. Returns the largest components (m/s) of their velocities against the frame.
 Vec3 kick_and_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// Second half: v and w to the end of the step. Loads stay, cleared of what the contact pass left beside them.
+// Second half: v and w to the end of the step. Loads stay.
 void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
 // The second half of a step and the first of the next at once, the same bits as one after the other.
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
-
-// Contacts in order of their first grain, and what they do.
-struct ContactForces {
-    const std::int32_t *first, *second;
-    const ContactForce* force;
-    std::int32_t count;
-};
-
-// Adds contacts to the loads of those of their grains that lie in [begin, end).
-void add_pairs(Grains& grains, const ContactForces& contacts, bool rubs, std::int32_t begin,
-               std::int32_t end);
-// Of grains and walls: to the grains, and what moving walls do to their work.
-void add_walls(Grains& grains, const ContactForces& contacts, bool rubs, const WallState& walls, double step);
 
 }  // namespace grainreel

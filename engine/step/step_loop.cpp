@@ -27,8 +27,6 @@ void StepLoop::restart() {
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
         members_[member].contacts.compute(rules_, grains_, members_[member].walls, 0);
-        const KickInput nothing{around_.gravity, 0, rules_.law->rubs, Vec3::Zero(), 1};
-        kick(grains_, nothing, share_[member], share_[member + 1]);
     });
     rebuilds_ = refreshes_ = 0;
     fresh_ = true;
@@ -48,7 +46,8 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, KickInput kicks) {
     Member& mine = members_[member];
     for (std::int64_t n = from; n < to; ++n) {
-        kicks.frame = (drift_since_listing(n + 1, kicks.step) - drift_since_listing(n, kicks.step)) / kicks.step;
+        kicks.frame =
+            (drift_since_listing(n + 1, kicks.step) - drift_since_listing(n, kicks.step)) / kicks.step;
         const std::int32_t begin = share_[member], end = share_[member + 1];
         mine.fastest = n == from ? kick_and_drift(grains_, kicks, begin, end)
                                  : kick_and_go_on(grains_, kicks, begin, end);

@@ -13,18 +13,17 @@ void StepLoop::visit_contacts(std::int64_t at_step,
     walls.set(around_.faces, pose, pose, 0);
     for (const bool of_pairs : {true, false}) {
         for (const Member& m : members_) {
-            m.contacts.observe(rules_, grains_, walls, of_pairs,
-                               [&](std::int32_t i, std::int32_t j, int at, const TouchChunk& touch,
-                                   const ForceChunk& force) {
-                                   visit(view(i, of_pairs ? j : -1 - j, at, touch, force));
-                               });
+            m.contacts.observe(
+                rules_, grains_, walls, of_pairs,
+                [&](std::int32_t i, std::int32_t j, int at, const TouchChunk& touch,
+                    const ForceChunk& force) { visit(view(i, of_pairs ? j : -1 - j, at, touch, force)); });
         }
     }
 }
 
 ContactView StepLoop::view(std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
                            const ForceChunk& force) const {
-    const auto of = [at](const double (*axes)[kChunk]) { return Vec3(axes[0][at], axes[1][at], axes[2][at]); };
+    const auto of = [at](const double(*axes)[kChunk]) { return Vec3(axes[0][at], axes[1][at], axes[2][at]); };
     const Place& one = grains_.place[first];
     ContactView v{};
     v.first = first;

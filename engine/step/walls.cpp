@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-
 namespace grainreel {
 
 double FaceRecord::distance(const Vec3& centre) const {

@@ -86,6 +86,11 @@ HWY_INLINE bool none(LanesMask m) {
 HWY_INLINE bool all(LanesMask m) {
     return hn::AllTrue(Doubles(), m.bits);
 }
+HWY_INLINE std::uint64_t bits(LanesMask m) {  // the first lane is the lowest
+    std::uint8_t byte[8] = {};
+    hn::StoreMaskBits(Doubles(), m.bits, byte);
+    return byte[0];
+}
 
 // The same for one double.
 HWY_INLINE double select(bool which, double yes, double no) {

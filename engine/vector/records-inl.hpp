@@ -1,4 +1,5 @@
-// Four doubles a record in memory, one number a lane in registers: loads and stores records that lie anywhere.
+// Four doubles a record in memory, one number a lane in registers: loads and stores records that lie
+// anywhere.
 #if defined(GRAINREEL_VECTOR_RECORDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_RECORDS_INL
 #undef GRAINREEL_VECTOR_RECORDS_INL
@@ -63,7 +64,8 @@ template <class D = Doubles>
 HWY_INLINE Four<D> load_records(const double* base, std::size_t stride, const std::int32_t* index) {
     const D d;
     const double* at[hn::MaxLanes(D())];
-    for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k) at[k] = base + stride * static_cast<std::size_t>(index[k]);
+    for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k)
+        at[k] = base + stride * static_cast<std::size_t>(index[k]);
     if constexpr (hn::MaxLanes(D()) == 8) {
         return transposed(d, Four<D>{both_halves(d, at[0], at[4]), both_halves(d, at[1], at[5]),
                                      both_halves(d, at[2], at[6]), both_halves(d, at[3], at[7])});

@@ -22,8 +22,9 @@ using namespace HWY_NAMESPACE;
 // Calls work() for each instruction set that this processor has and the kernels are compiled for.
 template <class Work>
 void for_each_width(const Work& work) {
-    for (const std::int64_t target : {std::int64_t{HWY_SCALAR}, std::int64_t{HWY_EMU128}, std::int64_t{HWY_SSE4},
-                                      std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}}) {
+    for (const std::int64_t target :
+         {std::int64_t{HWY_SCALAR}, std::int64_t{HWY_EMU128}, std::int64_t{HWY_SSE4}, std::int64_t{HWY_AVX2},
+          std::int64_t{HWY_AVX3}}) {
         const bool plain = target == HWY_SCALAR || target == HWY_EMU128;
         if (!plain && !(hwy::SupportedTargets() & target)) continue;
         hwy::GetChosenTarget().Update(target);
@@ -76,6 +77,7 @@ void compare(NormalLaw normal, TangentialLaw tangential, const std::vector<PairP
             k = (k + 1e-3 * Vec3(one(random), one(random), one(random))).normalized();
             const bool apart = (n / 20 + c) % 9 == 0;
             touch.overlap[c] = apart ? -1e-6 : 1e-5 * (1.1 + one(random));
+            touch.touching = (touch.touching & ~(std::uint64_t{1} << c)) | std::uint64_t{!apart} << c;
             touch.twist[c] = 1e-3 * one(random);
             for (int a = 0; a < 3; ++a) {
                 touch.normal[a][c] = k[a];
@@ -92,7 +94,8 @@ void compare(NormalLaw normal, TangentialLaw tangential, const std::vector<PairP
             t.effective_mass = mass[c / kBlock].value[c % kBlock];
             typename Law::template Force<double> f{0, {0, 0, 0}};
             if (t.overlap > 0) {
-                const Triple<double> velocity{touch.velocity[0][c], touch.velocity[1][c], touch.velocity[2][c]};
+                const Triple<double> velocity{touch.velocity[0][c], touch.velocity[1][c],
+                                              touch.velocity[2][c]};
                 f = Law::force(Law::from(kinds[kind[c]]), h, t, velocity, step);
             } else {
                 h = {};
@@ -106,7 +109,8 @@ void compare(NormalLaw normal, TangentialLaw tangential, const std::vector<PairP
             double* at = numbers.data();
             h.each(Push{at});
             for (int k = 0; k < kernel.history_size; ++k) {
-                ASSERT_EQ(history[c / kBlock * kernel.history_size + k].value[c % kBlock], numbers[k * kBlock]);
+                ASSERT_EQ(history[c / kBlock * kernel.history_size + k].value[c % kBlock],
+                          numbers[k * kBlock]);
             }
         }
     }
@@ -155,7 +159,8 @@ std::vector<double> tumble(TangentialLaw tangential, int threads) {
     std::uniform_real_distribution<double> one(-1, 1);
     for (int k = 0; k < 300; ++k) {
         const double r = k % 7 == 0 ? 0.0016 : 0.0008;
-        w.grains.add(k, 0, Vec3(0.01 * one(random), 0.01 * one(random), 0.012 + 0.008 * one(random)), r, kDensity);
+        w.grains.add(k, 0, Vec3(0.01 * one(random), 0.01 * one(random), 0.012 + 0.008 * one(random)), r,
+                     kDensity);
         w.grains.motion.back().velocity = 0.3 * Vec3(one(random), one(random), one(random));
         w.grains.spin.back().rate = 100 * Vec3(one(random), one(random), one(random));
     }
@@ -170,7 +175,8 @@ std::vector<double> tumble(TangentialLaw tangential, int threads) {
 }
 
 TEST(VectorSteps, GiveTheSameBitsAtEveryWidthAndNumberOfThreads) {
-    for (const auto law : {TangentialLaw::incremental_slip, TangentialLaw::linear_spring, TangentialLaw::none}) {
+    for (const auto law :
+         {TangentialLaw::incremental_slip, TangentialLaw::linear_spring, TangentialLaw::none}) {
         const std::vector<double> expected = tumble(law, 1);
         for_each_width([&] {
             for (const int threads : {1, 3, 8}) {

@@ -1,0 +1,124 @@
+#include "engine/step/loads.hpp"
+
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/step/loads.cpp"
+#include "engine/vector/targets.hpp"
+//
+#include "engine/vector/record-inl.hpp"
+#include "engine/vector/records-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+HWY_INLINE Triple<Lanes> take(const double (*from)[kChunk], int c) {
+    return {load(from[0] + c), load(from[1] + c), load(from[2] + c)};
+}
+
+HWY_INLINE void put_triple(const Triple<Lanes>& t, double* to, std::size_t stride) {
+    store_records({t.x.value, t.y.value, t.z.value, Lanes(0.0).value}, to, stride);
+}
+
+// Forces on both bodies, and torques -arm * turning with turning = k x T.
+template <bool rubs>
+HWY_INLINE void fill(const ChunkOfContacts& chunk, LoadChunk& out) {
+    constexpr std::size_t stride = sizeof(LoadChunk::Contact) / sizeof(double);
+    constexpr std::size_t second = sizeof(Load) / sizeof(double);
+    double* loads = reinterpret_cast<double*>(out.contact);
+    for (int c = 0; c < chunk.count; c += kLanes) {
+        if (!chunk.touch->any_touching(c, kLanes)) continue;
+        double* to = loads + stride * c;
+        const Triple<Lanes> k = take(chunk.touch->normal, c);
+        Triple<Lanes> whole = k * load(chunk.force->normal + c);
+        if constexpr (rubs) {
+            const Triple<Lanes> across = take(chunk.force->tangential, c), turning = k.cross(across);
+            whole += across;
+            put_triple(-(turning * load(chunk.touch->first_arm + c)), to + 4, stride);
+            put_triple(-(turning * load(chunk.touch->second_arm + c)), to + second + 4, stride);
+        }
+        put_triple(-whole, to, stride);
+        put_triple(whole, to + second, stride);
+    }
+}
+
+// Of a load: force and torque, or the force alone.
+template <bool rubs>
+constexpr int kNumbers = rubs ? 8 : 4;
+
+HWY_INLINE double* numbers(Load& one) {
+    return reinterpret_cast<double*>(&one);
+}
+
+template <bool rubs>
+HWY_INLINE void add_one(Load& what, Load& to) {
+    constexpr int n = kNumbers<rubs>;
+    put(record_at<n>(numbers(to)) + record_at<n>(numbers(what)), numbers(to));
+}
+
+template <bool rubs>
+void pairs_of(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t begin, std::int32_t end,
+              Grains& grains) {
+    fill<rubs>(chunk, scratch);
+    constexpr int n = kNumbers<rubs>;
+    for (std::uint64_t left = chunk.touch->touching; left != 0;) {
+        int c = std::countr_zero(left);
+        const std::int32_t i = chunk.first[c];
+        Load& first = grains.load[i < begin ? begin : i];
+        Record<n> sum = record_at<n>(numbers(first));
+        do {
+            sum = sum + record_at<n>(numbers(scratch.contact[c].on_first));
+            const std::int32_t j = chunk.second[c];  // above i, so never the one being summed
+            if (j >= begin && j < end) add_one<rubs>(scratch.contact[c].on_second, grains.load[j]);
+            left &= left - 1;
+            c = std::countr_zero(left);
+        } while (left != 0 && chunk.first[c] == i);
+        if (i >= begin) put(sum, numbers(first));
+    }
+}
+
+void pairs(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t begin, std::int32_t end,
+           Grains& grains) {
+    chunk.rubs ? pairs_of<true>(chunk, scratch, begin, end, grains)
+               : pairs_of<false>(chunk, scratch, begin, end, grains);
+}
+
+template <bool rubs>
+void walls_of(const ChunkOfContacts& chunk, LoadChunk& scratch, Grains& grains) {
+    fill<rubs>(chunk, scratch);
+    for (std::uint64_t left = chunk.touch->touching; left != 0; left &= left - 1) {
+        const int c = std::countr_zero(left);
+        add_one<rubs>(scratch.contact[c].on_first, grains.load[chunk.first[c]]);
+    }
+}
+
+void walls(const ChunkOfContacts& chunk, LoadChunk& scratch, Grains& grains) {
+    chunk.rubs ? walls_of<true>(chunk, scratch, grains) : walls_of<false>(chunk, scratch, grains);
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grainreel {
+
+HWY_EXPORT(pairs);
+HWY_EXPORT(walls);
+
+void add_pairs(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t begin, std::int32_t end,
+               Grains& grains) {
+    HWY_DYNAMIC_DISPATCH(pairs)(chunk, scratch, begin, end, grains);
+}
+
+void add_walls(const ChunkOfContacts& chunk, LoadChunk& scratch, const WallState& state, double step,
+               Grains& grains) {
+    HWY_DYNAMIC_DISPATCH(walls)(chunk, scratch, grains);
+    for (std::uint64_t left = chunk.touch->touching; left != 0; left &= left - 1) {
+        const int c = std::countr_zero(left);
+        const Vec3& velocity = state.motion[chunk.second[c]].at_end;
+        grains.wall_work[chunk.first[c]] += scratch.contact[c].on_first.force.dot(velocity) * step;
+    }
+}
+
+}  // namespace grainreel
+#endif

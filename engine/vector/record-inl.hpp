@@ -1,0 +1,66 @@
+// Eight or four doubles as one number after the other in memory, in as many registers as it takes.
+#if defined(GRAINREEL_VECTOR_RECORD_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_VECTOR_RECORD_INL
+#undef GRAINREEL_VECTOR_RECORD_INL
+#else
+#define GRAINREEL_VECTOR_RECORD_INL
+#endif
+
+#include "engine/base/vector.hpp"
+#include "engine/vector/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+template <int size>
+struct Record {
+    using D = hn::CappedTag<double, size>;
+    static constexpr int lanes = static_cast<int>(hn::MaxLanes(D()));
+    static constexpr int parts = size / lanes;
+    hn::Vec<D> part[parts];
+};
+
+template <int size>
+HWY_INLINE Record<size> record_at(const double* from) {
+    Record<size> r;
+    for (int p = 0; p < r.parts; ++p) r.part[p] = hn::Load(typename Record<size>::D(), from + p * r.lanes);
+    return r;
+}
+template <int size>
+HWY_INLINE void put(const Record<size>& r, double* to) {
+    for (int p = 0; p < r.parts; ++p) hn::Store(r.part[p], typename Record<size>::D(), to + p * r.lanes);
+}
+HWY_INLINE Record<4> record_of(double x) {
+    Record<4> r;
+    for (auto& part : r.part) part = hn::Set(Record<4>::D(), x);
+    return r;
+}
+HWY_INLINE Record<4> record_of(const Vec3& v, double fourth = 0) {
+    HWY_ALIGN const double four[4] = {v.x(), v.y(), v.z(), fourth};
+    return record_at<4>(four);
+}
+template <int size>
+HWY_INLINE Record<size> operator+(Record<size> a, const Record<size>& b) {
+    for (int p = 0; p < a.parts; ++p) a.part[p] = hn::Add(a.part[p], b.part[p]);
+    return a;
+}
+template <int size>
+HWY_INLINE Record<size> operator-(Record<size> a, const Record<size>& b) {
+    for (int p = 0; p < a.parts; ++p) a.part[p] = hn::Sub(a.part[p], b.part[p]);
+    return a;
+}
+template <int size>
+HWY_INLINE Record<size> operator*(Record<size> a, const Record<size>& b) {
+    for (int p = 0; p < a.parts; ++p) a.part[p] = hn::Mul(a.part[p], b.part[p]);
+    return a;
+}
+template <int size>
+HWY_INLINE Record<size> larger_size(Record<size> a, const Record<size>& b) {
+    for (int p = 0; p < a.parts; ++p) a.part[p] = hn::Max(a.part[p], hn::Abs(b.part[p]));
+    return a;
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
