@@ -145,7 +145,7 @@ TEST(VectorLaws, PowersAreThoseOfTheLibrary) {
 }
 
 // A tumbling heap of two sizes in a corner with a round wall: every kind of contact there is.
-std::vector<double> tumble(TangentialLaw tangential, int threads) {
+std::vector<double> tumble(TangentialLaw tangential, int threads, double skin = 0.0002) {
     World w = make_world(walton_braun_pair(0.8, 0.4), 2e-6, NormalLaw::walton_braun, tangential);
     w.team = std::make_unique<Team>(threads);
     Face round;
@@ -164,8 +164,9 @@ std::vector<double> tumble(TangentialLaw tangential, int threads) {
         w.grains.motion.back().velocity = 0.3 * Vec3(one(random), one(random), one(random));
         w.grains.spin.back().rate = 100 * Vec3(one(random), one(random), one(random));
     }
+    w.around.skin = skin;
     w.start();
-    w.run(1000);
+    w.run(300);
     std::vector<double> state;
     for (int k = 0; k < 300; ++k) {
         const Vec3 &x = w.position(k), &v = w.velocity(k), &s = w.spin(k);
@@ -179,10 +180,24 @@ TEST(VectorSteps, GiveTheSameBitsAtEveryWidthAndNumberOfThreads) {
          {TangentialLaw::incremental_slip, TangentialLaw::linear_spring, TangentialLaw::none}) {
         const std::vector<double> expected = tumble(law, 1);
         for_each_width([&] {
-            for (const int threads : {1, 3, 8}) {
+            for (const int threads : {1, 3}) {
                 EXPECT_EQ(tumble(law, threads), expected) << vector_instructions() << " on " << threads;
             }
         });
+    }
+    EXPECT_EQ(tumble(TangentialLaw::none, 5), tumble(TangentialLaw::none, 1));
+}
+
+// Lists renewed every few steps or once in the run: histories are carried, turned where two grains changed
+// places, and no contact is missed. Only the order of sums differs, and what rounding makes of it.
+TEST(Lists, DoNotShowInTheMotion) {
+    for (const auto law : {TangentialLaw::incremental_slip, TangentialLaw::linear_spring}) {
+        const std::vector<double> often = tumble(law, 1, 0.00002), seldom = tumble(law, 2, 0.002);
+        double largest = 0;
+        for (std::size_t k = 0; k < often.size(); ++k)
+            largest = std::max(largest, std::abs(often[k] - seldom[k]) / (1e-3 + std::abs(seldom[k])));
+        EXPECT_LT(largest, 1e-6);
+        EXPECT_GT(largest, 0) << "the two should sum in different orders";
     }
 }
 
