@@ -1,5 +1,5 @@
 // The peers' bed in this engine: 10,125 grains, spring-dashpot with friction history, in three phases.
-//   bed10k FILE [threads] [settle steps] [steps]
+//   ninja -C build/release bed10k && build/release/tests/bed10k FILE [threads] [settle steps] [steps]
 // FILE is a LAMMPS data file (id type diameter density x y z); lengths in m. Prints particle-steps/s a phase.
 #include <fmt/format.h>
 
