@@ -92,7 +92,7 @@ struct ContactLaw {
                                    const Triple<R>& velocity, R& stored_energy) {
         if constexpr (uses_velocity) set_velocity(touch, velocity);
         Force<R> f{Normal::now(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
-        stored_energy = Normal::stored_energy(p.normal, touch, f.normal);
+        stored_energy = Normal::stored_energy(p.normal, h.normal, touch, f.normal);
         if constexpr (rubs) {
             f.tangential = Tangential::now(p.tangential, p.normal, h.tangential, touch, f.normal);
             stored_energy += Tangential::stored_energy(p.tangential, h.tangential);

@@ -10,6 +10,7 @@
 #include "engine/laws/linear_spring-inl.hpp"
 #include "engine/laws/spring_dashpot-inl.hpp"
 #include "engine/laws/walton_braun-inl.hpp"
+#include "engine/laws/walton_braun_speed-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -31,6 +32,8 @@ const LawKernel* find_kernel(NormalLaw normal, TangentialLaw tangential) {
     switch (normal) {
         case NormalLaw::walton_braun:
             return with_normal<WaltonBraun>(tangential);
+        case NormalLaw::walton_braun_speed:
+            return with_normal<WaltonBraunSpeed>(tangential);
         case NormalLaw::spring_dashpot:
             return with_normal<SpringDashpot>(tangential);
     }

@@ -50,7 +50,7 @@ struct SpringDashpot {
 
     // J, k a^2 / 2.
     template <class R>
-    static HWY_INLINE R stored_energy(const Parameters<R>& p, const Touch<R>& touch, R) {
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>&, const Touch<R>& touch, R) {
         return R(0.5) * p.stiffness * touch.overlap * touch.overlap;
     }
 };

@@ -61,7 +61,8 @@ struct WaltonBraun {
 
     // J, what unloading from here gives back: N^2 / (2 K2).
     template <class R>
-    static HWY_INLINE R stored_energy(const Parameters<R>& p, const Touch<R>&, R normal_force) {
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>&, const Touch<R>&,
+                                      R normal_force) {
         return normal_force * normal_force / (R(2) * p.unloading);
     }
 };

@@ -101,6 +101,9 @@ void add_pair_keys(Keys& keys, const std::string& table, const char* inherited) 
     };
     add("restitution", Dimension::number, share, literal("0.9"),
         "Speed after over speed before a normal impact.");
+    add("restitution_speed", Dimension::speed, positive, note("none: the same at any speed"),
+        "walton-braun only: the speed at which `restitution` holds; slower impacts lose less, faster ones "
+        "more.");
     add("friction", Dimension::number, not_negative_or_infinite, literal("0.5"),
         "Coulomb's µ; 0 for none, inf to never slip.");
     add("stiffness", Dimension::stiffness, positive, note("chosen by the plan"),

@@ -73,11 +73,19 @@ void plan_output(const Scene& scene, Plan& plan) {
         every(output.measures_interval, period / 8, rows_without_drive, "output.measures_interval");
 }
 
+// The simpler law wherever it will do.
+NormalLaw normal_law(const Contact& contact) {
+    const auto falls = [](const PairContact& pair) { return pair.restitution_speed.has_value(); };
+    const bool any = std::any_of(contact.grain.begin(), contact.grain.end(), falls) ||
+                     std::any_of(contact.wall.begin(), contact.wall.end(), falls);
+    return any ? NormalLaw::walton_braun_speed : contact.normal;
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene) {
     Plan plan;
-    plan.normal = scene.contact.normal;
+    plan.normal = normal_law(scene.contact);
     plan.tangential = scene.contact.tangential;
     plan.arms = scene.contact.arms;
     plan.moving_walls = scene.drive.present && scene.drive.amplitude > 0;

@@ -12,12 +12,13 @@ namespace grainreel {
 
 // The numbers of one kind of contact, ready for the laws. SI units.
 struct PairPlan {
-    double effective_mass = 0;        // kg, the lightest pair of these species
-    double loading_stiffness = 0;     // N/m: K1 (Walton-Braun) or kn (spring-dashpot)
-    double unloading_stiffness = 0;   // N/m: K2 = K1 / e^2; equals K1 for the spring-dashpot
+    double effective_mass = 0;       // kg, the lightest pair of these species
+    double loading_stiffness = 0;    // N/m: K1 (Walton-Braun) or kn (spring-dashpot)
+    double unloading_stiffness = 0;  // N/m: K2 = K1 / e^2; equals K1 for the spring-dashpot
+    double hardening = 0;  // 1/m: S of K2 = K1 + S F_max, in place of a constant K2 (which then holds at v*)
     double tangential_stiffness = 0;  // N/m: K0 or kt
     double gamma = 0;
-    double restitution = 1;
+    double restitution = 1;  // at v* where it falls with speed
     double friction = 0;
     double normal_damping = 0;      // 1/s, times the effective mass of the touching pair
     double tangential_damping = 0;  // 1/s, likewise

@@ -111,6 +111,19 @@ void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact
         pair.tangential_damping = contact.tangential_damping.value_or(pair.normal_damping / 2);
 }
 
+// e(v) = sqrt(w0 / (w0 + S v)), w0 = sqrt(K1 / m) (Walton & Braun 1986): S from one point of it, at the mean
+// effective mass; then e as it is at v* of the heaviest pair, for step and contact time.
+void plan_hardening(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Species& a,
+                    const Species* b) {
+    const double natural = std::sqrt(pair.loading_stiffness / mean_effective_mass(a, b));
+    const double e = contact.restitution;
+    pair.hardening = natural * (1 / (e * e) - 1) / *contact.restitution_speed;
+    double slowest = natural;
+    for (const Touching& t : extremes(a, b))
+        slowest = std::min(slowest, std::sqrt(pair.loading_stiffness / t.effective_mass));
+    pair.restitution = std::sqrt(slowest / (slowest + pair.hardening * bed.impact_speed));
+}
+
 }  // namespace
 
 std::vector<Touching> extremes(const Species& a, const Species* b) {
@@ -179,6 +192,7 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
     pair.allowed_overlap = scene.run.overlap * touching.front().diameter;
     const double natural = std::sqrt(pair.loading_stiffness / pair.effective_mass);
     if (scene.contact.normal == NormalLaw::walton_braun) {
+        if (contact.restitution_speed) plan_hardening(bed, pair, contact, a, b);
         pair.unloading_stiffness = pair.loading_stiffness / (pair.restitution * pair.restitution);
         pair.contact_time = pi / 2 * (1 + pair.restitution) / natural;
     } else {

@@ -23,6 +23,8 @@ void refuse_unused(Document& document, const Contact& contact, const std::string
     if (contact.tangential == TangentialLaw::linear_spring) refuse({"gamma"}, "only incremental-slip has it");
     if (contact.tangential == TangentialLaw::incremental_slip)
         refuse({"tangential_damping"}, "incremental-slip has no damping");
+    if (contact.normal == NormalLaw::spring_dashpot)
+        refuse({"restitution_speed"}, "only the law walton-braun has it");
     if (document.has(table + ".normal_damping"))
         refuse({"restitution"}, "'normal_damping' is given, and the restitution follows from it");
 }
@@ -37,6 +39,7 @@ PairContact read_pair(Document& document, const Contact& contact, const std::str
     };
     if (document.has(table + ".restitution")) pair.normal_damping.reset();
     read("restitution", pair.restitution);
+    read("restitution_speed", pair.restitution_speed);
     read("friction", pair.friction);
     read("stiffness", pair.stiffness);
     read("tangential_ratio", pair.tangential_ratio);

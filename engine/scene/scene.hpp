@@ -45,14 +45,18 @@ struct Species {
     bool operator==(const Species&) const = default;
 };
 
-enum class NormalLaw { walton_braun, spring_dashpot };
+// walton_braun_speed: restitution that falls with speed; the plan takes it where a contact has a
+// `restitution_speed`.
+enum class NormalLaw { walton_braun, walton_braun_speed, spring_dashpot };
 enum class TangentialLaw { incremental_slip, linear_spring, none };
 // Where forces act: at the contact plane (keeps angular momentum), or at the full radius, as in the seed.
 enum class LeverArms { contact_plane, radius };
 
 // One kind of contact: between two species, or a species and the walls.
 struct PairContact {
-    double restitution = 0.9;              // in (0, 1]
+    double restitution = 0.9;  // in (0, 1]
+    std::optional<double>
+        restitution_speed;                 // m/s at which it holds, falling with speed; empty: at any speed
     double friction = 0.5;                 // >= 0, may be infinite
     std::optional<double> stiffness;       // N/m: K1 or kn; the plan chooses it when empty
     double tangential_ratio = 0.8;         // K0 / K1, or kt / kn

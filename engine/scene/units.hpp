@@ -20,6 +20,7 @@ enum class Dimension {
     density,
     mass,
     stiffness,
+    speed,
     acceleration,
     number,
 };

@@ -87,6 +87,7 @@ void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, con
         out.put("normal_damping", pair.normal_damping);
     } else {
         out.put("restitution", pair.restitution);
+        out.put("restitution_speed", pair.restitution_speed);
     }
     if (!pair.stiffness) out.comment(fmt::format("chosen for: {}", plan.stiffness_reason));
     out.put("stiffness", plan.loading_stiffness);

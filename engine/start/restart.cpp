@@ -24,8 +24,9 @@ std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
     write_value(out, plan.arms);
     for (const auto* table : {&plan.grain, &plan.wall}) {
         for (const PairPlan& p : *table) {
-            for (const double v : {p.loading_stiffness, p.unloading_stiffness, p.tangential_stiffness,
-                                   p.gamma, p.friction, p.normal_damping, p.tangential_damping}) {
+            for (const double v :
+                 {p.loading_stiffness, p.unloading_stiffness, p.hardening, p.tangential_stiffness, p.gamma,
+                  p.friction, p.normal_damping, p.tangential_damping}) {
                 write_value(out, v);
             }
         }

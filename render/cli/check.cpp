@@ -131,8 +131,9 @@ void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
 
 void print_model(const Scene& scene, const Plan& plan, Listing& list) {
     std::vector<std::string> in, out;
-    in.push_back(plan.normal == NormalLaw::walton_braun ? "normal force: Walton-Braun latching spring"
-                                                        : "normal force: linear spring and dashpot");
+    in.push_back(plan.normal == NormalLaw::spring_dashpot ? "normal force: linear spring and dashpot"
+                                                          : "normal force: Walton-Braun latching spring");
+    if (plan.normal == NormalLaw::walton_braun_speed) in.push_back("restitution that falls with speed");
     const bool rubs = plan.tangential != TangentialLaw::none;
     if (plan.tangential == TangentialLaw::incremental_slip)
         in.push_back("friction: Walton's incremental slip");

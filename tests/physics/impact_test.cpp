@@ -12,8 +12,9 @@ struct Impact {
     double e, contact_time, largest_overlap, lost;
 };
 
-Impact head_on(const PairPlan& pair, double v, double step, double gap) {
-    World w = make_world(pair, step, NormalLaw::walton_braun, TangentialLaw::none);
+Impact head_on(const PairPlan& pair, double v, double step, double gap,
+               NormalLaw law = NormalLaw::walton_braun) {
+    World w = make_world(pair, step, law, TangentialLaw::none);
     w.grains.add(0, 0, Vec3(-kRadius - gap / 2, 0, 0), kRadius, kDensity);
     w.grains.add(1, 0, Vec3(kRadius + gap / 2, 0, 0), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(v / 2, 0, 0);
@@ -73,6 +74,32 @@ TEST(NormalImpact, RestitutionErrorOfCoarseStepsIsTheTableOfSectionSix) {
         }
         EXPECT_NEAR(largest, row.error, 0.08 * row.error) << row.e << " with " << row.steps << " steps";
     }
+}
+
+// Walton & Braun 1986: e(v) = sqrt(w0 / (w0 + S v)); contact time (pi/2)(1 + e) / w0.
+TEST(NormalImpact, RestitutionFallsWithSpeedAsWaltonAndBraunHaveIt) {
+    PairPlan pair = walton_braun_pair(0.9, 0);
+    const double natural = std::sqrt(kStiffness / (sphere_mass() / 2));
+    pair.hardening = 0.4 * natural;  // so that e = sqrt(1 / (1 + 0.4 s/m v))
+    for (const double v : {0.02, 0.3, 2.0, 10.0}) {
+        const double e = 1 / std::sqrt(1 + 0.4 * v), time = std::numbers::pi / 2 * (1 + e) / natural;
+        const double step = time / 4000;
+        const Impact impact = head_on(pair, v, step, 0.37 * v * step, NormalLaw::walton_braun_speed);
+        EXPECT_NEAR(impact.e, e, 2e-4) << v;
+        EXPECT_NEAR(impact.contact_time, time, 3 * step) << v;
+        EXPECT_NEAR(impact.lost, 0.25 * sphere_mass() * v * v * (1 - e * e), 1e-3 * sphere_mass() * v * v)
+            << v;
+    }
+}
+
+// Its contacts without hardening are those of the plain law, bit for bit but for how K2 (a - a0) is written.
+TEST(NormalImpact, WithoutHardeningTheLawOfSpeedsIsThePlainOne) {
+    const PairPlan pair = walton_braun_pair(0.7, 0);
+    const double step = 2e-7, v = 0.5;
+    const Impact plain = head_on(pair, v, step, 1e-9);
+    const Impact other = head_on(pair, v, step, 1e-9, NormalLaw::walton_braun_speed);
+    EXPECT_NEAR(other.e, plain.e, 1e-12);
+    EXPECT_EQ(other.contact_time, plain.contact_time);
 }
 
 TEST(NormalImpact, EndsAtTheResidualOverlap) {

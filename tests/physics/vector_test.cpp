@@ -11,6 +11,7 @@
 #include "engine/laws/linear_spring-inl.hpp"
 #include "engine/laws/spring_dashpot-inl.hpp"
 #include "engine/laws/walton_braun-inl.hpp"
+#include "engine/laws/walton_braun_speed-inl.hpp"
 #include "engine/step/contact_list.hpp"
 #include "tests/physics/world.hpp"
 
@@ -44,6 +45,7 @@ std::vector<PairPlan> three_kinds() {
         PairPlan p = walton_braun_pair(e, 0.2 + 0.3 * e);
         p.normal_damping = 2000 * (1 - e);
         p.tangential_damping = 1000 * (1 - e);
+        p.hardening = e == 0.8 ? 0 : 3e4 * (1 - e);
         p.gamma = e == 0.8 ? 0.7 : e == 0.5 ? 2 : 1.0 / 3.0;
         kinds.push_back(p);
     }
@@ -124,11 +126,16 @@ TEST(VectorLaws, AreTheScalarLawsToTheLastBitAtEveryWidth) {
         for_each_width([&] {
             SCOPED_TRACE(vector_instructions());
             using WB = WaltonBraun;
+            using WS = WaltonBraunSpeed;
             using SD = SpringDashpot;
             constexpr auto wb = NormalLaw::walton_braun, sd = NormalLaw::spring_dashpot;
             compare<WB, IncrementalSlip>(wb, TangentialLaw::incremental_slip, kinds);
             compare<WB, LinearSpring>(wb, TangentialLaw::linear_spring, kinds);
             compare<WB, Frictionless>(wb, TangentialLaw::none, kinds);
+            constexpr auto ws = NormalLaw::walton_braun_speed;
+            compare<WS, IncrementalSlip>(ws, TangentialLaw::incremental_slip, kinds);
+            compare<WS, LinearSpring>(ws, TangentialLaw::linear_spring, kinds);
+            compare<WS, Frictionless>(ws, TangentialLaw::none, kinds);
             compare<SD, IncrementalSlip>(sd, TangentialLaw::incremental_slip, kinds);
             compare<SD, LinearSpring>(sd, TangentialLaw::linear_spring, kinds);
             compare<SD, Frictionless>(sd, TangentialLaw::none, kinds);

@@ -82,6 +82,11 @@ INSTANTIATE_TEST_SUITE_P(
              "25:1: 'g_level' is of no use here: 'amplitude' is given; remove it"},
         Case{"friction = 0.3", "friction = 0.3\nnormal_damping = 5",
              "16:1: 'normal_damping' is of no use here: the law walton-braun has no damping; remove it"},
+        Case{"friction = 0.3", "friction = 0.3\nlaw = \"spring-dashpot\"\nrestitution_speed = \"1 m/s\"",
+             "17:1: 'restitution_speed' is of no use here: only the law walton-braun has it; remove it"},
+        Case{"friction = 0.3", "friction = 0.3\nrestitution_speed = \"1 m\"",
+             "16:1: 'restitution_speed' must be a speed, but \"1 m\" is a length; write for example \"0.5 "
+             "m/s\""},
         Case{"restitution = 0.8", "law = \"spring-dashpot\"\nnormal_damping = 5\nrestitution = 0.8",
              "16:1: 'restitution' is of no use here: 'normal_damping' is given, and the restitution follows "
              "from it; "

@@ -139,6 +139,21 @@ TEST(PlanStiffness, WaltonBraunBranches) {
     EXPECT_EQ(pair.normal_damping, 0);
 }
 
+// e(v) = sqrt(w0 / (w0 + S v)): what the scene says of one speed, at that speed; and at v* in the step.
+TEST(PlanContact, HardeningFollowsFromTheRestitutionAtOneSpeed) {
+    const Scene scene =
+        read_text(wedge_text, {"contact.stiffness=1e4", "contact.restitution_speed=\"20 cm/s\""});
+    const Plan plan = make_plan(scene);
+    const PairPlan& pair = plan.between(0, 0);
+    const double natural = std::sqrt(1e4 / (sphere_mass(0.005, 2500) / 2));
+    EXPECT_EQ(plan.normal, NormalLaw::walton_braun_speed);
+    EXPECT_DOUBLE_EQ(std::sqrt(natural / (natural + pair.hardening * 0.2)), 0.8);
+    EXPECT_DOUBLE_EQ(pair.restitution, std::sqrt(natural / (natural + pair.hardening * plan.impact_speed)));
+    EXPECT_LT(pair.restitution, 0.8) << "v* is above 0.2 m/s";
+    EXPECT_DOUBLE_EQ(pair.unloading_stiffness, 1e4 / (pair.restitution * pair.restitution));
+    EXPECT_EQ(make_plan(read_text(wedge_text)).normal, NormalLaw::walton_braun);
+}
+
 // ---- the spring-dashpot ----
 
 TEST(PlanDamping, RestitutionFollowsFromDamping) {

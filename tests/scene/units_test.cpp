@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Good{"25 Hz", Dimension::frequency, 25}, Good{"0.1 kHz", Dimension::frequency, 100},
                     Good{"25 1/s", Dimension::frequency, 25}, Good{"10 1/s", Dimension::rate, 10},
                     Good{"2.5 g/cm3", Dimension::density, 2500},
-                    Good{"9.81 m/s2", Dimension::acceleration, 9.81},
+                    Good{"9.81 m/s2", Dimension::acceleration, 9.81}, Good{"25 cm/s", Dimension::speed, 0.25},
                     Good{"981 cm/s^2", Dimension::acceleration, 9.81},
                     Good{"2e4 N/m", Dimension::stiffness, 2e4},
                     Good{"20 deg", Dimension::angle, 20 * std::numbers::pi / 180},
