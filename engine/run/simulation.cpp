@@ -14,11 +14,11 @@
 #include "engine/measure/measure.hpp"
 #include "engine/measure/segregation.hpp"
 #include "engine/run/health.hpp"
-#include "engine/start/grain_table.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
+#include "engine/start/start_file.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "engine/step/neighbours.hpp"
 #include "engine/step/step_loop.hpp"
@@ -44,25 +44,6 @@ Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
     around.period = period_of_depth(scene.container);
     around.skin = kSkinShare * smallest_radius(scene);
     return around;
-}
-
-// A frame's grains, in the frame's order.
-Grains grains_of(const Scene& scene, const Frame& frame) {
-    Grains grains;
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        const std::size_t s = static_cast<std::size_t>(frame.species[i]);
-        if (s >= scene.species.size()) {
-            throw UserError(
-                fmt::format("{}: '{}' has grains of species {}, but the scene lists only {}; list them all",
-                            scene.where("start.file"), scene.start.file, s, scene.species.size()));
-        }
-        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
-                   scene.species[s].density);
-        grains.motion.back().velocity = frame.velocity[i];
-        grains.spin.back().rate = frame.spin[i];
-    }
-    if (!frame.orientation.empty()) grains.orientation = frame.orientation;
-    return grains;
 }
 
 double solid_fraction(const Container& container, const Grains& grains) {
@@ -99,7 +80,6 @@ struct Simulation::Impl {
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void pack_from_file();
     void begin_drive();
-    void check_grains_fit() const;
     void look_at_health();
 };
 
@@ -122,12 +102,13 @@ bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgres
 
 void Simulation::Impl::pack_from_file() {
     if (!is_checkpoint(scene.start.file)) {
-        grains = grains_of(scene, read_grain_table(scene.start.file));
+        grains = grains_from_table(scene);
         return;
     }
     if (scene.start.keep_clock) {
         make_loop();
         const CheckpointHeader header = load_checkpoint(scene, plan, grains, loop.get());
+        check_grains_match(scene, grains);
         step = header.step;
         start_energy = header.start_energy;
         return;
@@ -137,18 +118,6 @@ void Simulation::Impl::pack_from_file() {
     for (std::size_t i = 0; i < grains.size(); ++i) {
         grains.place[i].position -= header.wall_offset;
         grains.motion[i].velocity -= header.wall_velocity;
-    }
-}
-
-void Simulation::Impl::check_grains_fit() const {
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-        for (const Face& face : around.faces) {
-            if (distance_to(face, Vec3::Zero(), grains.place[i].position).distance > 0) continue;
-            throw UserError(
-                fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; give the "
-                            "container of the run the file comes from",
-                            scene.where("start.file"), grains.id[i], scene.start.file, face.name));
-        }
     }
 }
 
@@ -169,13 +138,15 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     } else {
         m.pack_from_file();
         if (m.loop) return result;  // goes on where the file stopped
-        m.check_grains_fit();
+        check_grains_match(m.scene, m.grains);
+        check_grains_fit(m.scene, m.around.faces, m.grains);
         if (m.scene.output.orientation && m.grains.orientation.empty()) {
             m.grains.orientation.assign(m.grains.size(), Quaternion::Identity());
         }
     }
     m.make_loop();
     m.loop->restart();
+    if (m.scene.start.method == Start::Method::file) check_grains_clear(m.scene, m.grains, *m.loop);
     if (result.finished) {
         progress.stage = PackingProgress::Stage::settling;
         const auto watch = [&](double done, std::int64_t steps) {

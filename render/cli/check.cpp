@@ -21,12 +21,13 @@ constexpr double steps_a_second = 8e6;         // grains x steps, a thread
 constexpr double seconds_a_frame = 0.15;       // drawing and encoding at 1920x1080
 constexpr double film_bytes_a_second = 1.2e6;  // at 1920x1080, crf 20
 constexpr double engine_bytes_a_grain = 600;
-constexpr double bytes_a_pixel = 40;     // of pictures on their way from the renderer to the encoder
-constexpr double trajectory_bytes = 64;  // a grain and frame: id, type, radius, x in double, v, spin
+constexpr double bytes_a_pixel = 122;  // from the renderer to the encoder, and what those keep themselves
+constexpr double bytes_of_program = 138e6;  // with its libraries, the software rasteriser above all
+constexpr double trajectory_bytes = 64;     // a grain and frame: id, type, radius, x in double, v, spin
 constexpr double orientation_bytes = 16;
 constexpr double measures_bytes = 400;  // a row
 constexpr double full_hd = 1920.0 * 1080;
-constexpr double assumed_settling = 0.6;  // s, simulated
+constexpr double assumed_settling = 1.2;  // s, simulated
 
 std::string length(double metres) {
     const double size = std::abs(metres);
@@ -225,15 +226,17 @@ void print_files(const Scene& scene, const Plan& plan, const FilmCost& film, Lis
 void print_cost(const Scene& scene, const Plan& plan, const FilmCost& film, Listing& list) {
     const auto grains = static_cast<double>(scene.grains());
     const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
-    list.line("memory",
-              fmt::format("about {}", bytes(grains * engine_bytes_a_grain + pixels * bytes_a_pixel)));
+    list.line("memory", fmt::format("about {}", bytes(bytes_of_program + grains * engine_bytes_a_grain +
+                                                      pixels * bytes_a_pixel)));
     const double settling =
         std::min(static_cast<double>(plan.settle_steps_limit), assumed_settling / plan.clock.step);
     const double work = grains * (static_cast<double>(plan.steps) + settling);
     const int threads = scene.run.threads > 0 ? scene.run.threads : usable_processors();
     const double engine = work / steps_a_second;
-    list.line("cost", fmt::format("{:.2g} grain-steps, {} of one thread at {:.2g} a second", work,
-                                  span(engine), steps_a_second));
+    list.line("cost",
+              fmt::format("{:.2g} grain-steps, {:.0f} % of them for packing: {} of one thread at {:.2g} a "
+                          "second",
+                          work, 100 * grains * settling / work, span(engine), steps_a_second));
     list.line("", fmt::format("{} of one thread for the film, at {} a frame", span(film.seconds),
                               span(seconds_a_frame * film.pixels)));
     list.line("", fmt::format("together about {} on {} thread{}", span((engine + film.seconds) / threads),

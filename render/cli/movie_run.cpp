@@ -24,7 +24,8 @@ std::vector<Shot> schedule(const Scene& scene, const Plan& plan, bool wanted) {
 }
 
 ThreadPlan threads_for(const Scene& scene, bool film) {
-    return plan_threads(scene.run.threads > 0 ? scene.run.threads : usable_processors(), film);
+    const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
+    return plan_threads(processors, film, scene.grains());
 }
 
 }  // namespace

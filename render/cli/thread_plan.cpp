@@ -4,12 +4,15 @@
 
 namespace grainreel {
 
-ThreadPlan plan_threads(int processors, bool film) {
-    if (!film) return {processors, 1, 1};
+constexpr std::int64_t grains_a_thread = 500;  // fewer, and the barriers cost more than the company is worth
+
+ThreadPlan plan_threads(int processors, bool film, std::int64_t grains) {
+    const int useful = static_cast<int>(std::clamp<std::int64_t>(grains / grains_a_thread, 1, processors));
+    if (!film) return {useful, 1, 1};
     // On one or two processors the engine keeps its threads and the film's take turns with them; beyond, the
     // film gets processors of its own.
     const int share = std::max(1, processors / 6);
-    return {processors <= 2 ? processors : processors - processors / 3, share, share};
+    return {std::min(useful, processors <= 2 ? processors : processors - processors / 3), share, share};
 }
 
 }  // namespace grainreel

@@ -1,6 +1,8 @@
 // How many threads each part gets, planned together so that engine, rasteriser and encoder share the machine.
 #pragma once
 
+#include <cstdint>
+
 namespace grainreel {
 
 struct ThreadPlan {
@@ -10,7 +12,7 @@ struct ThreadPlan {
 };
 
 // processors: as many as the run may keep busy. With a film, about a third of the work is drawing and
-// encoding.
-ThreadPlan plan_threads(int processors, bool film);
+// encoding. A thread with too few grains waits longer than it works.
+ThreadPlan plan_threads(int processors, bool film, std::int64_t grains);
 
 }  // namespace grainreel

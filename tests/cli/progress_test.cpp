@@ -78,15 +78,16 @@ TEST(DurationText, ChoosesItsUnits) {
 
 TEST(ThreadPlan, GivesEveryPartAThreadAndTheEngineMost) {
     for (int processors = 1; processors <= 64; ++processors) {
-        const ThreadPlan plan = plan_threads(processors, true);
+        const ThreadPlan plan = plan_threads(processors, true, 100000);
         EXPECT_GE(plan.raster, 1);
         EXPECT_GE(plan.encoder, 1);
         EXPECT_GE(plan.engine, std::max(plan.raster, plan.encoder));
         EXPECT_TRUE(processors <= 2 || plan.engine + plan.raster + plan.encoder <= processors + 1)
             << processors;
-        EXPECT_EQ(plan_threads(processors, false).engine, processors);
+        EXPECT_EQ(plan_threads(processors, false, 100000).engine, processors);
     }
-    EXPECT_EQ(plan_threads(2, true).engine, 2);
+    EXPECT_EQ(plan_threads(2, true, 1620).engine, 2);
+    EXPECT_EQ(plan_threads(8, true, 251).engine, 1) << "too few grains to share";
     EXPECT_GE(usable_processors(), 1);
 }
 

@@ -1,0 +1,84 @@
+#include "engine/start/start_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/error.hpp"
+#include "engine/start/grain_table.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double kSameSize = 1e-6;  // relative: a diameter written by hand is not exact to the last bit
+constexpr double kTooDeep = 1.0 / 3;
+
+[[noreturn]] void fail(const Scene& scene, const std::string& what) {
+    throw UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
+}
+
+}  // namespace
+
+Grains grains_from_table(const Scene& scene) {
+    if (scene.start.keep_clock)
+        fail(scene, "is a table of grains and knows no clock; give a checkpoint, or set start.keep_clock = false");
+    const Frame frame = read_grain_table(scene.start.file);
+    Grains grains;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const std::size_t s = static_cast<std::size_t>(frame.species[i]);
+        if (s >= scene.species.size())
+            fail(scene, fmt::format("has grains of species {}, but the scene lists only {}; list them all", s,
+                                    scene.species.size()));
+        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
+                   scene.species[s].density);
+        grains.motion.back().velocity = frame.velocity[i];
+        grains.spin.back().rate = frame.spin[i];
+    }
+    if (!frame.orientation.empty()) grains.orientation = frame.orientation;
+    return grains;
+}
+
+void check_grains_match(const Scene& scene, const Grains& grains) {
+    std::vector<std::int64_t> count(scene.species.size());
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const Species& species = scene.species[grains.species[i]];
+        const double diameter = 2 * grains.place[i].radius;
+        ++count[grains.species[i]];
+        if (diameter < species.diameter.smallest * (1 - kSameSize) ||
+            diameter > species.diameter.largest * (1 + kSameSize))
+            fail(scene, fmt::format("has grain {} of \"{}\" with a diameter of {:.6g} m, which the scene does not "
+                                    "allow; give the diameters of the run the file comes from",
+                                    grains.id[i], species.name, diameter));
+    }
+    for (std::size_t s = 0; s < count.size(); ++s) {
+        if (count[s] != scene.species[s].count)
+            fail(scene, fmt::format("has {} grains of \"{}\", but the scene says {}; write count = {}", count[s],
+                                    scene.species[s].name, scene.species[s].count, count[s]));
+    }
+}
+
+void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const Grains& grains) {
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        for (const Face& face : faces) {
+            if (distance_to(face, Vec3::Zero(), grains.place[i].position).distance > 0) continue;
+            throw UserError(
+                fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; give the "
+                            "container of the run the file comes from",
+                            scene.where("start.file"), grains.id[i], scene.start.file, face.name));
+        }
+    }
+}
+
+void check_grains_clear(const Scene& scene, const Grains& grains, const StepLoop& loop) {
+    loop.visit_contacts(-1, [&](const ContactView& c) {
+        if (c.second < 0 || c.overlap <= kTooDeep * c.smaller_radius) return;
+        fail(scene, fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; take the file of "
+                                "another run",
+                                std::min(grains.id[c.first], grains.id[c.second]),
+                                std::max(grains.id[c.first], grains.id[c.second]),
+                                c.overlap / c.smaller_radius));
+    });
+}
+
+}  // namespace grainreel

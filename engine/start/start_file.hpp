@@ -1,0 +1,26 @@
+// A start from an earlier run's file: its grains, and whether they are those that the scene speaks of. All
+// throw UserError with the place of `start.file`.
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/container_faces.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+// The grains of a final.csv, in its order.
+Grains grains_from_table(const Scene& scene);
+
+// As many grains of each species as the scene says, and as large.
+void check_grains_match(const Scene& scene, const Grains& grains);
+
+// All inside the container at rest.
+void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const Grains& grains);
+
+// No two overlap by more than a third of a radius. `loop` has been restarted.
+void check_grains_clear(const Scene& scene, const Grains& grains, const StepLoop& loop);
+
+}  // namespace grainreel
