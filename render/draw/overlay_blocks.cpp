@@ -163,7 +163,9 @@ TextSize dial_block(const Writer& writer, const Frame* frame, double radius, dou
         return size;
     }
     // Counter-clockwise from the right: the tip's height is the sine of the phase, as the displacement is.
-    const double angle = 2 * std::numbers::pi * frame->phase;
+    // Close to the period's end the disc is empty, as the phase beside it is 0.00.
+    const double phase = shown_cycle(*frame).phase > 0 ? frame->phase : 0;
+    const double angle = 2 * std::numbers::pi * phase;
     const double tip_x = cx + radius * std::cos(angle), tip_y = cy - radius * std::sin(angle);
     if (frame->time < 0) return size;  // the drive is off: no hand
     cairo_set_source_rgba(writer.on, writer.palette.accent.red, writer.palette.accent.green,
@@ -195,8 +197,9 @@ TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& fram
     if (frame.time < 0) {
         line("before the drive");
     } else {
-        line(fmt::format("cycle {}", static_cast<long long>(std::floor(frame.cycles))));
-        line(fmt::format("phase {:.2f}", frame.phase));
+        const ShownCycle shown = shown_cycle(frame);
+        line(fmt::format("cycle {}", shown.cycle));
+        line(fmt::format("phase {:.2f}", shown.phase));
     }
     return size;
 }

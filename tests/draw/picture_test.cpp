@@ -1,4 +1,5 @@
 // Promises about whole pictures: repeatable, the same on any number of threads, words and grains apart.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -153,6 +154,36 @@ TEST(Overlay, SettlingIsSaid) {
     EXPECT_EQ(playback_text(frame, ""), "settling, drive off");
     frame.time = 0;
     EXPECT_EQ(playback_text(frame, "slow motion 1/10"), "slow motion 1/10");
+}
+
+TEST(Overlay, AHairBeforeAPeriodIsThatPeriod) {
+    const Scene scene = wedge();
+    const PictureLayout layout = plan_layout(scene);
+    Renderer renderer(scene, 1);
+    Frame frame = frame_of({});
+    frame.time = 2;
+    frame.cycles = 20;
+    const Picture whole = renderer.draw(frame, "");
+    const double hair = 1.0 / 4000;
+    frame.cycles = 20 - hair;
+    frame.phase = 1 - hair;
+    expect_same(whole, renderer.draw(frame, ""), layout.second);
+    frame.phase = 0.99;
+    EXPECT_GT(changed(whole, renderer.draw(frame, ""), layout.second).count, 20);
+}
+
+TEST(Overlay, CycleAndPhaseAgree) {
+    Frame frame;
+    for (const double start : {0.0, 0.25})
+        for (int n = 0; n < 4000; ++n) {
+            frame.cycles = n / 1000.0;
+            frame.phase = std::fmod(start + frame.cycles, 1);
+            const ShownCycle shown = shown_cycle(frame);
+            ASSERT_LT(fmt::format("{:.2f}", shown.phase), "1.00");
+            // Together they are as far from the start as the frame is, but for the rounding.
+            const double since_start = shown.phase - start + (shown.phase < start - 1e-9 ? 1 : 0);
+            ASSERT_NEAR(static_cast<double>(shown.cycle) + since_start, frame.cycles, 0.005 + 1e-9);
+        }
 }
 
 TEST(Overlay, NumbersReadWell) {
