@@ -186,6 +186,47 @@ TEST(Overlay, CycleAndPhaseAgree) {
         }
 }
 
+// The row of the accent-coloured pixel farthest to the right in the numbers' gutter: the middle of the dot
+// that shows the floor in its stroke.
+double floor_dot_row(const Scene& scene, const Picture& picture) {
+    const Rectangle part = plan_layout(scene).second;
+    const Colour accent = make_palette(scene.film.background).accent;
+    for (int x = part.x + part.width - 1; x >= part.x; --x) {
+        double sum = 0, count = 0;
+        for (int y = part.y; y < part.y + part.height; ++y) {
+            const std::uint8_t* p = picture.pixel(x, y);
+            const double away = std::abs(p[0] - 255 * accent.red) + std::abs(p[1] - 255 * accent.green) +
+                                std::abs(p[2] - 255 * accent.blue);
+            if (away > 60) continue;
+            sum += y;
+            ++count;
+        }
+        if (count > 0) return sum / count;
+    }
+    return -1;
+}
+
+TEST(Overlay, TheDialShowsWhereTheFloorIs) {
+    Scene scene = wedge(1280, 720);
+    const double a = scene.drive.amplitude, radius = 2.2 * type_scale(scene.film).main;
+    const auto row = [&](double phase, double offset) {
+        Frame frame = frame_of({});
+        frame.phase = phase;
+        frame.floor_offset = offset * scene.drive.direction;
+        return floor_dot_row(scene, Renderer(scene, 1).draw(frame, ""));
+    };
+    scene.drive.ramp = 2;
+    const double middle = row(0, 0);
+    EXPECT_NEAR(row(0.25, a), middle - radius, 1);
+    EXPECT_NEAR(row(0.75, -0.1 * a), middle + 0.1 * radius, 1);
+    EXPECT_NEAR(row(0.25, 0.5 * a), middle - 0.5 * radius, 1);
+    // Without a ramp the stroke's middle is where the drive's phase puts it.
+    scene.drive.ramp = 0;
+    scene.drive.phase = 0.25;
+    EXPECT_NEAR(row(0.25, 0), middle - radius, 1);
+    EXPECT_NEAR(row(0.75, -2 * a), middle + radius, 1);
+}
+
 TEST(Overlay, NumbersReadWell) {
     EXPECT_EQ(length_text(0.005), "5 mm");
     EXPECT_EQ(length_text(0.00186), "1.86 mm");
