@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainreel {
@@ -49,6 +50,14 @@ double round_length(double longest) {
     for (const double step : {5.0, 2.0})
         if (step * decade <= longest) return step * decade;
     return decade;
+}
+
+ShownCycle shown_cycle(const Frame& frame) {
+    // Frames of slow motion land on steps, often a hair before a period's end: the cycle goes with the
+    // rounding.
+    const double rounded = std::round(100 * frame.phase) / 100;
+    const double cycles = frame.cycles + (rounded - frame.phase);
+    return {std::max(0LL, static_cast<long long>(std::floor(cycles + 1e-6))), rounded < 1 ? rounded : 0};
 }
 
 std::string playback_text(const Frame& frame, const std::string& playback) {

@@ -18,6 +18,13 @@ std::string time_text(double seconds);
 std::string diameter_text(const SizeSpread& diameter);
 // The longest 1, 2 or 5 times a power of ten that is not longer; m.
 double round_length(double longest);
+// Where in the drive's period a frame is, as shown: the phase in hundredths of a turn, never 1.00, and the
+// cycle that this phase belongs to.
+struct ShownCycle {
+    long long cycle;
+    double phase;
+};
+ShownCycle shown_cycle(const Frame& frame);
 // The caption of time, which says so while the grains still settle.
 std::string playback_text(const Frame& frame, const std::string& playback);
 

@@ -80,13 +80,13 @@ View frame_container(const Scene& scene, const PictureLayout& layout) {
                     scene.film.height);
 }
 
-void draw_container(const Scene& scene, const View& view, const Frame& frame, const Palette& palette,
-                    int picture_height, ContainerShapes& shapes) {
+void draw_container(const Scene& scene, const View& at_rest, const View& view, const Frame& frame,
+                    const Palette& palette, int picture_height, ContainerShapes& shapes) {
     shapes.behind.clear();
     shapes.before.clear();
-    const Sketches sketches{{view, palette, picture_height, frame.wall_offset},
-                            {view, palette, picture_height, frame.floor_offset},
-                            {view, palette, picture_height, Vec3(0, 0, 0)}};
+    const Sketches sketches{{at_rest, view, palette, picture_height, frame.wall_offset},
+                            {at_rest, view, palette, picture_height, frame.floor_offset},
+                            {at_rest, view, palette, picture_height, Vec3(0, 0, 0)}};
     if (scene.container.shape == Container::Shape::cylinder)
         draw_cylinder(scene.container, sketches, shapes);
     else

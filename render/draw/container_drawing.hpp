@@ -30,8 +30,9 @@ struct ContainerShapes {
     Shapes behind, before;  // to be painted before and after the grains
 };
 
-// picture_height: pixels; line widths follow from it.
-void draw_container(const Scene& scene, const View& view, const Frame& frame, const Palette& palette,
-                    int picture_height, ContainerShapes& shapes);
+// at_rest: the camera before it follows anything, which settles what looks solid and what looks like glass
+// for the whole film. view: the camera now. picture_height: pixels; line widths follow from it.
+void draw_container(const Scene& scene, const View& at_rest, const View& view, const Frame& frame,
+                    const Palette& palette, int picture_height, ContainerShapes& shapes);
 
 }  // namespace grainreel

@@ -55,14 +55,15 @@ class Cylinder {
     }
 
   private:
-    // A disc with a rim, in front of the grains when the eye is on its outer side.
+    // A disc with a rim, in front of the grains while the eye is on its outer side.
     void plate(const Sketch& sketch, double low, double high, double up) {
         const double inner = up > 0 ? low : high, outer = up > 0 ? high : low;
-        const bool back = !sketch.faces({0, 0, inner}, {0, 0, up});
-        Shapes& on = back ? shapes_.behind : shapes_.before;
+        const bool solid = !sketch.faces_at_rest({0, 0, inner}, {0, 0, up});
+        const bool behind = !sketch.faces({0, 0, inner}, {0, 0, up});
+        Shapes& on = behind ? shapes_.behind : shapes_.before;
         const double wide = radius_ + thickness_;
-        const Paint edge = back ? sketch.edge() : sketch.glass_edge();
-        if (back) {
+        const Paint edge = solid ? sketch.edge() : sketch.glass_edge();
+        if (solid && behind) {
             sketch.polygon(on, circle(wide, inner), sketch.inner_face());
             sketch.line(on, circle(radius_, inner), true, 0.6 * sketch.pen, sketch.far_edge());
         }
@@ -70,10 +71,14 @@ class Cylinder {
         const auto lower = arc(wide, facing_ - half_visible_, facing_ + half_visible_, low);
         for (std::size_t i = 0; i + 1 < upper.size(); ++i)
             sketch.polygon(on, {upper[i], upper[i + 1], lower[i + 1], lower[i]},
-                           back ? sketch.cut() : sketch.glass_cut());
-        sketch.line(on, circle(wide, inner), true, sketch.pen, edge);
+                           solid ? sketch.cut() : sketch.glass_cut());
+        // A solid disc seen from outside hides the far half of its inner rim.
+        if (solid && !behind)
+            sketch.line(on, up > 0 ? lower : upper, false, sketch.pen, edge);
+        else
+            sketch.line(on, circle(wide, inner), true, sketch.pen, edge);
         if (sketch.faces({0, 0, outer}, {0, 0, up})) {
-            sketch.polygon(on, circle(wide, outer), back ? sketch.outer_face() : sketch.glass_face());
+            sketch.polygon(on, circle(wide, outer), solid ? sketch.outer_face() : sketch.glass_face());
             sketch.line(on, circle(wide, outer), true, sketch.pen, edge);
         } else {
             sketch.line(on, up > 0 ? upper : lower, false, sketch.pen, edge);

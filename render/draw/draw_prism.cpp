@@ -90,9 +90,9 @@ class Prism {
     void wall(const Profile& profile) {
         const Sketch& walls = sketches_.walls;
         for (std::size_t i = 0; i + 1 < profile.inner.size(); ++i) segment(profile, i);
-        const bool back = !walls.faces(at(0, profile.inner.front()), outward(profile, 0));
-        Shapes& on = back ? shapes_.behind : shapes_.before;
-        const Paint paint = back ? walls.edge() : walls.glass_edge();
+        const Vec3 foot = at(0, profile.inner.front()), normal = outward(profile, 0);
+        Shapes& on = walls.faces(foot, normal) ? shapes_.before : shapes_.behind;
+        const Paint paint = walls.faces_at_rest(foot, normal) ? walls.glass_edge() : walls.edge();
         walls.line(on, {at(near_, profile.inner.back()), at(near_, profile.outer.back())}, false, walls.pen,
                    paint);
         walls.line(on, {at(near_, profile.inner.front()), at(near_, profile.outer.front())}, false, walls.pen,
@@ -112,49 +112,50 @@ class Prism {
         const Flat c = profile.outer[i], d = profile.outer[i + 1];
         const std::vector<Vec3> inner = {at(near_, a), at(near_, b), at(far_, b), at(far_, a)};
         const std::vector<Vec3> section = {at(near_, a), at(near_, b), at(near_, d), at(near_, c)};
-        const bool back = !walls.faces(at(0, a), outward(profile, i));
-        Shapes& on = back ? shapes_.behind : shapes_.before;
-        walls.polygon(on, inner, back ? walls.inner_face() : walls.glass_face());
-        const Paint thin = back ? walls.far_edge() : walls.glass_edge();
+        const bool solid = !walls.faces_at_rest(at(0, a), outward(profile, i));
+        const bool behind = !walls.faces(at(0, a), outward(profile, i));
+        Shapes& on = behind ? shapes_.behind : shapes_.before;
+        walls.polygon(on, inner, solid && behind ? walls.inner_face() : walls.glass_face());
+        const Paint thin = solid ? walls.far_edge() : walls.glass_edge();
         for (const Flat& p : {a, b})
             walls.line(on, {at(near_, p), at(far_, p)}, false, 0.6 * walls.pen, thin);
-        if (back) walls.line(on, {at(far_, a), at(far_, b)}, false, 0.7 * walls.pen, thin);
-        walls.polygon(on, section, back ? walls.cut() : walls.glass_cut());
-        walls.line(on, {at(near_, a), at(near_, b)}, false, walls.pen,
-                   back ? walls.edge() : walls.glass_edge());
-        walls.line(on, {at(near_, c), at(near_, d)}, false, walls.pen,
-                   back ? walls.edge() : walls.glass_edge());
+        if (solid && behind) walls.line(on, {at(far_, a), at(far_, b)}, false, 0.7 * walls.pen, thin);
+        walls.polygon(on, section, solid ? walls.cut() : walls.glass_cut());
+        const Paint edge = solid ? walls.edge() : walls.glass_edge();
+        walls.line(on, {at(near_, a), at(near_, b)}, false, walls.pen, edge);
+        walls.line(on, {at(near_, c), at(near_, d)}, false, walls.pen, edge);
     }
 
     // up: +1 for the lid, -1 for the floor, whose outward normal points down.
     void plate(const Sketch& sketch, const Plate& plate, double inner_height, double up) {
-        const bool back = !sketch.faces({0, 0, inner_height}, {0, 0, up});
-        Shapes& on = back ? shapes_.behind : shapes_.before;
+        const bool solid = !sketch.faces_at_rest({0, 0, inner_height}, {0, 0, up});
+        const bool behind = !sketch.faces({0, 0, inner_height}, {0, 0, up});
+        Shapes& on = behind ? shapes_.behind : shapes_.before;
         const double w = plate.half_width;
         const auto level = [&](double z) {
             return std::vector<Vec3>{{near_, -w, z}, {near_, w, z}, {far_, w, z}, {far_, -w, z}};
         };
         const double outer_height = up > 0 ? plate.high : plate.low;
         if (sketch.faces({0, 0, outer_height}, {0, 0, up}))
-            sketch.polygon(on, level(outer_height), back ? sketch.outer_face() : sketch.glass_face());
-        if (back) {
+            sketch.polygon(on, level(outer_height), solid ? sketch.outer_face() : sketch.glass_face());
+        if (solid && behind) {
             sketch.polygon(on, level(inner_height), sketch.inner_face());
             sketch.line(on, level(inner_height), true, 0.6 * sketch.pen, sketch.far_edge());
         }
-        for (const double side : {-1.0, 1.0}) plate_side(sketch, on, back, plate, side);
+        for (const double side : {-1.0, 1.0}) plate_side(sketch, on, solid, plate, side);
         const std::vector<Vec3> section = {
             {near_, -w, plate.low}, {near_, w, plate.low}, {near_, w, plate.high}, {near_, -w, plate.high}};
-        sketch.polygon(on, section, back ? sketch.cut() : sketch.glass_cut());
-        sketch.line(on, section, true, sketch.pen, back ? sketch.edge() : sketch.glass_edge());
+        sketch.polygon(on, section, solid ? sketch.cut() : sketch.glass_cut());
+        sketch.line(on, section, true, sketch.pen, solid ? sketch.edge() : sketch.glass_edge());
     }
 
-    void plate_side(const Sketch& sketch, Shapes& on, bool back, const Plate& plate, double side) {
+    void plate_side(const Sketch& sketch, Shapes& on, bool solid, const Plate& plate, double side) {
         const double y = side * plate.half_width;
         if (!sketch.faces({0, y, plate.low}, {0, side, 0})) return;
         const std::vector<Vec3> face = {
             {near_, y, plate.low}, {far_, y, plate.low}, {far_, y, plate.high}, {near_, y, plate.high}};
-        sketch.polygon(on, face, back ? sketch.outer_face() : sketch.glass_face());
-        sketch.line(on, face, true, 0.7 * sketch.pen, back ? sketch.edge() : sketch.glass_edge());
+        sketch.polygon(on, face, solid ? sketch.outer_face() : sketch.glass_face());
+        sketch.line(on, face, true, 0.7 * sketch.pen, solid ? sketch.edge() : sketch.glass_edge());
     }
 
     const Container& container_;

@@ -11,10 +11,18 @@ namespace grainreel {
 // Draws shapes given in metres, in the frame of something that has moved by `offset`.
 class Sketch {
   public:
-    Sketch(const View& view, const Palette& colours, int picture_height, const Vec3& offset)
-        : palette(colours), pen(std::max(1.0, picture_height / 600.0)), view_(view), offset_(offset) {}
+    Sketch(const View& at_rest, const View& view, const Palette& colours, int picture_height,
+           const Vec3& offset)
+        : palette(colours),
+          pen(std::max(1.0, picture_height / 600.0)),
+          at_rest_(at_rest),
+          view_(view),
+          offset_(offset) {}
 
     bool faces(const Vec3& point, const Vec3& normal) const { return view_.faces(point + offset_, normal); }
+    // The same with everything at rest. What looks solid and what looks like glass follows this one, or a
+    // part whose plane the eye crosses would blink once a period; what hides what follows the present one.
+    bool faces_at_rest(const Vec3& point, const Vec3& normal) const { return at_rest_.faces(point, normal); }
     const View& view() const { return view_; }
     const Vec3& offset() const { return offset_; }
 
@@ -47,6 +55,7 @@ class Sketch {
         for (const Vec3& point : points) pixels.push_back(view_.project(point + offset_));
         return pixels;
     }
+    const View& at_rest_;
     const View& view_;
     const Vec3 offset_;
 };

@@ -54,8 +54,8 @@ TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& fr
         write_caption(y);
         y += 2.6 * type.minor + type.gap;
         if (dial) {
-            const TextSize disc = dial_block(writer, nullptr, radius, x, y);
-            dial_block(writer, &frame, radius, x, y);
+            const TextSize disc = dial_block(writer, scene.drive, nullptr, radius, x, y);
+            dial_block(writer, scene.drive, &frame, radius, x, y);
             const TextSize drive = drive_block(writer, scene, x + disc.width + type.gap, y);
             arrows_block(writer, scene, scene.film.camera, x + disc.width + drive.width + 3 * type.gap, y);
             y += disc.height;
@@ -64,8 +64,8 @@ TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& fr
     }
     if (dial) {
         y += 0.6 * type.gap;
-        const TextSize disc = dial_block(writer, nullptr, radius, x, y);
-        dial_block(writer, &frame, radius, x, y);
+        const TextSize disc = dial_block(writer, scene.drive, nullptr, radius, x, y);
+        dial_block(writer, scene.drive, &frame, radius, x, y);
         y += disc.height + 0.6 * type.gap;
         const TextSize drive = drive_block(writer, scene, x, y);
         y += drive.height + type.gap;

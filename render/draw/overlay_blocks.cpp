@@ -24,6 +24,12 @@ void stroke_line(const Writer& writer, double x0, double y0, double x1, double y
     cairo_stroke(writer.on);
 }
 
+void dot(const Writer& writer, double x, double y, double radius) {
+    cairo_new_path(writer.on);
+    cairo_arc(writer.on, x, y, radius, 0, 2 * std::numbers::pi);
+    cairo_fill(writer.on);
+}
+
 // An arrow about (x, y) along (dx, dy), which is half its length; pixels. The head is drawn at the far end,
 // or at both.
 void arrow(const Writer& writer, double x, double y, double dx, double dy, bool both) {
@@ -49,6 +55,14 @@ double largest_diameter(const Scene& scene) {
     double largest = 0;
     for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
     return largest;
+}
+
+// The floor's displacement from the middle of its stroke, in amplitudes. A drive that starts without a ramp
+// in mid-period moves about a middle that is not the rest position.
+double share_of_stroke(const Drive& drive, const Frame& frame) {
+    if (drive.amplitude <= 0) return 0;
+    const double middle = drive.ramp > 0 ? 0 : -std::sin(2 * std::numbers::pi * drive.phase);
+    return frame.floor_offset.dot(drive.direction) / drive.amplitude - middle;
 }
 
 }  // namespace
@@ -143,7 +157,8 @@ TextSize drive_block(const Writer& writer, const Scene& scene, double x, double 
     return size;
 }
 
-TextSize dial_block(const Writer& writer, const Frame* frame, double radius, double x, double y) {
+TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
+                    double y) {
     const double pen = std::max(1.0, writer.type.main / 16);
     const double bar = 2 * radius + 0.9 * writer.type.main;  // from the left, where the displacement is shown
     const TextSize size{bar + 0.6 * writer.type.main, 2 * radius + 2 * pen};
@@ -162,8 +177,11 @@ TextSize dial_block(const Writer& writer, const Frame* frame, double radius, dou
                         cy + level * radius, pen);
         return size;
     }
-    // Counter-clockwise from the right: the tip's height is the sine of the phase, as the displacement is.
-    const double angle = 2 * std::numbers::pi * frame->phase;
+    // Counter-clockwise from the right: the tip's height is the sine of the phase, which the displacement is
+    // too once the ramp is over. Close to the period's end the disc is empty, as the phase beside it is 0.00.
+    const double phase = shown_cycle(*frame).phase > 0 ? frame->phase : 0;
+    const double angle = 2 * std::numbers::pi * phase;
+    const double floor_y = cy - radius * share_of_stroke(drive, *frame);
     const double tip_x = cx + radius * std::cos(angle), tip_y = cy - radius * std::sin(angle);
     if (frame->time < 0) return size;  // the drive is off: no hand
     cairo_set_source_rgba(writer.on, writer.palette.accent.red, writer.palette.accent.green,
@@ -174,13 +192,10 @@ TextSize dial_block(const Writer& writer, const Frame* frame, double radius, dou
     cairo_close_path(writer.on);
     cairo_fill(writer.on);
     set_colour(writer, writer.palette.accent);
-    stroke_line(writer, tip_x, tip_y, x + bar, tip_y, 0.6 * pen);
+    stroke_line(writer, tip_x, tip_y, x + bar, floor_y, 0.6 * pen);
     stroke_line(writer, cx, cy, tip_x, tip_y, 2 * pen);
-    for (const double dot_x : {tip_x, x + bar}) {
-        cairo_new_path(writer.on);
-        cairo_arc(writer.on, dot_x, tip_y, 3 * pen, 0, 2 * std::numbers::pi);
-        cairo_fill(writer.on);
-    }
+    dot(writer, tip_x, tip_y, 3 * pen);
+    dot(writer, x + bar, floor_y, 3 * pen);
     return size;
 }
 
@@ -195,8 +210,9 @@ TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& fram
     if (frame.time < 0) {
         line("before the drive");
     } else {
-        line(fmt::format("cycle {}", static_cast<long long>(std::floor(frame.cycles))));
-        line(fmt::format("phase {:.2f}", frame.phase));
+        const ShownCycle shown = shown_cycle(frame);
+        line(fmt::format("cycle {}", shown.cycle));
+        line(fmt::format("phase {:.2f}", shown.phase));
     }
     return size;
 }

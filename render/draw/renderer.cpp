@@ -82,7 +82,7 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawT
     watch.lap(&DrawTimes::spheres);
     sphere_painter.upload(eye, frame);
     watch.lap(&DrawTimes::upload);
-    draw_container(scene, eye, frame, palette, scene.film.height, shapes);
+    draw_container(scene, view, eye, frame, palette, scene.film.height, shapes);
     target.bind();
     gl.ClearBufferfv(GL_COLOR, 0, clear_colour.data());
     shape_painter.paint(shapes.behind, port.width, port.height);

@@ -39,8 +39,10 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
 TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& camera, double x, double y);
 // f, Gamma and amplitude.
 TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y);
-// A hand that turns once a period, its height the displacement; without `frame` only the still part.
-TextSize dial_block(const Writer& writer, const Frame* frame, double radius, double x, double y);
+// A hand that turns once a period, and beside it where in its stroke the floor is; without `frame` only the
+// still part.
+TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
+                    double y);
 // Time and, with a drive, the cycle.
 TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y);
 

@@ -1,4 +1,5 @@
 // Promises about whole pictures: repeatable, the same on any number of threads, words and grains apart.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -153,6 +154,77 @@ TEST(Overlay, SettlingIsSaid) {
     EXPECT_EQ(playback_text(frame, ""), "settling, drive off");
     frame.time = 0;
     EXPECT_EQ(playback_text(frame, "slow motion 1/10"), "slow motion 1/10");
+}
+
+TEST(Overlay, AHairBeforeAPeriodIsThatPeriod) {
+    const Scene scene = wedge();
+    const PictureLayout layout = plan_layout(scene);
+    Renderer renderer(scene, 1);
+    Frame frame = frame_of({});
+    frame.time = 2;
+    frame.cycles = 20;
+    const Picture whole = renderer.draw(frame, "");
+    const double hair = 1.0 / 4000;
+    frame.cycles = 20 - hair;
+    frame.phase = 1 - hair;
+    expect_same(whole, renderer.draw(frame, ""), layout.second);
+    frame.phase = 0.99;
+    EXPECT_GT(changed(whole, renderer.draw(frame, ""), layout.second).count, 20);
+}
+
+TEST(Overlay, CycleAndPhaseAgree) {
+    Frame frame;
+    for (const double start : {0.0, 0.25})
+        for (int n = 0; n < 4000; ++n) {
+            frame.cycles = n / 1000.0;
+            frame.phase = std::fmod(start + frame.cycles, 1);
+            const ShownCycle shown = shown_cycle(frame);
+            ASSERT_LT(fmt::format("{:.2f}", shown.phase), "1.00");
+            // Together they are as far from the start as the frame is, but for the rounding.
+            const double since_start = shown.phase - start + (shown.phase < start - 1e-9 ? 1 : 0);
+            ASSERT_NEAR(static_cast<double>(shown.cycle) + since_start, frame.cycles, 0.005 + 1e-9);
+        }
+}
+
+// The row of the accent-coloured pixel farthest to the right in the numbers' gutter: the middle of the dot
+// that shows the floor in its stroke.
+double floor_dot_row(const Scene& scene, const Picture& picture) {
+    const Rectangle part = plan_layout(scene).second;
+    const Colour accent = make_palette(scene.film.background).accent;
+    for (int x = part.x + part.width - 1; x >= part.x; --x) {
+        double sum = 0, count = 0;
+        for (int y = part.y; y < part.y + part.height; ++y) {
+            const std::uint8_t* p = picture.pixel(x, y);
+            const double away = std::abs(p[0] - 255 * accent.red) + std::abs(p[1] - 255 * accent.green) +
+                                std::abs(p[2] - 255 * accent.blue);
+            if (away > 60) continue;
+            sum += y;
+            ++count;
+        }
+        if (count > 0) return sum / count;
+    }
+    return -1;
+}
+
+TEST(Overlay, TheDialShowsWhereTheFloorIs) {
+    Scene scene = wedge(1280, 720);
+    const double a = scene.drive.amplitude, radius = 2.2 * type_scale(scene.film).main;
+    const auto row = [&](double phase, double offset) {
+        Frame frame = frame_of({});
+        frame.phase = phase;
+        frame.floor_offset = offset * scene.drive.direction;
+        return floor_dot_row(scene, Renderer(scene, 1).draw(frame, ""));
+    };
+    scene.drive.ramp = 2;
+    const double middle = row(0, 0);
+    EXPECT_NEAR(row(0.25, a), middle - radius, 1);
+    EXPECT_NEAR(row(0.75, -0.1 * a), middle + 0.1 * radius, 1);
+    EXPECT_NEAR(row(0.25, 0.5 * a), middle - 0.5 * radius, 1);
+    // Without a ramp the stroke's middle is where the drive's phase puts it.
+    scene.drive.ramp = 0;
+    scene.drive.phase = 0.25;
+    EXPECT_NEAR(row(0.25, 0), middle - radius, 1);
+    EXPECT_NEAR(row(0.75, -2 * a), middle + radius, 1);
 }
 
 TEST(Overlay, NumbersReadWell) {
