@@ -127,7 +127,7 @@ TEST_F(StoppedMovie, KilledLeavesAReadableTrajectoryAndFilm) {
 TEST_F(StoppedMovie, InterruptedBeforeTheFirstStepKeepsTheOldRun) {
     fs::create_directory(here / "run");
     write_text(here / "run/run.json", "{}");
-    write_text(here / "run/film.txt", "the old film");
+    write_text(here / "run/movie.mp4", "the old film");
     // So many grains, and so hard ones, that packing takes a while.
     Program program(long_run({"--force", "--set", "species.small.count=150", "--set", "run.step=1e-7 s"}),
                     {here.path(), {}});
@@ -136,7 +136,7 @@ TEST_F(StoppedMovie, InterruptedBeforeTheFirstStepKeepsTheOldRun) {
     const Ended ended = program.wait();
     EXPECT_EQ(ended.status, 130);
     EXPECT_THAT(ended.err, HasSubstr("the run that was to be replaced is kept in .run.old-1"));
-    EXPECT_EQ(text_of(here / ".run.old-1/film.txt"), "the old film");
+    EXPECT_EQ(text_of(here / ".run.old-1/movie.mp4"), "the old film");
     EXPECT_EQ(record()["status"], "interrupted");
 }
 
