@@ -87,7 +87,7 @@ void add_species(Keys& keys) {
                             "Of the solid."));
     keys.push_back(quantity("species[].mass", Dimension::mass, positive, note("none"),
                             "Of a grain of mean diameter, instead of the density."));
-    keys.push_back(entry("species[].colour", KeyKind::colour, note("Okabe-Ito colours in order"),
+    keys.push_back(entry("species[].colour", KeyKind::colour, note("the next Okabe-Ito colour that is free"),
                          "\"#rrggbb\" or a name: black, white, grey, orange, sky-blue, green, yellow, blue, "
                          "vermilion, purple."));
 }
