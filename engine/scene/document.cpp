@@ -113,6 +113,16 @@ std::string Document::written_value(const toml::node& node) const {
     return value;
 }
 
+// Whoever writes 90 means degrees: a phase without a unit is in turns, where whole ones say nothing.
+void Document::check_bare_phase(const std::string& path, const toml::node& node) const {
+    const double turns = node.value<double>().value_or(0);
+    if (std::isfinite(turns) && std::abs(turns) > 1)
+        fail(path,
+             fmt::format("is in turns without a unit, and must be from -1 to 1 then, but is {0}; write for "
+                         "example \"{0} deg\"",
+                         written_value(node)));
+}
+
 double Document::number_in(const std::string& path, const toml::node& node, const Key& key) const {
     const DimensionText& dimension = text_of(key.dimension);
     const auto wrong = [&](const std::string& must) {
@@ -133,6 +143,7 @@ double Document::number_in(const std::string& path, const toml::node& node, cons
     } else {
         wrong(dimension.noun);
     }
+    if (key.dimension == Dimension::phase && node.is_number()) check_bare_phase(path, node);
     if (std::isnan(value)) wrong(dimension.noun);
     if (std::isinf(value) && !key.range.infinite) wrong("finite");
     if (!key.range.contains(value)) wrong(key.range.text());

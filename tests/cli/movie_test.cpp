@@ -247,6 +247,10 @@ TEST_F(MovieProgram, CheckPrintsThePlanAndWritesNothing) {
     const Ended ended = run_program({"check", scene.string()}, {here.path(), {}});
     EXPECT_EQ(ended.status, 0);
     EXPECT_THAT(ended.out, HasSubstr(std::to_string(make_plan(read_scene(scene)).clock.steps_per_period)));
+    EXPECT_THAT(ended.out, Not(HasSubstr("phase ")));
+    const Ended shifted =
+        run_program({"check", scene.string(), "--set", "drive.phase=0.25"}, {here.path(), {}});
+    EXPECT_THAT(shifted.out, HasSubstr(" m/s, phase 90 deg, grows over"));
     EXPECT_EQ(std::distance(fs::directory_iterator(here.path()), {}), entries);
 }
 

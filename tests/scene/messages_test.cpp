@@ -135,6 +135,15 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"name = \"small\"", "name = \"big\"", "9:1: 'name' \"big\" is taken; choose another"},
         Case{"g_level = 3", "g_level = 3\nramp = 2",
              "26:1: 'ramp' must be 0 or at least 3 periods, but is 2"},
+        Case{"g_level = 3", "g_level = 3\nphase = 90",
+             "26:1: 'phase' is in turns without a unit, and must be from -1 to 1 then, but is 90; write for "
+             "example \"90 deg\""},
+        Case{
+            "[run]\n", "[[film.segment]]\nkind = \"locked\"\nphase = -1.5\n[run]\n",
+            "28:1: 'phase' is in turns without a unit, and must be from -1 to 1 then, but is -1.5; write for "
+            "example \"-1.5 deg\""},
+        Case{"g_level = 3", "g_level = 3\nphase = inf",
+             "26:1: 'phase' must be finite, but is inf; write for example 0"},
         Case{"g_level = 3", "g_level = 3\ndirection = [0, 0, 0]",
              "26:1: 'direction' must not be zero; write for example [0, 0, 1]"},
         Case{"gravity = 10.0", "gravity = 0",
