@@ -104,6 +104,15 @@ bool Document::is_array(const std::string& path) const {
     return node != nullptr && node->is_array();
 }
 
+bool Document::is_text(const std::string& path) const {
+    const toml::node* node = find(path);
+    return node != nullptr && node->is_string();
+}
+
+std::string Document::written_value(const std::string& path) const {
+    return written_value(*find(path));
+}
+
 std::string Document::written_value(const toml::node& node) const {
     std::ostringstream text;
     text << toml::node_view<const toml::node>(node);
@@ -136,7 +145,9 @@ double Document::number_in(const std::string& path, const toml::node& node, cons
         value = *real;
     } else if (const auto text = node.value_exact<std::string>()) {
         try {
-            value = parse_quantity(*text, key.dimension);
+            // A pure number has no example that suits every key.
+            value =
+                parse_quantity(*text, key.dimension, key.dimension == Dimension::number ? key.example() : "");
         } catch (const UserError& error) {
             fail(path, error.what());
         }

@@ -39,6 +39,8 @@ class Document {
     std::size_t size(const std::string& path) const;  // of an array; 0 when absent
     bool is_table(const std::string& path) const;     // an inline table as a value
     bool is_array(const std::string& path) const;
+    bool is_text(const std::string& path) const;
+    std::string written_value(const std::string& path) const;  // of a key that is there, as TOML
 
     // The value of a key, in its dimension's unit; none when absent. Throw UserError when it is not of the
     // key's kind or outside its range.
