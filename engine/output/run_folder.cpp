@@ -1,7 +1,12 @@
 #include "engine/output/run_folder.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -25,6 +30,75 @@ bool taken(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, ignored));
 }
 
+bool is_empty_folder(const fs::path& path) {
+    std::error_code error;
+    return fs::is_directory(path, error) && fs::is_empty(path, error) && !error;
+}
+
+// All that a run may leave in its folder, beside frames/; the .part are of files cut off while being written.
+constexpr std::array<std::string_view, 15> files_of_runs{
+    "run.json",        ".run.json.part", "scene.toml",          ".scene.toml.part", "final.csv",
+    ".final.csv.part", "checkpoint.grs", "checkpoint.grs.part", "movie.mp4",        "movie.mp4.part",
+    "poster.png",      "trajectory.nc",  "contacts.nc",         "measures.csv",     "log.txt"};
+
+bool is_file_of_runs(const fs::path& name) {
+    return std::find(files_of_runs.begin(), files_of_runs.end(), name.string()) != files_of_runs.end();
+}
+
+// "000123.png"
+bool is_frame(const fs::path& name) {
+    const std::string stem = name.stem().string();
+    return name.extension() == ".png" && stem.size() >= 6 &&
+           stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
+bool is_real_folder(const fs::directory_entry& entry) {
+    return entry.symlink_status().type() == fs::file_type::directory;
+}
+
+using IsOurs = bool (*)(const fs::directory_entry&);
+
+bool is_ours_in_frames(const fs::directory_entry& entry) {
+    return !is_real_folder(entry) && is_frame(entry.path().filename());
+}
+
+bool is_ours(const fs::directory_entry& entry) {
+    const fs::path name = entry.path().filename();
+    return is_real_folder(entry) ? name == "frames" : is_file_of_runs(name);
+}
+
+// The first by name of a folder's entries that no run has written; the folder when it cannot be read.
+std::optional<fs::path> first_foreign(const fs::path& folder, IsOurs ours) {
+    std::error_code error;
+    std::optional<fs::path> first;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+        if (!ours(entry) && (!first || entry.path() < *first)) first = entry.path();
+    return error ? folder : first;
+}
+
+// What in the folder of a run is not a run's.
+std::optional<fs::path> foreign_file(const fs::path& run) {
+    const auto foreign = first_foreign(run, is_ours);
+    const fs::path frames = run / "frames";
+    if (foreign || !is_real_folder(fs::directory_entry(frames))) return foreign;
+    return first_foreign(frames, is_ours_in_frames);
+}
+
+// What --force is to replace must be a run and nothing else.
+void check_replaceable(const fs::path& path) {
+    if (!taken(path / "run.json")) {
+        throw UserError(fmt::format(
+            "--out {}: holds no run (no run.json), so --force leaves it alone; choose another name",
+            path.string()));
+    }
+    if (const auto foreign = foreign_file(path)) {
+        throw UserError(
+            fmt::format("--out {}: holds {}, which is no file of a run, so --force leaves the folder "
+                        "alone; move that file away or choose another name",
+                        path.string(), foreign->lexically_relative(path).string()));
+    }
+}
+
 // "a/b/" and "a/b/." mean "a/b".
 fs::path without_trailing_slash(const fs::path& path) {
     fs::path plain = fs::absolute(path).lexically_normal();
@@ -36,27 +110,41 @@ fs::path without_trailing_slash(const fs::path& path) {
 
 RunFolder::RunFolder(const RunFolderRequest& request) {
     if (request.out) {
-        const fs::path path = without_trailing_slash(*request.out);
-        if (taken(path)) {
-            if (!request.force) {
-                throw UserError(
-                    fmt::format("--out {}: exists already; choose another name, or --force to replace "
-                                "it when the new run is complete",
-                                path.string()));
-            }
-            if (!taken(path / "run.json")) {
-                throw UserError(fmt::format(
-                    "--out {}: holds no run (no run.json), so --force leaves it alone; choose another name",
-                    path.string()));
-            }
-            move_aside(path);
-        }
-        if (!make(path)) cannot_make(path, std::make_error_code(std::errc::file_exists));
+        take(*request.out, request.force);
         return;
     }
     fs::path path = request.base / request.name;
     for (int number = 2; !make(path); ++number)
         path = request.base / fmt::format("{}-{}", request.name, number);
+}
+
+void RunFolder::take(const fs::path& out, bool force) {
+    if (out.empty()) throw UserError("--out: the name is empty; name a folder, or leave out --out");
+    const fs::path path = without_trailing_slash(out);
+    if (is_empty_folder(path)) return adopt(path);
+    if (taken(path)) {
+        if (!force) {
+            throw UserError(
+                fmt::format("--out {}: exists already; choose another name, or --force to replace "
+                            "it when the new run is complete",
+                            path.string()));
+        }
+        check_replaceable(path);
+        move_aside(path);
+    }
+    if (!make(path)) cannot_make(path, std::make_error_code(std::errc::file_exists));
+}
+
+void RunFolder::adopt(const fs::path& path) {
+    // The log that must not be there yet: of two runs that start together, one gets the folder.
+    const int log = ::open((path / "log.txt").c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (log < 0) {
+        throw UserError(fmt::format("--out {}: the folder cannot be used: {}; choose another name",
+                                    path.string(), std::generic_category().message(errno)));
+    }
+    ::close(log);
+    adopted_ = true;
+    path_ = path;
 }
 
 bool RunFolder::make(const fs::path& path) {
@@ -92,13 +180,19 @@ void RunFolder::move_aside(const fs::path& path) {
 }
 
 void RunFolder::remove_previous() {
+    if (previous_.empty() || foreign_file(previous_)) return;  // somebody has put a file there meanwhile
     std::error_code ignored;  // what cannot be removed stays, hidden, and harms nobody
-    if (!previous_.empty()) fs::remove_all(previous_, ignored);
+    fs::remove_all(previous_, ignored);
     previous_.clear();
 }
 
 void RunFolder::discard() {
     std::error_code ignored;
+    if (adopted_) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(path_, ignored))
+            fs::remove_all(entry.path(), ignored);
+        return;
+    }
     fs::remove_all(path_, ignored);
     if (!previous_.empty()) fs::rename(previous_, path_, ignored);
     previous_.clear();

@@ -8,18 +8,20 @@
 namespace grainreel {
 
 struct RunFolderRequest {
-    std::string name;                          // of the scene
-    std::filesystem::path base = "output";     // where folders without an explicit name go
-    std::optional<std::filesystem::path> out;  // the wanted folder; without it base/name, base/name-2, ...
-    bool force = false;                        // an `out` that holds a run is replaced
+    std::string name;                       // of the scene
+    std::filesystem::path base = "output";  // where folders without an explicit name go
+    std::optional<std::filesystem::path>
+        out;             // the wanted folder, new or empty; without it base/name, base/name-2, ...
+    bool force = false;  // an `out` that holds a run is replaced
 };
 
 // Made when scene and plan are accepted, not before. An earlier run that is to be replaced waits beside the
 // new one under a hidden name until the new one is complete.
 class RunFolder {
   public:
-    // Throws UserError when `out` exists and `force` is not set, when `out` holds no run of ours, and when
-    // the folder cannot be made or written.
+    // Throws UserError when `out` is an empty name, when it exists, is not empty and `force` is not set, when
+    // `force` is set and it holds no run of ours or files that are not ours, and when the folder cannot be
+    // made or written.
     explicit RunFolder(const RunFolderRequest& request);
 
     const std::filesystem::path& path() const { return path_; }
@@ -27,18 +29,22 @@ class RunFolder {
     // Where the run that is being replaced waits; empty when there is none.
     const std::filesystem::path& previous() const { return previous_; }
 
-    // The new run is complete: the previous one is removed.
+    // The new run is complete: the previous one is removed, unless it has got files that are not ours.
     void remove_previous();
 
-    // The new run never began: its folder is removed and the previous run is put back.
+    // The new run never began: its folder is removed, or emptied when it was there before, and the previous
+    // run is put back.
     void discard();
 
   private:
-    bool make(const std::filesystem::path& path);  // false when something of that name exists
+    void take(const std::filesystem::path& out, bool force);
+    void adopt(const std::filesystem::path& path);  // an empty folder
+    bool make(const std::filesystem::path& path);   // false when something of that name exists
     void move_aside(const std::filesystem::path& path);
 
     std::filesystem::path path_;
     std::filesystem::path previous_;
+    bool adopted_ = false;  // the folder was there before, empty
 };
 
 }  // namespace grainreel

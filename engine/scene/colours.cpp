@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -44,8 +45,14 @@ std::optional<Colour> parse_colour(std::string_view text) {
     return from_rgb(rgb);
 }
 
-Colour default_colour(std::size_t n) {
-    return from_rgb(named_colours[n % palette_size].rgb);
+Colour default_colour(const std::vector<Colour>& taken) {
+    const auto uses = [&](const Named& named) {
+        return std::count(taken.begin(), taken.end(), from_rgb(named.rgb));
+    };
+    const auto end = named_colours.begin() + palette_size;
+    return from_rgb(std::min_element(named_colours.begin(), end, [&](const Named& a, const Named& b) {
+                        return uses(a) < uses(b);
+                    })->rgb);
 }
 
 std::string colour_text(const Colour& colour) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/scene/scene.hpp"
 
@@ -12,8 +13,9 @@ namespace grainreel {
 // "#rrggbb" or a name of Okabe and Ito's palette (2008, jfly.uni-koeln.de/color), or black, white, grey.
 std::optional<Colour> parse_colour(std::string_view text);
 
-// The palette's n-th colour, from orange on; starts again after the eighth.
-Colour default_colour(std::size_t n);
+// The first of the palette's eight colours, from orange on, that is taken least often: not at all while one
+// is free.
+Colour default_colour(const std::vector<Colour>& taken);
 
 // "#rrggbb".
 std::string colour_text(const Colour& colour);

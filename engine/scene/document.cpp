@@ -104,6 +104,15 @@ bool Document::is_array(const std::string& path) const {
     return node != nullptr && node->is_array();
 }
 
+bool Document::is_text(const std::string& path) const {
+    const toml::node* node = find(path);
+    return node != nullptr && node->is_string();
+}
+
+std::string Document::written_value(const std::string& path) const {
+    return written_value(*find(path));
+}
+
 std::string Document::written_value(const toml::node& node) const {
     std::ostringstream text;
     text << toml::node_view<const toml::node>(node);
@@ -111,6 +120,16 @@ std::string Document::written_value(const toml::node& node) const {
     std::replace(value.begin(), value.end(), '\n', ' ');
     if (value.size() >= 2 && value.front() == '\'') value.front() = value.back() = '"';
     return value;
+}
+
+// Whoever writes 90 means degrees: a phase without a unit is in turns, where whole ones say nothing.
+void Document::check_bare_phase(const std::string& path, const toml::node& node) const {
+    const double turns = node.value<double>().value_or(0);
+    if (std::isfinite(turns) && std::abs(turns) > 1)
+        fail(path,
+             fmt::format("is in turns without a unit, and must be from -1 to 1 then, but is {0}; write for "
+                         "example \"{0} deg\"",
+                         written_value(node)));
 }
 
 double Document::number_in(const std::string& path, const toml::node& node, const Key& key) const {
@@ -126,13 +145,16 @@ double Document::number_in(const std::string& path, const toml::node& node, cons
         value = *real;
     } else if (const auto text = node.value_exact<std::string>()) {
         try {
-            value = parse_quantity(*text, key.dimension);
+            // A pure number has no example that suits every key.
+            value =
+                parse_quantity(*text, key.dimension, key.dimension == Dimension::number ? key.example() : "");
         } catch (const UserError& error) {
             fail(path, error.what());
         }
     } else {
         wrong(dimension.noun);
     }
+    if (key.dimension == Dimension::phase && node.is_number()) check_bare_phase(path, node);
     if (std::isnan(value)) wrong(dimension.noun);
     if (std::isinf(value) && !key.range.infinite) wrong("finite");
     if (!key.range.contains(value)) wrong(key.range.text());

@@ -39,6 +39,8 @@ class Document {
     std::size_t size(const std::string& path) const;  // of an array; 0 when absent
     bool is_table(const std::string& path) const;     // an inline table as a value
     bool is_array(const std::string& path) const;
+    bool is_text(const std::string& path) const;
+    std::string written_value(const std::string& path) const;  // of a key that is there, as TOML
 
     // The value of a key, in its dimension's unit; none when absent. Throw UserError when it is not of the
     // key's kind or outside its range.
@@ -68,6 +70,7 @@ class Document {
     const toml::node* find(const std::string& path) const;
     const toml::node* read(const std::string& path);  // find, and remember that it was read
     double number_in(const std::string& path, const toml::node& node, const Key& key) const;
+    void check_bare_phase(const std::string& path, const toml::node& node) const;
     std::string written_value(const toml::node& node) const;
     void record(const std::string& path, const toml::node& node);
     void check_table(const std::string& path, const toml::table& table) const;

@@ -43,7 +43,9 @@ std::string trimmed(const std::string& text) {
 toml::table parsed_value(const std::string& text, const Key* key) {
     const bool quoted = !text.empty() && (text.front() == '"' || text.front() == '\'');
     const bool wants_text = key != nullptr && (key->kind == KeyKind::text || key->kind == KeyKind::choice);
-    if (quoted || !wants_text) {
+    // "0x0" is a hexadecimal number to TOML.
+    const bool plain_size = key != nullptr && key->kind == KeyKind::picture_size && text.rfind('[', 0) != 0;
+    if (quoted || !(wants_text || plain_size)) {
         try {
             return toml::parse("value = " + text);
         } catch (const toml::parse_error&) {

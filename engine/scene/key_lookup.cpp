@@ -97,10 +97,10 @@ bool Range::contains(double value) const {
 
 std::string Range::text() const {
     if (std::isfinite(low) && std::isfinite(high))
-        return open ? fmt::format("larger than {:.15g} and at most {:.15g}", low, high)
-                    : fmt::format("from {:.15g} to {:.15g}", low, high);
+        return open ? fmt::format("larger than {} and at most {}", low, high)
+                    : fmt::format("from {} to {}", low, high);
     if (std::isfinite(low))
-        return open ? fmt::format("larger than {:.15g}", low) : fmt::format("at least {:.15g}", low);
+        return open ? fmt::format("larger than {}", low) : fmt::format("at least {}", low);
     return infinite ? "" : "finite";
 }
 

@@ -87,7 +87,7 @@ void add_species(Keys& keys) {
                             "Of the solid."));
     keys.push_back(quantity("species[].mass", Dimension::mass, positive, note("none"),
                             "Of a grain of mean diameter, instead of the density."));
-    keys.push_back(entry("species[].colour", KeyKind::colour, note("Okabe-Ito colours in order"),
+    keys.push_back(entry("species[].colour", KeyKind::colour, note("the next Okabe-Ito colour that is free"),
                          "\"#rrggbb\" or a name: black, white, grey, orange, sky-blue, green, yellow, blue, "
                          "vermilion, purple."));
 }
@@ -166,8 +166,9 @@ void add_drive(Keys& keys) {
                             "a, half of the stroke."));
     keys.push_back(
         entry("drive.direction", KeyKind::vector, literal("[0, 0, 1]"), "Of the motion; any length."));
-    keys.push_back(quantity("drive.phase", Dimension::phase, any, literal("0"),
-                            "Of the sine at t = 0, \"90 deg\" or 0.25 turns."));
+    keys.push_back(
+        quantity("drive.phase", Dimension::phase, any, literal("0"),
+                 "Of the sine at t = 0, \"90 deg\" or 0.25 turns; beyond one turn with a unit only."));
     keys.push_back(quantity("drive.ramp", Dimension::number, not_negative, literal("3"),
                             "Periods over which the amplitude grows: 3 or more, or 0 for a sudden start."));
     keys.push_back(
@@ -239,7 +240,7 @@ void add_film(Keys& keys) {
     keys.push_back(
         integer("film.segment[].every", 1, 4, literal("1"), "locked: periods a frame, 1, 2 or 4."));
     keys.push_back(quantity("film.segment[].phase", Dimension::phase, any, literal("0"),
-                            "locked: \"90 deg\" or 0.25 turns."));
+                            "locked: \"90 deg\" or 0.25 turns; beyond one turn with a unit only."));
 }
 
 }  // namespace

@@ -127,6 +127,22 @@ void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, cons
     }
 }
 
+// A default colour repeats another species' when the palette has none left.
+void warn_of_colours(const Scene& scene, Warnings& warnings) {
+    const std::vector<Species>& species = scene.species;
+    for (std::size_t i = 0; i < species.size(); ++i) {
+        if (scene.written.count(fmt::format("species[{}].colour", i)) > 0) continue;
+        for (std::size_t j = 0; j < species.size(); ++j) {
+            if (i == j || species[j].colour != species[i].colour) continue;
+            warnings.add(fmt::format("species[{}]", i).c_str(),
+                         fmt::format("\"{}\" and \"{}\" look alike: there are more species than default "
+                                     "colours; give one a colour of its own, such as colour = \"#8b4513\"",
+                                     species[std::min(i, j)].name, species[std::max(i, j)].name));
+            return;
+        }
+    }
+}
+
 void warn_of_film(const Scene& scene, Warnings& warnings) {
     double shown = 0;
     for (const FilmSegment& segment : scene.film.segments) {
@@ -149,6 +165,7 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
     warn_of_drive(scene, bed, warnings);
     warn_of_softness(scene, plan, bed, warnings);
     warn_of_step(scene, plan, bed, step, warnings);
+    warn_of_colours(scene, warnings);
     warn_of_film(scene, warnings);
     return warnings.take();
 }

@@ -17,12 +17,10 @@ void read_size(Document& document, Film& film) {
     const char* path = "film.size";
     if (!document.has(path)) return;
     std::array<std::int64_t, 2> size{0, 0};
-    std::string shown = "something else";
     if (document.is_array(path)) {
         size = document.two_integers(path).value_or(size);
-        shown = fmt::format("[{}, {}]", size[0], size[1]);
-    } else if (const auto text = document.text(path)) {
-        shown = "\"" + *text + "\"";
+    } else if (document.is_text(path)) {
+        const std::optional<std::string> text = document.text(path);
         const char* end = text->data() + text->size();
         const auto width = std::from_chars(text->data(), end, size[0]);
         if (width.ptr != end && *width.ptr == 'x') {
@@ -35,7 +33,7 @@ void read_size(Document& document, Film& film) {
         document.fail(path,
                       fmt::format("must be width x height, each from {} to {} pixels, but is {}; write for "
                                   "example \"1920x1080\"",
-                                  least_pixels, most_pixels, shown));
+                                  least_pixels, most_pixels, document.written_value(path)));
     film.width = static_cast<int>(size[0]);
     film.height = static_cast<int>(size[1]);
 }
@@ -65,7 +63,7 @@ FilmSegment read_segment(Document& document, const Scene& scene, const std::stri
         document.fail(table + ".kind",
                       "is \"locked\", but nothing oscillates; add [drive] or write \"motion\"");
     segment.every = static_cast<int>(document.integer(table + ".every").value_or(segment.every));
-    if (segment.every == 3) document.fail(table + ".every", "must be 1, 2 or 4, but is 3");
+    if (segment.every == 3) document.fail(table + ".every", "must be 1, 2 or 4, but is 3; write 2 or 4");
     segment.phase = document.quantity(table + ".phase").value_or(segment.phase);
     return segment;
 }

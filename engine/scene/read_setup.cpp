@@ -40,7 +40,7 @@ SizeSpread read_diameter(Document& document, const std::string& path) {
     return spread;
 }
 
-Species read_one_species(Document& document, const std::string& path, std::size_t index) {
+Species read_one_species(Document& document, const std::string& path) {
     Species species;
     species.name = document.required_text(path + ".name");
     const auto count = document.integer(path + ".count");
@@ -54,7 +54,6 @@ Species read_one_species(Document& document, const std::string& path, std::size_
     } else {
         species.density = document.required_quantity(path + ".density");
     }
-    species.colour = default_colour(index);
     if (const auto text = document.text(path + ".colour")) {
         const auto colour = parse_colour(*text);
         if (!colour)
@@ -67,6 +66,19 @@ Species read_one_species(Document& document, const std::string& path, std::size_
     return species;
 }
 
+// Species without a colour get those that the others leave.
+void choose_colours(const Document& document, std::vector<Species>& species) {
+    std::vector<Colour> taken;
+    const auto has_own = [&](std::size_t i) { return document.has(fmt::format("species[{}].colour", i)); };
+    for (std::size_t i = 0; i < species.size(); ++i)
+        if (has_own(i)) taken.push_back(species[i].colour);
+    for (std::size_t i = 0; i < species.size(); ++i) {
+        if (has_own(i)) continue;
+        species[i].colour = default_colour(taken);
+        taken.push_back(species[i].colour);
+    }
+}
+
 }  // namespace
 
 void read_species(Document& document, Scene& scene) {
@@ -76,7 +88,8 @@ void read_species(Document& document, Scene& scene) {
                         ": there are no grains; write [[species]] and below it name, count, "
                         "diameter and density");
     for (std::size_t i = 0; i < count; ++i)
-        scene.species.push_back(read_one_species(document, fmt::format("species[{}]", i), i));
+        scene.species.push_back(read_one_species(document, fmt::format("species[{}]", i)));
+    choose_colours(document, scene.species);
 }
 
 void read_container(Document& document, Scene& scene) {

@@ -118,11 +118,11 @@ const DimensionText& text_of(Dimension dimension) {
     return dimension_texts[static_cast<std::size_t>(dimension)];
 }
 
-double parse_quantity(std::string_view text, Dimension dimension) {
+double parse_quantity(std::string_view text, Dimension dimension, const std::string& example) {
     const DimensionText& wanted = text_of(dimension);
     const auto fail = [&](const std::string& what) -> UserError {
-        return UserError(
-            fmt::format("must be {}, but {}; write for example {}", wanted.noun, what, wanted.example));
+        return UserError(fmt::format("must be {}, but {}; write for example {}", wanted.noun, what,
+                                     example.empty() ? wanted.example : example));
     };
     const std::string_view all = trimmed(text);
     double value = 0;

@@ -33,7 +33,8 @@ struct DimensionText {
 const DimensionText& text_of(Dimension dimension);
 
 // The value of `text` in the dimension's unit. Throws UserError, whose line lacks the place and the name of
-// the key: "must be a length, but \"2 s\" is a time; write for example \"5 mm\"". Safe from several threads.
-double parse_quantity(std::string_view text, Dimension dimension);
+// the key: "must be a length, but \"2 s\" is a time; write for example \"5 mm\"", with `example` when there
+// is one. Safe from several threads.
+double parse_quantity(std::string_view text, Dimension dimension, const std::string& example = "");
 
 }  // namespace grainreel

@@ -37,6 +37,11 @@ std::string vector(const Vec3& v) {
     return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
 }
 
+// Turns; those beyond one need their unit, without which the reader takes them for a mistake.
+std::string phase(double turns) {
+    return std::abs(turns) > 1 ? quoted(fmt::format("{} turn", turns)) : number(turns);
+}
+
 class SceneText {
   public:
     void table(const char* name) { text_ += fmt::format("\n[{}]\n", name); }
@@ -159,7 +164,7 @@ void write_drive(SceneText& out, const Scene& scene) {
     out.comment(fmt::format("g level {:.6g}", drive.g_level(scene.gravity.norm())));
     out.put("amplitude", drive.amplitude);
     out.put("direction", vector(drive.direction));
-    out.put("phase", drive.phase);
+    out.put("phase", phase(drive.phase));
     out.put("ramp", drive.ramp);
     out.words("moves", drive.moves == Drive::Moves::container ? "container" : "floor");
 }
@@ -219,7 +224,7 @@ void write_film(SceneText& out, const Film& film) {
             out.put("playback", segment.playback);
         } else {
             out.whole("every", segment.every);
-            out.put("phase", segment.phase);
+            out.put("phase", phase(segment.phase));
         }
     }
 }

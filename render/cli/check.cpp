@@ -112,9 +112,10 @@ std::string drive_text(const Scene& scene) {
                                   : fmt::format("along ({:.3g}, {:.3g}, {:.3g})", d.direction.x(),
                                                 d.direction.y(), d.direction.z());
     const std::string ramp = d.ramp > 0 ? fmt::format("grows over {:.3g} periods", d.ramp) : "starts at once";
-    return fmt::format("{} {}, {:.4g} Hz, amplitude {}{}, top speed {:.3g} m/s, {}",
+    const std::string phase = d.phase != 0 ? fmt::format(", phase {:.4g} deg", d.phase * 360) : "";
+    return fmt::format("{} {}, {:.4g} Hz, amplitude {}{}, top speed {:.3g} m/s{}, {}",
                        d.moves == Drive::Moves::container ? "container" : "floor", along, d.frequency,
-                       length(d.amplitude), level, d.speed(), ramp);
+                       length(d.amplitude), level, d.speed(), phase, ramp);
 }
 
 void print_setup(const Scene& scene, const Plan& plan, Listing& list) {

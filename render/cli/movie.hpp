@@ -6,8 +6,8 @@
 
 namespace grainreel {
 
-// Returns the exit status: 0, 1 when the run failed on its way (what it had is kept), 130 or 143 when it was
-// asked to stop. Throws UserError before anything is written.
+// Returns the exit status: 0, 1 when the run failed on its way (what it had is kept), 129, 130 or 143 when it
+// was asked to stop. Throws UserError before anything is written.
 int make_movie(const Options& options, Reporter& reporter);
 
 }  // namespace grainreel

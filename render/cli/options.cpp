@@ -99,8 +99,8 @@ void add_movie(CLI::App& app, Options& options) {
     movie.footer(
         "The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the film so that it\n"
         "plays and keeps the end state; a second one stops at once.\n"
-        "Exit status: 0 done, 1 the run failed, 2 a mistake in the scene or the options, 130 Ctrl-C,\n"
-        "143 SIGTERM.");
+        "Exit status: 0 done, 1 the run failed, 2 a mistake in the scene or the options, 129 the\n"
+        "terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.");
     movie.callback([&options] { options.verb = Options::Verb::movie; });
 }
 

@@ -14,7 +14,15 @@ static_assert(std::atomic<int>::is_always_lock_free);  // what a handler may tou
 
 extern "C" void on_stop(int signal) {
     int none = 0;
-    if (!first_signal.compare_exchange_strong(none, signal)) ::_exit(128 + signal);
+    const bool first = first_signal.compare_exchange_strong(none, signal);
+    // One closed terminal sends several SIGHUP, the kernel's and the shell's: they hurry nobody.
+    if (!first && signal != SIGHUP) ::_exit(128 + signal);
+}
+
+// nohup and its like have the signal ignored before the program starts, and that holds.
+bool ignored(int signal) {
+    struct sigaction present {};
+    return sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
 }
 
 }  // namespace
@@ -26,6 +34,7 @@ void install_signal_handlers() {
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    if (!ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -1,12 +1,14 @@
-// Ctrl-C and SIGTERM: the first asks the run to end in good order, the second ends the program at once.
+// Ctrl-C, SIGTERM and SIGHUP (the terminal is gone): the first asks the run to end in good order, a second
+// Ctrl-C or SIGTERM ends the program at once.
 #pragma once
 
 namespace grainreel {
 
-// SIGPIPE and SIGXFSZ are ignored from then on: a closed pipe or a full quota shows as a failed write.
+// A SIGHUP that is ignored already, as under nohup, stays ignored. SIGPIPE and SIGXFSZ are ignored from then
+// on: a closed pipe or a full quota shows as a failed write.
 void install_signal_handlers();
 
-// SIGINT or SIGTERM, whichever came first; 0 while neither did.
+// SIGINT, SIGTERM or SIGHUP, whichever came first; 0 while none did.
 int stop_signal();
 
 }  // namespace grainreel

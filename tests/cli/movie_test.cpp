@@ -138,6 +138,19 @@ TEST_F(MovieProgram, NeverOverwritesARun) {
     EXPECT_EQ(std::distance(fs::directory_iterator(here / "output"), {}), 2);  // the old run is gone
 }
 
+TEST_F(MovieProgram, ForceKnowsEveryFileThatARunWrites) {
+    const std::vector<std::string> words = {"--frames", "--set", "output.contacts=true",
+                                            "--out",    "all",   "--force"};
+    ASSERT_EQ(movie(words).status, 0);
+    const Ended again = movie(words);
+    EXPECT_EQ(again.status, 0) << again.err;
+    write_text(here / "all/mine.txt", "mine");
+    const Ended refused = movie(words);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--out all: holds mine.txt"));
+    EXPECT_EQ(text_of(here / "all/mine.txt"), "mine");
+}
+
 TEST_F(MovieProgram, OutputGoesWhereTheEnvironmentSays) {
     EXPECT_EQ(movie({"--no-film"}, {"GRAINREEL_OUTPUT=elsewhere"}).out, "elsewhere/fifty\n");
     EXPECT_TRUE(fs::exists(here / "elsewhere/fifty/run.json"));
@@ -201,6 +214,7 @@ TEST_F(MovieProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
         {{"movie", fifty, "--set", "species.small.count=100000"}, "more than"},
         {{"movie", fifty, "--set", "species.big.diameter=25 mm"}, "diameter"},
         {{"movie", fifty, "--set", "start.method=file", "--set", "start.file=gone.grs"}, "gone.grs"},
+        {{"movie", fifty, "--out", ""}, "--out: the name is empty"},
         {{"movie", fifty, "--out", "/dev/null/run"},
          "/dev/null/run: the folder cannot be made: Not a directory"},
     };
@@ -233,6 +247,10 @@ TEST_F(MovieProgram, CheckPrintsThePlanAndWritesNothing) {
     const Ended ended = run_program({"check", scene.string()}, {here.path(), {}});
     EXPECT_EQ(ended.status, 0);
     EXPECT_THAT(ended.out, HasSubstr(std::to_string(make_plan(read_scene(scene)).clock.steps_per_period)));
+    EXPECT_THAT(ended.out, Not(HasSubstr("phase ")));
+    const Ended shifted =
+        run_program({"check", scene.string(), "--set", "drive.phase=0.25"}, {here.path(), {}});
+    EXPECT_THAT(shifted.out, HasSubstr(" m/s, phase 90 deg, grows over"));
     EXPECT_EQ(std::distance(fs::directory_iterator(here.path()), {}), entries);
 }
 

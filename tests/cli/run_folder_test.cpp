@@ -86,6 +86,60 @@ TEST(RunFolder, ForceLeavesAFolderAloneThatHoldsNoRun) {
     EXPECT_EQ(text_of(here / "home/thesis.tex"), "years of work");
 }
 
+TEST(RunFolder, ForceLeavesAFolderAloneThatHoldsOtherFilesToo) {
+    const TemporaryFolder here;
+    const fs::path run = here / "run";
+    make_run(run);
+    fs::create_directory(run / "frames");
+    write_text(run / "frames/000000.png", "");
+    const auto expect_refused = [&](const std::string& name) {
+        EXPECT_EQ(
+            message_of({"wedge", "output", run, true}),
+            "--out " + run.string() + ": holds " + name +
+                ", which is no file of a run, so --force leaves the folder alone; move that file away or "
+                "choose another name");
+        EXPECT_TRUE(fs::exists(run / name));
+        EXPECT_EQ(text_of(run / "movie.mp4"), "the old film");
+        EXPECT_EQ(entries(here.path()), 1u);
+    };
+    write_text(run / "frames/notes.png", "mine");
+    expect_refused("frames/notes.png");
+    write_text(run / "mine.txt", "mine");
+    write_text(run / "zoo.txt", "mine");
+    expect_refused("mine.txt");  // the first by name
+    fs::create_directory(run / "film");
+    expect_refused("film");
+}
+
+TEST(RunFolder, AFileThatCameToTheOldRunMeanwhileKeepsIt) {
+    const TemporaryFolder here;
+    make_run(here / "run");
+    RunFolder folder({"wedge", "output", here / "run", true});
+    write_text(folder.previous() / "mine.txt", "mine");
+    folder.remove_previous();
+    EXPECT_EQ(folder.previous(), here / ".run.old-1");
+    EXPECT_EQ(text_of(here / ".run.old-1/mine.txt"), "mine");
+}
+
+TEST(RunFolder, AnEmptyFolderIsTakenOnceAndEmptyAgainWhenDiscarded) {
+    const TemporaryFolder here;
+    fs::create_directory(here / "mine");
+    for (const bool force : {false, true}) {
+        RunFolder folder({"wedge", "output", here / "mine", force});
+        EXPECT_EQ(folder.path(), here / "mine");
+        EXPECT_TRUE(folder.previous().empty());
+        EXPECT_THAT(message_of({"wedge", "output", here / "mine", false}), HasSubstr("exists already"));
+        write_text(folder.path() / "run.json", "begun");
+        folder.discard();
+        EXPECT_TRUE(fs::is_empty(here / "mine"));
+    }
+}
+
+TEST(RunFolder, AnEmptyNameIsAUserError) {
+    EXPECT_EQ(message_of({"wedge", "output", "", false}),
+              "--out: the name is empty; name a folder, or leave out --out");
+}
+
 TEST(RunFolder, DiscardPutsTheOldRunBack) {
     const TemporaryFolder here;
     make_run(here / "run");

@@ -65,9 +65,37 @@ TEST_P(SignalledMovie, EndsInGoodOrder) {
     EXPECT_EQ(std::stoll(measures.substr(last_line)), record()["engine"]["steps"].get<std::int64_t>());
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, SignalledMovie, testing::Values(SIGINT, SIGTERM), [](const auto& signal) {
-    return signal.param == SIGINT ? "Interrupt" : "Terminate";
-});
+INSTANTIATE_TEST_SUITE_P(Signals, SignalledMovie, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& signal) {
+                             return signal.param == SIGINT    ? "Interrupt"
+                                    : signal.param == SIGTERM ? "Terminate"
+                                                              : "HangUp";
+                         });
+
+// A closed terminal sends SIGHUP from the kernel and from the shell.
+TEST_F(StoppedMovie, ASecondHangUpLeavesTheGoodOrder) {
+    Program program(long_run(), {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 5; }));
+    program.send(SIGHUP);
+    ASSERT_TRUE(wait_until(
+        program, [&] { return text_of(here / "run/log.txt").find("stopping") != std::string::npos; }));
+    program.send(SIGHUP);
+    EXPECT_EQ(program.wait().status, 129);
+    EXPECT_EQ(record()["status"], "interrupted");
+    EXPECT_EQ(decoded_pictures(here / "run/movie.mp4"), record()["written"]["film_frames"].get<int>());
+}
+
+TEST_F(StoppedMovie, GoesOnUnderNohup) {
+    const auto before = ::signal(SIGHUP, SIG_IGN);  // what the program inherits
+    Program program(long_run({"--no-film"}), {here.path(), {}});
+    ::signal(SIGHUP, before);
+    ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 1; }));
+    program.send(SIGHUP);
+    const std::size_t then = frames_on_disk();
+    ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= then + 3; }));
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait().status, 143);
+}
 
 TEST_F(StoppedMovie, ASecondSignalStopsAtOnce) {
     Program program(long_run({"--no-film"}), {here.path(), {}});
@@ -99,7 +127,7 @@ TEST_F(StoppedMovie, KilledLeavesAReadableTrajectoryAndFilm) {
 TEST_F(StoppedMovie, InterruptedBeforeTheFirstStepKeepsTheOldRun) {
     fs::create_directory(here / "run");
     write_text(here / "run/run.json", "{}");
-    write_text(here / "run/film.txt", "the old film");
+    write_text(here / "run/movie.mp4", "the old film");
     // So many grains, and so hard ones, that packing takes a while.
     Program program(long_run({"--force", "--set", "species.small.count=150", "--set", "run.step=1e-7 s"}),
                     {here.path(), {}});
@@ -108,7 +136,7 @@ TEST_F(StoppedMovie, InterruptedBeforeTheFirstStepKeepsTheOldRun) {
     const Ended ended = program.wait();
     EXPECT_EQ(ended.status, 130);
     EXPECT_THAT(ended.err, HasSubstr("the run that was to be replaced is kept in .run.old-1"));
-    EXPECT_EQ(text_of(here / ".run.old-1/film.txt"), "the old film");
+    EXPECT_EQ(text_of(here / ".run.old-1/movie.mp4"), "the old film");
     EXPECT_EQ(record()["status"], "interrupted");
 }
 

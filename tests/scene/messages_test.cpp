@@ -140,6 +140,21 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"name = \"small\"", "name = \"big\"", "9:1: 'name' \"big\" is taken; choose another"},
         Case{"g_level = 3", "g_level = 3\nramp = 2",
              "26:1: 'ramp' must be 0 or at least 3 periods, but is 2"},
+        Case{"g_level = 3", "g_level = 3\nphase = 90",
+             "26:1: 'phase' is in turns without a unit, and must be from -1 to 1 then, but is 90; write for "
+             "example \"90 deg\""},
+        Case{
+            "[run]\n", "[[film.segment]]\nkind = \"locked\"\nphase = -1.5\n[run]\n",
+            "28:1: 'phase' is in turns without a unit, and must be from -1 to 1 then, but is -1.5; write for "
+            "example \"-1.5 deg\""},
+        Case{"g_level = 3", "g_level = 3\nphase = inf",
+             "26:1: 'phase' must be finite, but is inf; write for example 0"},
+        Case{
+            "[run]\n", "[film]\nsize = 641\n[run]\n",
+            "27:1: 'size' must be width x height, each from 64 to 8192 pixels, but is 641; write for example "
+            "\"1920x1080\""},
+        Case{"[run]\n", "[[film.segment]]\nkind = \"locked\"\nevery = 3\n[run]\n",
+             "28:1: 'every' must be 1, 2 or 4, but is 3; write 2 or 4"},
         Case{"g_level = 3", "g_level = 3\ndirection = [0, 0, 0]",
              "26:1: 'direction' must not be zero; write for example [0, 0, 1]"},
         Case{"gravity = 10.0", "gravity = 0",
@@ -222,6 +237,21 @@ TEST(Messages, CommandLine) {
               "--set species.huge.count=3: there is no 'huge' among the 2 entries; they count from 0");
     EXPECT_EQ(complaint(wedge_text, {"run.duration.more=3"}),
               "--set run.duration.more=3: 'run.duration' is not a table; name one of its own keys");
+    const std::string size =
+        "--set film.size: 'size' must be width x height, each from 64 to 8192 pixels, but is ";
+    for (const char* wrong : {"641", "0x0", "640x", "1920x1080p", "99999999999999999999x100"})
+        EXPECT_EQ(complaint(wedge_text, {std::string("film.size=") + wrong}),
+                  size + "\"" + wrong + "\"; write for example \"1920x1080\"");
+    EXPECT_EQ(complaint(wedge_text, {"film.size=[640, 9999]"}),
+              size + "[ 640, 9999 ]; write for example \"1920x1080\"");
+    EXPECT_EQ(
+        complaint(wedge_text, {"film.rate=x"}),
+        "--set film.rate: 'rate' must be a plain number, but \"x\" does not begin with a number; write for "
+        "example 30");
+    EXPECT_EQ(
+        complaint(wedge_text, {"run.seed=-1"}),
+        "--set run.seed: 'seed' must be a whole number from 0 to 9007199254740992, but is -1; write for "
+        "example 1");
     EXPECT_EQ(complaint(wedge_text, {"drive.frequency=25 hz"}),
               "--set drive.frequency: 'frequency' must be a frequency, but \"25 hz\" has the unknown unit "
               "\"hz\"; write for "

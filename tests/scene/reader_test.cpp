@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/scene/colours.hpp"
 #include "engine/scene/plan.hpp"
 #include "tests/scene/scene_text.hpp"
 
@@ -105,6 +106,39 @@ TEST(Reader, KnowsWhereEveryValueStands) {
     EXPECT_EQ(scene.where("run.duration"), "--set run.duration");
     EXPECT_EQ(scene.where("drive.phase"), "test.toml:23:2");  // not written: its table
     EXPECT_EQ(scene.where("start.method"), "test.toml");
+}
+
+// n more species, without colours.
+std::string species_text(std::size_t n) {
+    std::string text;
+    for (std::size_t i = 0; i < n; ++i)
+        text += "[[species]]\nname = \"more" + std::to_string(i) +
+                "\"\ncount = 1\ndiameter = \"5 mm\"\ndensity = 2500\n";
+    return text;
+}
+
+TEST(Reader, DefaultColoursAreThoseThatOthersLeave) {
+    const Scene scene =
+        read_text(wedge_text + species_text(2), {"species.big.colour=sky-blue", "species[2].colour=#009e73"});
+    const char* expected[] = {"orange", "sky-blue", "green", "yellow"};
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(scene.species[i].colour, *parse_colour(expected[i])) << i;
+}
+
+TEST(Reader, MoreSpeciesThanColoursIsAWarning) {
+    const Scene eight = read_text(wedge_text + species_text(6));
+    for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t j = 0; j < i; ++j) EXPECT_NE(eight.species[i].colour, eight.species[j].colour);
+    EXPECT_TRUE(make_plan(eight).warnings.empty());
+    const Scene nine = read_text(wedge_text + species_text(7));
+    EXPECT_EQ(nine.species[8].colour, nine.species[0].colour);
+    const std::string warning =
+        ": \"small\" and \"more6\" look alike: there are more species than default colours; give one a "
+        "colour "
+        "of its own, such as colour = \"#8b4513\"";
+    ASSERT_EQ(make_plan(nine).warnings.size(), 1u);
+    EXPECT_EQ(make_plan(nine).warnings[0], nine.where("species[0]") + warning);
+    EXPECT_TRUE(make_plan(read_text(wedge_text + species_text(7), {"species.more6.colour=#8b4513"}))
+                    .warnings.empty());
 }
 
 TEST(Reader, StartFileCountsFromTheScenesFolder) {

@@ -58,7 +58,7 @@ TEST(Writer, ResolvedScenesReadBackBitByBit) {
     expect_round_trip(read_text(box_text));
     expect_round_trip(read_text(
         wedge_text,
-        {"drive.frequency=33.3", "drive.direction=[1, 2, 3]", "drive.phase=77 deg", "run.seed=123456789",
+        {"drive.frequency=33.3", "drive.direction=[1, 2, 3]", "drive.phase=1007 deg", "run.seed=123456789",
          "contact.friction_law=linear-spring", "container.half_angle=17.3 deg", "run.steps_per_contact=31",
          "title=say \"hello\" to C:\\grains\tnow"}));
     expect_round_trip(
