@@ -22,7 +22,8 @@ constexpr double kTooDeep = 1.0 / 3;
 
 Grains grains_from_table(const Scene& scene) {
     if (scene.start.keep_clock)
-        fail(scene, "is a table of grains and knows no clock; give a checkpoint, or set start.keep_clock = false");
+        fail(scene,
+             "is a table of grains and knows no clock; give a checkpoint, or set start.keep_clock = false");
     const Frame frame = read_grain_table(scene.start.file);
     Grains grains;
     for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -47,14 +48,15 @@ void check_grains_match(const Scene& scene, const Grains& grains) {
         ++count[grains.species[i]];
         if (diameter < species.diameter.smallest * (1 - kSameSize) ||
             diameter > species.diameter.largest * (1 + kSameSize))
-            fail(scene, fmt::format("has grain {} of \"{}\" with a diameter of {:.6g} m, which the scene does not "
-                                    "allow; give the diameters of the run the file comes from",
-                                    grains.id[i], species.name, diameter));
+            fail(scene,
+                 fmt::format("has grain {} of \"{}\" with a diameter of {:.6g} m, which the scene does not "
+                             "allow; give the diameters of the run the file comes from",
+                             grains.id[i], species.name, diameter));
     }
     for (std::size_t s = 0; s < count.size(); ++s) {
         if (count[s] != scene.species[s].count)
-            fail(scene, fmt::format("has {} grains of \"{}\", but the scene says {}; write count = {}", count[s],
-                                    scene.species[s].name, scene.species[s].count, count[s]));
+            fail(scene, fmt::format("has {} grains of \"{}\", but the scene says {}; write count = {}",
+                                    count[s], scene.species[s].name, scene.species[s].count, count[s]));
     }
 }
 
@@ -73,11 +75,11 @@ void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const 
 void check_grains_clear(const Scene& scene, const Grains& grains, const StepLoop& loop) {
     loop.visit_contacts(-1, [&](const ContactView& c) {
         if (c.second < 0 || c.overlap <= kTooDeep * c.smaller_radius) return;
-        fail(scene, fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; take the file of "
-                                "another run",
-                                std::min(grains.id[c.first], grains.id[c.second]),
-                                std::max(grains.id[c.first], grains.id[c.second]),
-                                c.overlap / c.smaller_radius));
+        fail(scene,
+             fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; take the file of "
+                         "another run",
+                         std::min(grains.id[c.first], grains.id[c.second]),
+                         std::max(grains.id[c.first], grains.id[c.second]), c.overlap / c.smaller_radius));
     });
 }
 
