@@ -92,6 +92,22 @@ TEST(NormalImpact, RestitutionFallsWithSpeedAsWaltonAndBraunHaveIt) {
     }
 }
 
+// Schwager & Poeschel 2007, free to pull at the end: e = exp(-pi b / sqrt(1 - b^2)), contact time
+// pi / (w0 sqrt(1 - b^2)), b = c / (2 w0).
+TEST(NormalImpact, SpringAndDashpotReboundAsTheClosedFormSays) {
+    const double natural = std::sqrt(kStiffness / (sphere_mass() / 2)), v = 0.3;
+    for (const double damping_ratio : {0.03, 0.2, 0.5}) {
+        PairPlan pair = walton_braun_pair(1, 0);
+        pair.normal_damping = 2 * natural * damping_ratio;
+        const double slower = std::sqrt(1 - damping_ratio * damping_ratio);
+        const double e = std::exp(-std::numbers::pi * damping_ratio / slower);
+        const double time = std::numbers::pi / (natural * slower), step = time / 8000;
+        const Impact impact = head_on(pair, v, step, 0.5 * v * step, NormalLaw::spring_dashpot);
+        EXPECT_NEAR(impact.e, e, 5e-4) << damping_ratio;
+        EXPECT_NEAR(impact.contact_time, time, 3 * step) << damping_ratio;
+    }
+}
+
 // Its contacts without hardening are those of the plain law, bit for bit but for how K2 (a - a0) is written.
 TEST(NormalImpact, WithoutHardeningTheLawOfSpeedsIsThePlainOne) {
     const PairPlan pair = walton_braun_pair(0.7, 0);
