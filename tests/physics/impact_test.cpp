@@ -163,6 +163,25 @@ TEST(ObliqueImpact, StickingContactTurnsTheSlipAsTheClosedFormSays) {
     }
 }
 
+// The same for two spheres head-on, where all of the slip comes from one that spins.
+TEST(ObliqueImpact, SpinOfOneSphereIsSlipForBoth) {
+    const double e = 0.8, ratio = 0.5, v = 0.05, vt = 0.05;
+    World w = make_world(walton_braun_pair(e, INFINITY, ratio), 0);
+    w.plan.clock.step = std::numbers::pi / 2 * (1 + e) * std::sqrt(sphere_mass() / 2 / kStiffness) / 2000;
+    const double apart = kRadius + 0.2 * v * w.plan.clock.step;
+    w.grains.add(0, 0, Vec3(-apart, 0, 0), kRadius, kDensity);
+    w.grains.add(1, 0, Vec3(apart, 0, 0), kRadius, kDensity);
+    w.grains.motion[0].velocity = Vec3(v / 2, 0, 0);
+    w.grains.motion[1].velocity = Vec3(-v / 2, 0, 0);
+    w.grains.spin[0].rate = Vec3(0, 0, vt / kRadius);
+    w.start();
+    w.run(1);
+    while (std::abs(w.grains.load[0].force.x()) > 0 || w.step < 100) w.run(1);
+    const double slip = w.velocity(0).y() - w.velocity(1).y() + kRadius * (w.spin(0).z() + w.spin(1).z());
+    const double angle = std::sqrt(3.5 * ratio) * std::numbers::pi / 2 * (1 + e);
+    EXPECT_NEAR(slip, vt * std::cos(angle), 0.01 * vt);
+}
+
 TEST(ObliqueImpact, SlidingContactTakesCoulombsShare) {
     const double e = 0.9, mu = 0.2, vn = 0.05, ratio = 0.8;
     const double vt = 1.5 * vn * mu * std::max({3.5, 1 / ratio, 3.5 * (1 + e) - 1 / (e * ratio)});
