@@ -39,4 +39,28 @@ void read_vector(std::istream& in, std::vector<T>& values) {
     in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(size * sizeof(T)));
 }
 
+// For functions that name what is saved once, and serve both ways.
+struct Writing {
+    std::ostream& out;
+    template <class T>
+    void operator()(const T& value) const {
+        write_value(out, value);
+    }
+    template <class T>
+    void operator()(const std::vector<T>& values) const {
+        write_vector(out, values);
+    }
+};
+struct Reading {
+    std::istream& in;
+    template <class T>
+    void operator()(T& value) const {
+        read_value(in, value);
+    }
+    template <class T>
+    void operator()(std::vector<T>& values) const {
+        read_vector(in, values);
+    }
+};
+
 }  // namespace grainreel

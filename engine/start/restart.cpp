@@ -42,16 +42,10 @@ std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
     return XXH64(bytes.data(), bytes.size(), 0);
 }
 
-template <class Stream, class Grain, class Transfer>
-void transfer_grains(Stream& stream, Grain& g, const Transfer& transfer) {
-    transfer(stream, g.id);
-    transfer(stream, g.species);
-    transfer(stream, g.place);
-    transfer(stream, g.motion);
-    transfer(stream, g.spin);
-    transfer(stream, g.load);
-    transfer(stream, g.wall_work);
-    transfer(stream, g.orientation);
+template <class Grain, class Each>
+void transfer_grains(Grain& g, const Each& each) {
+    each(g.id), each(g.species), each(g.place), each(g.motion), each(g.spin), each(g.load);
+    each(g.wall_work), each(g.orientation);
 }
 
 UserError cannot_start(const Scene& scene, const std::string& what) {
@@ -71,7 +65,7 @@ std::string read_whole(const Scene& scene) {
 
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop) {
     write_value(out, step);
-    transfer_grains(out, grains, [](std::ostream& o, const auto& values) { write_vector(o, values); });
+    transfer_grains(grains, Writing{out});
     loop.save(out);
 }
 
@@ -128,7 +122,7 @@ CheckpointHeader load_checkpoint(const Scene& scene, const Plan& plan, Grains& g
     }
     read_value(in, header);
     read_value(in, step);
-    transfer_grains(in, grains, [](std::istream& i, auto& values) { read_vector(i, values); });
+    transfer_grains(grains, Reading{in});
     if (loop) loop->load(in);
     if (!in) throw cannot_start(scene, "is damaged; take another checkpoint");
     return header;

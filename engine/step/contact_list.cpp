@@ -23,8 +23,9 @@ void ContactList::fill_up() {
     found_ = 0;
 }
 
-void ContactList::end() {
+void ContactList::end(bool carry_histories) {
     fill_up();
+    if (!carry_histories) return;
     std::int32_t old = 0;
     for (std::int32_t c = 0; c < size_; ++c) {
         while (old < old_size_ && old_slot_[old] < slot_[c]) ++old;
@@ -32,10 +33,6 @@ void ContactList::end() {
         const Block* from = &old_history_[old / kBlock * history_size_];
         for (int k = 0; k < history_size_; ++k) number(c, k) = from[k].value[old % kBlock];
     }
-}
-
-void ContactList::end_without_history() {
-    fill_up();
 }
 
 void ContactList::keep(KeptContacts& kept, std::int32_t begin) const {

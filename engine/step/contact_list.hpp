@@ -44,15 +44,13 @@ class ContactList {
         mass_[contact / kBlock].value[contact % kBlock] = mass;
     }
 
-    // A new list: begin(), then add() by rising slot, then end(). Histories follow their slot; a slot is the
-    // contact's place in the neighbour list, which must be the same as at the last refresh.
+    // A new list: begin(), then add() by rising slot, then end(). A slot is the contact's place in the
+    // neighbour list; where that is the same as at the last refresh, histories follow their slot.
     void begin(int history_size);
     void add(std::int32_t slot, std::int32_t i, std::int32_t j) {
         slot_.push_back(slot), first.push_back(i), second.push_back(j);
     }
-    void end();
-    // The same for a new neighbour list: no history is carried.
-    void end_without_history();
+    void end(bool carry_histories);
 
     // Appends the contacts that have a history and whose first grain is no lower than `begin`.
     void keep(KeptContacts& kept, std::int32_t begin) const;

@@ -41,12 +41,15 @@ bool near(const Grains& grains, std::int32_t i, std::int32_t j, double period, d
 }
 
 void add_near_walls(ContactList& walls, const Grains& grains, const std::vector<WallNeighbour>& list,
-                    const WallState& state, double skin, std::int32_t begin, std::int32_t end) {
+                    const std::vector<Face>& faces, const Vec3& offset, double skin, std::int32_t begin,
+                    std::int32_t end) {
     const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
     std::size_t slot = std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin();
     for (; slot < list.size() && list[slot].grain < end; ++slot) {
         const Place& place = grains.place[list[slot].grain];
-        if (state.faces[list[slot].face].distance(place.position) < place.radius + skin) {
+        const Face& face = faces[list[slot].face];
+        const Vec3 moved = face.moves ? offset : Vec3::Zero();
+        if (distance_to(face, moved, place.position).distance < place.radius + skin) {
             walls.add(static_cast<std::int32_t>(slot), list[slot].grain, list[slot].face);
         }
     }
@@ -78,7 +81,8 @@ void ContactPass::own(const NeighbourLists& lists, std::int32_t begin, std::int3
 }
 
 void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
-                          const WallState& state, double skin, bool carry_histories) {
+                          const std::vector<Face>& faces, const Vec3& wall_offset, double skin,
+                          bool carry_histories) {
     const NeighbourList& list = lists.pairs;
     pairs_.begin(rules.law->history_size);
     for (const auto& [slot, i] : incoming_) {
@@ -91,9 +95,9 @@ void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const
         }
     }
     walls_.begin(rules.law->history_size);
-    add_near_walls(walls_, grains, lists.walls, state, skin, begin_, end_);
+    add_near_walls(walls_, grains, lists.walls, faces, wall_offset, skin, begin_, end_);
     for (ContactList* each : {&pairs_, &walls_}) {
-        carry_histories ? each->end() : each->end_without_history();
+        each->end(carry_histories);
         note_kinds(*each, grains, rules, each == &pairs_);
     }
 }

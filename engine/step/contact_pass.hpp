@@ -34,7 +34,7 @@ class ContactPass {
     // Takes from the neighbour lists what may touch within `skin` (m). Histories are carried when the
     // neighbour lists are those of the last refresh.
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
-                 const WallState& state, double skin, bool carry_histories);
+                 const std::vector<Face>& faces, const Vec3& wall_offset, double skin, bool carry_histories);
 
     // Appends the contacts under own grains that have a history, pairs or walls; and takes back those that
     // have to do with an own grain, numbered as the grains are now.

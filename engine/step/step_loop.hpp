@@ -103,6 +103,8 @@ class StepLoop {
     ContactView view(std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
                      const ForceChunk& force) const;
     KeptContacts all_kept() const;
+    template <class Loop, class Kept, class ReachType, class Each>
+    static void transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& each);
 
     const Surroundings& around_;
     Grains& grains_;

@@ -7,7 +7,8 @@ namespace grainreel {
 void StepLoop::refresh(int member, bool same_lists) {
     Member& mine = members_[member];
     if (!same_lists) mine.contacts.own(lists_, share_[member], share_[member + 1]);
-    mine.contacts.refresh(rules_, grains_, lists_, mine.walls, mine.reach.skin, same_lists);
+    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.wall_offset, mine.reach.skin,
+                          same_lists);
 }
 
 // New order, new neighbour lists, new contacts, histories carried over: called by all members.

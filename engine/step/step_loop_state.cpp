@@ -47,49 +47,33 @@ KeptContacts StepLoop::all_kept() const {
     return all;
 }
 
+// Everything saved, in its order.
+template <class Loop, class Kept, class ReachType, class Each>
+void StepLoop::transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& each) {
+    each(kept.first), each(kept.second), each(kept.history), each(kept.pairs);
+    each(loop.lists_.pairs.start), each(loop.lists_.pairs.partner);
+    each(loop.lists_.pairs.farthest_partner);
+    each(loop.lists_.walls);
+    each(loop.listed_at_), each(loop.listed_velocity_), each(loop.listed_pose_), each(loop.listed_step_);
+    each(reach);
+}
+
 void StepLoop::save(std::ostream& out) const {
     const KeptContacts kept = all_kept();
-    write_vector(out, kept.first);
-    write_vector(out, kept.second);
-    write_vector(out, kept.history);
-    write_value(out, kept.pairs);
-    write_vector(out, lists_.pairs.start);
-    write_vector(out, lists_.pairs.partner);
-    write_value(out, lists_.pairs.farthest_partner);
-    write_vector(out, lists_.walls);
-    write_vector(out, listed_at_);
-    write_value(out, listed_velocity_);
-    write_value(out, listed_pose_);
-    write_value(out, listed_step_);
-    write_value(out, members_[0].reach);
+    transfer(*this, kept, members_[0].reach, Writing{out});
 }
 
 void StepLoop::load(std::istream& in) {
     KeptContacts kept;
     Reach reach;
-    read_vector(in, kept.first);
-    read_vector(in, kept.second);
-    read_vector(in, kept.history);
-    read_value(in, kept.pairs);
-    read_vector(in, lists_.pairs.start);
-    read_vector(in, lists_.pairs.partner);
-    read_value(in, lists_.pairs.farthest_partner);
-    read_vector(in, lists_.walls);
-    read_vector(in, listed_at_);
-    read_value(in, listed_velocity_);
-    read_value(in, listed_pose_);
-    read_value(in, listed_step_);
-    read_value(in, reach);
+    transfer(*this, kept, reach, Reading{in});
     if (!in) return;  // the caller says so
     fresh_ = false;
     share_out();
     std::vector<std::int32_t> same(grains_.size());
     std::iota(same.begin(), same.end(), 0);
-    Pose listed = listed_pose_;
     for (int member = 0; member < team_.size(); ++member) {
         members_[member].reach = reach;
-        listed.offset = reach.wall_offset;
-        members_[member].walls.set(around_.faces, listed, listed, 0);
         refresh(member, false);
         members_[member].contacts.restore(rules_, kept, same);
     }

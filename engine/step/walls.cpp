@@ -1,13 +1,6 @@
 #include "engine/step/walls.hpp"
 
-#include <cmath>
-
 namespace grainreel {
-
-double FaceRecord::distance(const Vec3& centre) const {
-    if (radius == 0) return normal.dot(centre) - level;
-    return radius - std::hypot(centre.x() - axis.x(), centre.y() - axis.y());
-}
 
 void WallState::set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step) {
     faces.resize(from.size());

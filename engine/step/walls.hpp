@@ -12,8 +12,6 @@ struct alignas(64) FaceRecord {
     double level;   // m, normal . point
     Vec3 axis;      // m, a point on a cylinder's axis
     double radius;  // m, of a cylinder; 0 for a plane
-
-    double distance(const Vec3& centre) const;  // m, from a grain's centre
 };
 
 struct alignas(64) FaceMotion {
