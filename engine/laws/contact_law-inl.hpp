@@ -35,6 +35,7 @@ struct ContactLaw {
     using Tangential = TangentialLawType;
     static constexpr bool rubs = Tangential::rubs;  // needs slip, twist and spin
     static constexpr bool uses_velocity = Normal::uses_velocity;
+    static constexpr bool uses_mass = Normal::uses_mass, uses_radius = Normal::uses_radius;
 
     template <class R>
     struct Parameters {

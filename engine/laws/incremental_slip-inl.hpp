@@ -55,11 +55,11 @@ struct IncrementalSlip {
         }
     };
 
-    // N, on j. `normal_force` N >= 0.
+    // N, on j. A normal force that pulls holds nothing.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal&, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {
-        const R limit = p.friction * normal_force;
+        const R limit = p.friction * larger(R(0), normal_force);
         const Triple<R> old = carry_along(h.force, h.normal, touch.normal, touch.twist);
         h.normal = touch.normal;
         rescale_turning_force(h, limit, normal_force);

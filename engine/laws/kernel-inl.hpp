@@ -83,8 +83,9 @@ HWY_INLINE Touch<Lanes> touch_at(const LawInput& in, int c) {
     t.overlap = load(chunk.overlap + c);
     t.twist = Lanes(0.0);
     if constexpr (Law::rubs) t.twist = load(chunk.twist + c);
-    t.effective_mass = Lanes(0.0);
-    if constexpr (Law::uses_velocity) t.effective_mass = load(in.effective_mass + c);
+    t.effective_mass = t.effective_radius = Lanes(0.0);
+    if constexpr (Law::uses_mass) t.effective_mass = load(in.effective_mass + c);
+    if constexpr (Law::uses_radius) t.effective_radius = load(in.effective_radius + c);
     t.closing_speed = Lanes(0.0);
     t.slip = t.slip_velocity = {Lanes(0.0), Lanes(0.0), Lanes(0.0)};
     return t;
@@ -123,12 +124,12 @@ const LawKernel& kernel_of();
 
 template <class Law, bool one_kind>
 void step_chunk(const LawInput& in, double* history, ForceChunk& out) {
-    const std::size_t size = kernel_of<Law>().history_size;
+    const std::size_t size = kernel_of<Law>().history_size, stride = in.history_stride;
     typename Law::template Parameters<Lanes> p;
     if constexpr (one_kind) p.each(SameParameters(in.parameters->values.data()));
     const Lanes step(in.step);
     for (int c = 0; c < in.count; c += kLanes) {
-        double* kept = history + (c / kBlock) * (size * kBlock) + c % kBlock;
+        double* kept = history + (c / kBlock) * (stride * kBlock) + c % kBlock;
         if (!in.touch->any_touching(c, kLanes)) {
             put_nothing<Law>(c, out);
             for (std::size_t k = 0; k < size; ++k) store(Lanes(0.0), kept + k * kBlock);
@@ -152,11 +153,11 @@ void step_any(const LawInput& in, double* history, ForceChunk& out) {
 
 template <class Law>
 void observe_chunk(const LawInput& in, const double* history, ForceChunk& out) {
-    const std::size_t size = kernel_of<Law>().history_size;
+    const std::size_t stride = in.history_stride;
     for (int c = 0; c < in.count; c += kLanes) {
         const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
         typename Law::template History<Lanes> h;
-        h.each(LoadHistory(history + (c / kBlock) * (size * kBlock) + c % kBlock));
+        h.each(LoadHistory(history + (c / kBlock) * (stride * kBlock) + c % kBlock));
         Lanes stored(0.0);
         const auto force =
             Law::now(parameters_at<Law>(in, c), h, touch_at<Law>(in, c), velocity_at<Law>(in, c), stored);
@@ -189,7 +190,10 @@ const LawKernel& kernel_of() {
         history.each(CountNumbers{k.turns});
         k.history_size = static_cast<int>(k.turns.size());
         k.rubs = Law::rubs;
+        k.rolls = false;
         k.uses_velocity = Law::uses_velocity;
+        k.uses_mass = Law::uses_mass;
+        k.uses_radius = Law::uses_radius;
         k.parameters = parameters_of<Law>;
         k.step = step_any<Law>;
         k.observe = observe_chunk<Law>;

@@ -20,17 +20,22 @@ struct LawParameters {
 struct LawInput {
     int count;  // of contacts, at most kChunk; rounded up to a multiple of kBlock all can be read
     const TouchChunk* touch;
-    const double* effective_mass;  // kg, aligned to 64 bytes; read only by laws that use velocity
-    const std::int32_t* kind;      // of each contact; not read where there is only one
+    const double* effective_mass;    // kg, aligned to 64 bytes; read only by laws that use it
+    const double* effective_radius;  // m, likewise
+    const std::int32_t* kind;        // of each contact; not read where there is only one
     const LawParameters* parameters;
-    double step;  // s
+    double step;            // s
+    int history_stride;     // numbers a contact that the history has for all laws together
+    RollingChunk* rolling;  // read and written by the resistance to rolling only
 };
 
 struct LawKernel {
     int history_size;         // doubles a contact, all zero for a new one
     std::vector<bool> turns;  // of each: changes sign when the bodies change places
     bool rubs;                // asks for spin, twist and arms
+    bool rolls;               // asks for the rolling motion
     bool uses_velocity;       // asks for velocity; so does a law that rubs
+    bool uses_mass, uses_radius;
     LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
 
     // `history`: in blocks of kBlock contacts, within a block number by number. Zeroed where nothing touches.
@@ -39,8 +44,10 @@ struct LawKernel {
     void (*observe)(const LawInput& in, const double* history, ForceChunk& out);
 };
 
-// The one place where laws are chosen at run time.
-const LawKernel& law_kernel(NormalLaw normal, TangentialLaw tangential);
+// The one place where laws are chosen at run time. `model` without its rolling, which comes on top.
+const LawKernel& law_kernel(const ContactModel& model);
+// Resistance to rolling: runs after the law, on the normal force that this has put into `out`.
+const LawKernel& rolling_kernel();
 
 // "AVX-512", "AVX2", ...: what the kernels chosen on this machine are compiled for.
 std::string vector_instructions();

@@ -72,8 +72,8 @@ struct LinearSpring {
   private:
     template <class R, class Normal>
     static HWY_INLINE Triple<R> dashpot(const Normal& normal, const Touch<R>& touch) {
-        if constexpr (requires { normal.tangential_damping; }) {
-            return touch.slip_velocity * (normal.tangential_damping * touch.effective_mass);
+        if constexpr (requires { normal.sideways_damping(touch); }) {
+            return touch.slip_velocity * normal.sideways_damping(touch);
         } else {
             return {R(0), R(0), R(0)};
         }

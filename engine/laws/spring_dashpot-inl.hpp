@@ -1,6 +1,7 @@
-// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, with v_n the closing speed. Not clipped at
-// the end of contact, where it may pull (as in LAMMPS' hooke/history), so that a free impact has e = exp(-pi
-// b / sqrt(1 - b^2)), b = c / (2 sqrt(k / m_eff)) (Schwager & Poeschel 2007, Granul. Matter 9, 465).
+// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, with v_n the closing speed. At the end of
+// contact the dashpot would pull: with attraction it may (as in LAMMPS' hooke/history), and a free impact has
+// e = exp(-pi b / sqrt(1 - b^2)), b = c / (2 sqrt(k / m_eff)); without, N is at least 0 and e a little larger
+// (Schwager & Poeschel 2007, Granul. Matter 9, 465).
 #if defined(GRAINREEL_LAWS_SPRING_DASHPOT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_SPRING_DASHPOT_INL
 #undef GRAINREEL_LAWS_SPRING_DASHPOT_INL
@@ -14,22 +15,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
+constexpr double kFarBelow = 1e30;  // N
+
 struct SpringDashpot {
-    static constexpr bool uses_velocity = true;
+    static constexpr bool uses_velocity = true, uses_mass = true, uses_radius = false;
 
     template <class R>
     struct Parameters {
         R stiffness;           // N/m
         R damping;             // 1/s, times the effective mass
         R tangential_damping;  // 1/s, likewise; for the tangential law
+        R lowest;              // N: 0, or so far below that nothing reaches it
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit(stiffness), visit(damping), visit(tangential_damping);
+            visit(stiffness), visit(damping), visit(tangential_damping), visit(lowest);
+        }
+        // kg/s, of the tangential dashpot.
+        HWY_INLINE R sideways_damping(const Touch<R>& touch) const {
+            return tangential_damping * touch.effective_mass;
         }
     };
     static Parameters<double> from(const PairPlan& plan) {
-        return {plan.loading_stiffness, plan.normal_damping, plan.tangential_damping};
+        return {plan.loading_stiffness, plan.normal_damping, plan.tangential_damping,
+                plan.attraction ? -kFarBelow : 0};
     }
 
     template <class R>
@@ -38,14 +47,15 @@ struct SpringDashpot {
         HWY_INLINE void each(const Each&) {}
     };
 
-    // N, may be negative just before the spheres part.
+    // N, with attraction negative just before the spheres part.
     template <class R>
     static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
         return now(p, h, touch);
     }
     template <class R>
     static HWY_INLINE R now(const Parameters<R>& p, const History<R>&, const Touch<R>& touch) {
-        return p.stiffness * touch.overlap + p.damping * touch.effective_mass * touch.closing_speed;
+        return larger(p.lowest,
+                      p.stiffness * touch.overlap + p.damping * touch.effective_mass * touch.closing_speed);
     }
 
     // J, k a^2 / 2.

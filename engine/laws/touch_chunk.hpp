@@ -32,4 +32,10 @@ struct alignas(64) ForceChunk {
     double stored[kChunk] = {};         // J; set for observers only
 };
 
+// Of contacts that resist rolling: their motion, and the answer.
+struct alignas(64) RollingChunk {
+    double rate[3][kChunk] = {};    // rad/s, spin of i against j, across k
+    double torque[3][kChunk] = {};  // N m, on j, the opposite on i
+};
+
 }  // namespace grainreel

@@ -227,6 +227,28 @@ std::optional<std::vector<std::string>> Document::names(const std::string& path)
     return values;
 }
 
+std::vector<std::array<double, 2>> Document::speed_table(const std::string& path) {
+    const toml::node* node = read(path);
+    if (node == nullptr) return {};
+    const Key& key = *find_key(path);
+    Key number = key;
+    number.dimension = Dimension::number;
+    const toml::array* rows = node->as_array();
+    const auto wrong = [&] {
+        fail(path, fmt::format("must be rows of a speed and a number, at most {}, but is {}; write for "
+                               "example {}",
+                               kTablePoints, written_value(*node), key.example()));
+    };
+    if (rows == nullptr || rows->empty() || rows->size() > kTablePoints) wrong();
+    std::vector<std::array<double, 2>> values;
+    for (const toml::node& row : *rows) {
+        const toml::array* two = row.as_array();
+        if (two == nullptr || two->size() != 2) wrong();
+        values.push_back({number_in(path, *two->get(0), key), number_in(path, *two->get(1), number)});
+    }
+    return values;
+}
+
 std::optional<std::array<std::int64_t, 2>> Document::two_integers(const std::string& path) {
     const toml::node* node = read(path);
     const toml::array* array = node == nullptr ? nullptr : node->as_array();

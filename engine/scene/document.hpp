@@ -50,6 +50,8 @@ class Document {
     std::optional<std::string> text(const std::string& path);  // also choices
     std::optional<Vec3> vector(const std::string& path);       // also gravity; each a quantity
     std::optional<std::vector<std::string>> names(const std::string& path);
+    // Rows of a speed (m/s) and a number, at most kTablePoints; empty when absent.
+    std::vector<std::array<double, 2>> speed_table(const std::string& path);
     std::optional<std::array<std::int64_t, 2>> two_integers(const std::string& path);
 
     double required_quantity(const std::string& path);

@@ -79,6 +79,8 @@ std::string value_words(const Key& key) {
             return "\"WxH\" or [W, H]";
         case KeyKind::species_pair:
             return "two names";
+        case KeyKind::speed_table:
+            return "[[m/s, number], ...]";
         case KeyKind::quantity:
         case KeyKind::gravity:
         case KeyKind::diameter:
@@ -111,6 +113,7 @@ std::string Key::example() const {
     if (kind == KeyKind::text) return "\"small\"";
     if (kind == KeyKind::colour) return "\"orange\"";
     if (kind == KeyKind::species_pair) return "[\"small\", \"wall\"]";
+    if (kind == KeyKind::speed_table) return "[[\"0.1 m/s\", 0.95], [\"2 m/s\", 0.8]]";
     return text_of(dimension).example;
 }
 

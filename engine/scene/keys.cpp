@@ -60,6 +60,11 @@ Key of_dimension(Key key, Dimension dimension, const Range& range) {
     return key;
 }
 
+Key of_choices(Key key, std::vector<std::string> choices) {
+    key.choices = std::move(choices);
+    return key;
+}
+
 using Keys = std::vector<Key>;
 constexpr double most_grains = 2147483647;
 
@@ -104,26 +109,42 @@ void add_pair_keys(Keys& keys, const std::string& table, const char* inherited) 
     add("restitution_speed", Dimension::speed, positive, note("none: the same at any speed"),
         "walton-braun only: the speed at which `restitution` holds; slower impacts lose less, faster ones "
         "more.");
+    keys.push_back(
+        of_dimension(entry(table + ".restitution_table", KeyKind::speed_table,
+                           note(inherited == nullptr ? "none" : inherited),
+                           "walton-braun only, instead: [speed, restitution] by rising speed, at most "
+                           "8 rows; straight lines between them, constant beyond."),
+                     Dimension::speed, any));
     add("friction", Dimension::number, not_negative_or_infinite, literal("0.5"),
         "Coulomb's µ; 0 for none, inf to never slip.");
+    add("rolling_friction", Dimension::number, not_negative, literal("0"),
+        "Torque against rolling, at most so much x effective radius x normal force; 0 for none.");
     add("stiffness", Dimension::stiffness, positive, note("chosen by the plan"),
         "Of the loading branch: K1 (walton-braun) or kn (spring-dashpot).");
-    add("tangential_ratio", Dimension::number, positive, note("0.8; 2/7 for linear-spring"),
-        "Tangential over normal stiffness.");
+    add("modulus", Dimension::pressure, positive, note("chosen by the plan"),
+        "hertz only: E* of the pair, 1/E* = (1 - ν²)/E + the same of the other body.");
+    add("tangential_ratio", Dimension::number, positive, note("0.8; linear-spring 2/7, mindlin 0.824"),
+        "Tangential over normal stiffness; of mindlin 2(1 - ν)/(2 - ν).");
     add("gamma", Dimension::number, not_negative, note("1/3"),
         "Exponent of incremental-slip: 1/3 resembles Mindlin, 1 or 2 plastic contacts.");
     add("normal_damping", Dimension::rate, not_negative, note("from the restitution"),
         "spring-dashpot only, instead of the restitution: force = value x effective mass x speed.");
     add("tangential_damping", Dimension::rate, not_negative, note("half the normal damping"),
         "spring-dashpot with linear-spring only.");
+    keys.push_back(entry(table + ".attraction", KeyKind::flag, fallback(literal("false")),
+                         "spring-dashpot, hertz: the dashpot may pull at the end of contact."));
+    keys.push_back(
+        of_choices(entry(table + ".law", KeyKind::choice, fallback(literal("\"walton-braun\"")),
+                         "Normal force: latching spring; linear spring with a dashpot; Hertz with one."),
+                   {"walton-braun", "spring-dashpot", "hertz"}));
+    keys.push_back(of_choices(
+        entry(table + ".friction_law", KeyKind::choice,
+              fallback(note("incremental-slip; linear-spring for spring-dashpot, mindlin for hertz")),
+              "Tangential force; none leaves out friction, spin and torque."),
+        {"incremental-slip", "linear-spring", "mindlin", "none"}));
 }
 
 void add_contact(Keys& keys) {
-    keys.push_back(choice("contact.law", {"walton-braun", "spring-dashpot"}, literal("\"walton-braun\""),
-                          "Normal force: latching spring, or linear spring with a dashpot."));
-    keys.push_back(choice("contact.friction_law", {"incremental-slip", "linear-spring", "none"},
-                          note("incremental-slip; linear-spring for spring-dashpot"),
-                          "Tangential force; none leaves out friction, spin and torque."));
     keys.push_back(
         choice("contact.arms", {"contact-plane", "radius"}, literal("\"contact-plane\""),
                "Lever arms of the tangential force; radius, as in the seed, loses angular momentum."));

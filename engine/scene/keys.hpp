@@ -23,6 +23,7 @@ enum class KeyKind {
     diameter,      // a length, or a table with min and max, or with mean and deviation
     picture_size,  // "1920x1080" or [1920, 1080]
     species_pair,  // ["small", "big"] or ["small", "wall"]
+    speed_table,   // [[speed, number], ...]
 };
 
 // What numbers may be, ends included unless `open`.

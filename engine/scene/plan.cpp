@@ -73,20 +73,22 @@ void plan_output(const Scene& scene, Plan& plan) {
         every(output.measures_interval, period / 8, rows_without_drive, "output.measures_interval");
 }
 
-// The simpler law wherever it will do.
-NormalLaw normal_law(const Contact& contact) {
-    const auto falls = [](const PairContact& pair) { return pair.restitution_speed.has_value(); };
-    const bool any = std::any_of(contact.grain.begin(), contact.grain.end(), falls) ||
-                     std::any_of(contact.wall.begin(), contact.wall.end(), falls);
-    return any ? NormalLaw::walton_braun_speed : contact.normal;
+bool any_contact(const Plan& plan, bool (*is)(const PairPlan&)) {
+    return std::any_of(plan.grain.begin(), plan.grain.end(), is) ||
+           std::any_of(plan.wall.begin(), plan.wall.end(), is);
+}
+}  // namespace
+
+bool Plan::rubs() const {
+    return any_contact(*this, [](const PairPlan& p) { return p.model.tangential != TangentialLaw::none; });
 }
 
-}  // namespace
+bool Plan::rolls() const {
+    return any_contact(*this, [](const PairPlan& p) { return p.model.rolls; });
+}
 
 Plan make_plan(const Scene& scene) {
     Plan plan;
-    plan.normal = normal_law(scene.contact);
-    plan.tangential = scene.contact.tangential;
     plan.arms = scene.contact.arms;
     plan.moving_walls = scene.drive.present && scene.drive.amplitude > 0;
 

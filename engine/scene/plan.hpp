@@ -10,26 +10,41 @@
 
 namespace grainreel {
 
+// What the engine computes for one kind of contact: the simplest that does what the scene asks for.
+enum class NormalForce { walton_braun, walton_braun_speed, walton_braun_table, spring_dashpot, hertz };
+struct ContactModel {
+    NormalForce normal = NormalForce::walton_braun;
+    TangentialLaw tangential = TangentialLaw::incremental_slip;  // `none` when nothing rubs
+    bool rolls = false;                                          // resists rolling; only where it rubs
+    bool operator==(const ContactModel&) const = default;
+};
+
 // The numbers of one kind of contact, ready for the laws. SI units.
 struct PairPlan {
+    ContactModel model;
     double effective_mass = 0;       // kg, the lightest pair of these species
-    double loading_stiffness = 0;    // N/m: K1 (Walton-Braun) or kn (spring-dashpot)
-    double unloading_stiffness = 0;  // N/m: K2 = K1 / e^2; equals K1 for the spring-dashpot
+    double loading_stiffness = 0;    // N/m: K1 (Walton-Braun), kn (spring-dashpot), dN/da at the allowed
+                                     // overlap of the smallest (Hertz)
+    double unloading_stiffness = 0;  // N/m: K2 = K1 / e^2; equals K1 for laws with a dashpot
     double hardening = 0;  // 1/m: S of K2 = K1 + S F_max, in place of a constant K2 (which then holds at v*)
-    double tangential_stiffness = 0;  // N/m: K0 or kt
+    std::vector<RestitutionPoint> restitution_table;  // likewise: K2 = K1 / e(v)^2
+    double modulus = 0;                               // Pa, E* of Hertz
+    double tangential_stiffness = 0;                  // N/m: K0 or kt; Mindlin: at the allowed overlap
+    double tangential_ratio = 0;                      // Mindlin: tangential over normal stiffness
     double gamma = 0;
-    double restitution = 1;  // at v* where it falls with speed
+    double restitution = 1;  // at v* where it depends on speed
     double friction = 0;
+    double rolling_friction = 0;
     double normal_damping = 0;      // 1/s, times the effective mass of the touching pair
     double tangential_damping = 0;  // 1/s, likewise
+    double hertz_damping = 0;       // d of Hertz' dashpot d sqrt(m k) a^(1/4) v
+    bool attraction = false;        // the dashpot may pull
     double contact_time = 0;        // s, of a free impact
     double allowed_overlap = 0;     // m
     std::string stiffness_reason;   // which condition binds: "impact", "static load", "wave", "the scene"
 };
 
 struct Plan {
-    NormalLaw normal = NormalLaw::walton_braun;
-    TangentialLaw tangential = TangentialLaw::incremental_slip;  // `none` when nothing rubs
     LeverArms arms = LeverArms::contact_plane;
     bool moving_walls = false;
 
@@ -47,6 +62,10 @@ struct Plan {
     std::int64_t measures_every = 0;    // steps
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
     std::vector<std::string> warnings;  // each one line, with place and remedy
+
+    // Any contact has friction, any resists rolling.
+    bool rubs() const;
+    bool rolls() const;
 
     const PairPlan& between(std::size_t a, std::size_t b) const { return grain[a * wall.size() + b]; }
 };

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/damping.hpp"
 #include "engine/scene/plan_parts.hpp"
 
 namespace grainreel {
@@ -43,12 +44,19 @@ double speed_over_drive(double restitution, double layers) {
     return std::max(plastic_block_speed, 3 * std::sqrt((1 + whole) / (2 * (1 - whole))));
 }
 
-// Times sqrt(m / K): the duration of a free impact.
-double contact_time_factor(NormalLaw law, const PairContact& contact) {
-    if (law == NormalLaw::walton_braun) return pi / 2 * (1 + contact.restitution);
+// Times sqrt(m / K): the duration of a free impact with a linear spring.
+double contact_time_factor(const PairContact& contact) {
+    if (contact.normal == NormalLaw::walton_braun) return pi / 2 * (1 + contact.restitution);
     if (contact.normal_damping) return pi;
     const double logarithm = std::log(contact.restitution);
     return std::sqrt(pi * pi + logarithm * logarithm);  // pi / sqrt(1 - beta^2)
+}
+
+// Of Hertz' N = k a^(3/2), k = 4/3 E* sqrt(R): the duration of a free impact is 2.943 a_max / v, with
+// a_max = (5 m v^2 / 4k)^(2/5) (Timoshenko & Goodier, Theory of Elasticity, art. 142).
+constexpr double hertz_duration = 2.9432;
+double hertz_contact_time(double mass, double k, double speed) {
+    return hertz_duration * std::pow(1.25 * mass / k, 0.4) * std::pow(speed, -0.2);
 }
 
 // The weight that rests on one grain, over its diameter: K1 >= load / eps.
@@ -62,53 +70,83 @@ struct Stiffness {
     std::string reason;
 };
 
+// A stiffness that grows with every demand made of it.
+class Demands {
+  public:
+    void add(double value, const char* reason) {
+        if (value > chosen_.value) chosen_ = {value, reason};
+    }
+    const Stiffness& chosen() const { return chosen_; }
+
+  private:
+    Stiffness chosen_;
+};
+
+void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Touching& t,
+                      Demands& demands) {
+    const double eps = scene.run.overlap;
+    demands.add(t.effective_mass * std::pow(bed.impact_speed / (eps * t.diameter), 2), "impact");
+    demands.add(static_load(bed, t.diameter) / eps, "static load");
+    if (bed.gravity == 0) return;  // t_c <= 0.1 d / (f h)
+    const double share = contact_time_factor(contact) * bed.frequency * bed.height / (0.1 * t.diameter);
+    demands.add(t.effective_mass * share * share, "wave");
+}
+
+// The same conditions for Hertz' effective modulus E*.
+void demand_modulus(const Scene& scene, const BedPlan& bed, const Touching& t, Demands& demands) {
+    const double allowed = scene.run.overlap * t.diameter, m = t.effective_mass, v = bed.impact_speed;
+    const double to_modulus = 0.75 / std::sqrt(t.effective_radius);  // E* of k
+    demands.add(to_modulus * 1.25 * m * v * v / std::pow(allowed, 2.5), "impact");
+    demands.add(to_modulus * static_load(bed, t.diameter) * t.diameter / std::pow(allowed, 1.5),
+                "static load");
+    if (bed.gravity == 0 || v == 0) return;
+    const double longest = 0.1 * t.diameter / (bed.frequency * bed.height);
+    demands.add(to_modulus * m * std::pow(hertz_contact_time(1, 1, v) / longest, 2.5), "wave");
+}
+
 Stiffness choose_stiffness(const Scene& scene, const BedPlan& bed, const PairContact& contact,
                            const Species& a, const Species* b) {
     if (contact.stiffness) return {*contact.stiffness, "the scene"};
-    Stiffness chosen;
-    const auto demand = [&](double value, const char* reason) {
-        if (value > chosen.value) chosen = {value, reason};
-    };
-    const double eps = scene.run.overlap;
-    const double time_factor = contact_time_factor(scene.contact.normal, contact);
-    for (const Touching& t : extremes(a, b)) {
-        demand(t.effective_mass * std::pow(bed.impact_speed / (eps * t.diameter), 2), "impact");
-        demand(static_load(bed, t.diameter) / eps, "static load");
-        if (bed.gravity > 0)  // t_c <= 0.1 d / (f h)
-            demand(
-                t.effective_mass * std::pow(time_factor * bed.frequency * bed.height / (0.1 * t.diameter), 2),
-                "wave");
-    }
-    if (chosen.value > 0) return chosen;
+    const bool hertz = contact.normal == NormalLaw::hertz;
+    Demands demands;
+    for (const Touching& t : extremes(a, b))
+        hertz ? demand_modulus(scene, bed, t, demands) : demand_stiffness(scene, bed, contact, t, demands);
+    if (demands.chosen().value > 0) return demands.chosen();
     throw UserError(
-        fmt::format("{}: 'stiffness' is missing between {}, and with neither drive nor gravity nothing says "
-                    "how large it must be; write for example stiffness = \"2e4 N/m\"",
-                    scene.where("contact"), place_of_pair(a, b)));
+        fmt::format("{}: '{}' is missing between {}, and with neither drive nor gravity nothing says "
+                    "how large it must be; write for example {}",
+                    scene.where("contact"), hertz ? "modulus" : "stiffness", place_of_pair(a, b),
+                    hertz ? "modulus = \"1 GPa\"" : "stiffness = \"2e4 N/m\""));
 }
 
-// Damping and restitution of the spring-dashpot, each from the other: beta = -ln e / sqrt(pi^2 + ln^2 e), the
-// law being free to pull at the end of contact; damping = 2 beta omega0 at the mean effective mass.
+// Damping and restitution of the spring-dashpot, each from the other; damping = 2 beta omega0 at the mean
+// effective mass.
 void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact, const Species& a,
                   const Species* b) {
     const double natural = std::sqrt(pair.loading_stiffness / mean_effective_mass(a, b));
     if (!contact.normal_damping) {
-        const double logarithm = std::log(contact.restitution);
-        pair.normal_damping = -2 * natural * logarithm / std::sqrt(pi * pi + logarithm * logarithm);
+        pair.normal_damping = 2 * natural * linear_damping(contact.restitution, contact.attraction);
     } else {
         pair.normal_damping = *contact.normal_damping;
         double critical = std::numeric_limits<double>::infinity();
         for (const Touching& t : extremes(a, b))
             critical = std::min(critical, 2 * std::sqrt(pair.loading_stiffness / t.effective_mass));
-        if (pair.normal_damping >= critical)
+        if (pair.normal_damping >= critical && contact.attraction)
             throw UserError(fmt::format(
                 "{}: 'normal_damping' of {:.6g} 1/s between {} is not below the critical {:.6g} "
                 "1/s, so that nothing rebounds; reduce it or raise the stiffness",
                 scene.where("contact.normal_damping"), pair.normal_damping, place_of_pair(a, b), critical));
-        const double beta = pair.normal_damping / (2 * natural);
-        pair.restitution = std::exp(-pi * beta / std::sqrt(1 - beta * beta));
+        pair.restitution = linear_restitution(pair.normal_damping / (2 * natural), contact.attraction);
     }
-    if (scene.contact.tangential == TangentialLaw::linear_spring)
+    if (contact.tangential == TangentialLaw::linear_spring)
         pair.tangential_damping = contact.tangential_damping.value_or(pair.normal_damping / 2);
+}
+
+// s: of the damped oscillation's half; an overdamped contact is longer, but not faster.
+double linear_contact_time(const PairPlan& pair) {
+    const double natural = std::sqrt(pair.loading_stiffness / pair.effective_mass);
+    const double beta = pair.normal_damping / (2 * natural);
+    return pi / (natural * std::sqrt(std::max(0.01, 1 - beta * beta)));
 }
 
 // e(v) = sqrt(w0 / (w0 + S v)), w0 = sqrt(K1 / m) (Walton & Braun 1986): S from one point of it, at the mean
@@ -124,6 +162,51 @@ void plan_hardening(const BedPlan& bed, PairPlan& pair, const PairContact& conta
     pair.restitution = std::sqrt(slowest / (slowest + pair.hardening * bed.impact_speed));
 }
 
+// Straight lines between the rows of a table, constant beyond.
+double restitution_at(const std::vector<RestitutionPoint>& table, double speed) {
+    double e = table.front().restitution;
+    for (std::size_t k = 1; k < table.size(); ++k) {
+        const RestitutionPoint &low = table[k - 1], &high = table[k];
+        const double share = std::clamp((speed - low.speed) / (high.speed - low.speed), 0.0, 1.0);
+        e += share * (high.restitution - low.restitution);
+    }
+    return e;
+}
+
+ContactModel contact_model(const PairContact& contact) {
+    ContactModel model;
+    model.tangential = contact.tangential;
+    model.rolls = contact.rolling_friction > 0;
+    if (contact.normal == NormalLaw::spring_dashpot) model.normal = NormalForce::spring_dashpot;
+    if (contact.normal == NormalLaw::hertz) model.normal = NormalForce::hertz;
+    if (contact.restitution_speed) model.normal = NormalForce::walton_braun_speed;
+    if (!contact.restitution_table.empty()) model.normal = NormalForce::walton_braun_table;
+    return model;
+}
+
+void plan_walton_braun(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Species& a,
+                       const Species* b) {
+    if (contact.restitution_speed) plan_hardening(bed, pair, contact, a, b);
+    pair.restitution_table = contact.restitution_table;
+    if (!pair.restitution_table.empty())
+        pair.restitution = restitution_at(pair.restitution_table, bed.impact_speed);
+    pair.unloading_stiffness = pair.loading_stiffness / (pair.restitution * pair.restitution);
+    pair.contact_time =
+        pi / 2 * (1 + pair.restitution) * std::sqrt(pair.effective_mass / pair.loading_stiffness);
+}
+
+// A free impact takes longer the slower it is, so v* says how long a step may be.
+void plan_hertz(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Touching& smallest) {
+    pair.modulus = pair.loading_stiffness;
+    const double k = 4.0 / 3 * pair.modulus * std::sqrt(smallest.effective_radius);
+    const double speed = bed.impact_speed > 0 ? bed.impact_speed
+                                              : std::sqrt(0.8 * k / smallest.effective_mass) *
+                                                    std::pow(pair.allowed_overlap, 1.25);
+    pair.loading_stiffness = pair.unloading_stiffness = 1.5 * k * std::sqrt(pair.allowed_overlap);
+    pair.hertz_damping = hertz_damping(contact.restitution, contact.attraction);
+    pair.contact_time = hertz_contact_time(smallest.effective_mass, k, speed);
+}
+
 }  // namespace
 
 std::vector<Touching> extremes(const Species& a, const Species* b) {
@@ -131,12 +214,12 @@ std::vector<Touching> extremes(const Species& a, const Species* b) {
     for (const double first : {a.diameter.smallest, a.diameter.mean, a.diameter.largest}) {
         const double mass = mass_of(a, first);
         if (b == nullptr) {
-            all.push_back({first, first / 2, mass});
+            all.push_back({first, first / 2, mass, first / 2});
             continue;
         }
         for (const double second : {b->diameter.smallest, b->diameter.mean, b->diameter.largest})
-            all.push_back(
-                {std::min(first, second), (first + second) / 2, reduced_mass(mass, mass_of(*b, second))});
+            all.push_back({std::min(first, second), (first + second) / 2,
+                           reduced_mass(mass, mass_of(*b, second)), first * second / (first + second) / 2});
     }
     return all;
 }
@@ -178,29 +261,34 @@ BedPlan plan_bed(const Scene& scene) {
 PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Species& a,
                    const Species* b) {
     PairPlan pair;
+    pair.model = contact_model(contact);
     const Stiffness stiffness = choose_stiffness(scene, bed, contact, a, b);
-    const bool rubs = scene.contact.tangential != TangentialLaw::none && contact.friction > 0;
     pair.loading_stiffness = stiffness.value;
     pair.stiffness_reason = stiffness.reason;
     pair.restitution = contact.restitution;
-    pair.friction = rubs ? contact.friction : 0;
-    if (scene.contact.tangential != TangentialLaw::none)
-        pair.tangential_stiffness = contact.tangential_ratio * stiffness.value;
-    pair.gamma = scene.contact.tangential == TangentialLaw::incremental_slip ? contact.gamma : 0;
-    const std::vector<Touching> touching = extremes(a, b);
-    pair.effective_mass = touching.front().effective_mass;  // of the smallest of each
-    pair.allowed_overlap = scene.run.overlap * touching.front().diameter;
-    const double natural = std::sqrt(pair.loading_stiffness / pair.effective_mass);
-    if (scene.contact.normal == NormalLaw::walton_braun) {
-        if (contact.restitution_speed) plan_hardening(bed, pair, contact, a, b);
-        pair.unloading_stiffness = pair.loading_stiffness / (pair.restitution * pair.restitution);
-        pair.contact_time = pi / 2 * (1 + pair.restitution) / natural;
-    } else {
-        pair.unloading_stiffness = pair.loading_stiffness;
-        plan_damping(scene, pair, contact, a, b);
-        const double beta = pair.normal_damping / (2 * natural);
-        pair.contact_time = pi / (natural * std::sqrt(1 - beta * beta));
+    pair.attraction = contact.attraction;
+    const Touching smallest = extremes(a, b).front();
+    pair.effective_mass = smallest.effective_mass;
+    pair.allowed_overlap = scene.run.overlap * smallest.diameter;
+    switch (contact.normal) {
+        case NormalLaw::walton_braun:
+            plan_walton_braun(bed, pair, contact, a, b);
+            break;
+        case NormalLaw::spring_dashpot:
+            pair.unloading_stiffness = pair.loading_stiffness;
+            plan_damping(scene, pair, contact, a, b);
+            pair.contact_time = linear_contact_time(pair);
+            break;
+        case NormalLaw::hertz:
+            plan_hertz(bed, pair, contact, smallest);
+            break;
     }
+    if (contact.tangential == TangentialLaw::none) return pair;
+    pair.friction = contact.friction;
+    pair.rolling_friction = contact.rolling_friction;
+    pair.tangential_ratio = contact.tangential_ratio;
+    pair.tangential_stiffness = contact.tangential_ratio * pair.loading_stiffness;
+    pair.gamma = contact.tangential == TangentialLaw::incremental_slip ? contact.gamma : 0;
     return pair;
 }
 
@@ -209,8 +297,13 @@ double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& 
     double largest = 0;
     for (const Touching& t : extremes(a, b)) {
         const double load = std::max(t.effective_mass, bed.largest_mass / 3);
-        const double impact = bed.impact_speed * std::sqrt(load / pair.loading_stiffness) / t.diameter;
-        const double weight = static_load(bed, t.diameter) / pair.loading_stiffness;
+        double impact = bed.impact_speed * std::sqrt(load / pair.loading_stiffness) / t.diameter;
+        double weight = static_load(bed, t.diameter) / pair.loading_stiffness;
+        if (pair.modulus > 0) {
+            const double k = 4.0 / 3 * pair.modulus * std::sqrt(t.effective_radius);
+            impact = std::pow(1.25 * load * bed.impact_speed * bed.impact_speed / k, 0.4) / t.diameter;
+            weight = std::pow(static_load(bed, t.diameter) * t.diameter / k, 2.0 / 3) / t.diameter;
+        }
         largest = std::max({largest, impact, scene.drive.present || bed.gravity > 0 ? weight : 0.0});
     }
     return largest;

@@ -31,6 +31,7 @@ struct Touching {
     double diameter;  // of the smaller
     double distance;  // between centres, or to the wall
     double effective_mass;
+    double effective_radius;
 };
 std::vector<Touching> extremes(const Species& a, const Species* b);  // b: nullptr for a wall
 double mean_effective_mass(const Species& a, const Species* b);
@@ -47,7 +48,7 @@ double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& 
                         const Species* b);
 
 // Steps in a free impact: enough that plain velocity Verlet keeps the restitution within 0.005.
-int steps_per_contact(NormalLaw law, double restitution);
+int steps_per_contact(NormalForce law, double restitution);
 
 struct StepChoice {
     double step = 0;    // s

@@ -45,33 +45,44 @@ struct Species {
     bool operator==(const Species&) const = default;
 };
 
-// walton_braun_speed: restitution that falls with speed; the plan takes it where a contact has a
-// `restitution_speed`.
-enum class NormalLaw { walton_braun, walton_braun_speed, spring_dashpot };
-enum class TangentialLaw { incremental_slip, linear_spring, none };
+enum class NormalLaw { walton_braun, spring_dashpot, hertz };
+enum class TangentialLaw { incremental_slip, linear_spring, mindlin, none };
 // Where forces act: at the contact plane (keeps angular momentum), or at the full radius, as in the seed.
 enum class LeverArms { contact_plane, radius };
 
+constexpr std::size_t kTablePoints = 8;  // of a restitution that depends on speed, at most
+
+// One point of a restitution that depends on the speed of impact.
+struct RestitutionPoint {
+    double speed = 0;  // m/s
+    double restitution = 1;
+    bool operator==(const RestitutionPoint&) const = default;
+};
+
 // One kind of contact: between two species, or a species and the walls.
 struct PairContact {
-    double restitution = 0.9;  // in (0, 1]
+    NormalLaw normal = NormalLaw::walton_braun;
+    TangentialLaw tangential = TangentialLaw::incremental_slip;  // none without friction
+    double restitution = 0.9;                                    // in (0, 1]
     std::optional<double>
-        restitution_speed;                 // m/s at which it holds, falling with speed; empty: at any speed
-    double friction = 0.5;                 // >= 0, may be infinite
-    std::optional<double> stiffness;       // N/m: K1 or kn; the plan chooses it when empty
-    double tangential_ratio = 0.8;         // K0 / K1, or kt / kn
+        restitution_speed;  // m/s at which it holds, falling with speed; empty: at any speed
+    std::vector<RestitutionPoint> restitution_table;  // in its place, by rising speed; empty: not used
+    double friction = 0.5;                            // >= 0, may be infinite
+    double rolling_friction = 0;                      // torque at most so much x effective radius x N
+    std::optional<double> stiffness;       // N/m: K1 or kn; Hertz: Pa, E*; the plan chooses it when empty
+    double tangential_ratio = 0.8;         // K0 / K1, or kt / kn; Mindlin: 2 (1 - nu) / (2 - nu)
     double gamma = 1.0 / 3.0;              // exponent of Walton's incremental slip
+    bool attraction = false;               // laws with a dashpot may pull at the end of contact
     std::optional<double> normal_damping;  // 1/s, force = value * m_eff * v; from the restitution when empty
     std::optional<double> tangential_damping;  // 1/s, likewise; half of the normal damping when empty
     bool operator==(const PairContact&) const = default;
 };
 
 struct Contact {
-    NormalLaw normal = NormalLaw::walton_braun;
-    TangentialLaw tangential = TangentialLaw::incremental_slip;  // none when no pair has friction
     LeverArms arms = LeverArms::contact_plane;
     std::vector<PairContact> grain;  // species x species, symmetric, row-major
     std::vector<PairContact> wall;   // one a species
+    bool rubs() const;               // any of them has friction
     bool operator==(const Contact&) const = default;
 };
 

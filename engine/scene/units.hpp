@@ -20,6 +20,7 @@ enum class Dimension {
     density,
     mass,
     stiffness,
+    pressure,
     speed,
     acceleration,
     number,

@@ -61,6 +61,32 @@ class SceneText {
     std::string text_;
 };
 
+const char* law_name(NormalLaw law) {
+    switch (law) {
+        case NormalLaw::walton_braun:
+            return "walton-braun";
+        case NormalLaw::spring_dashpot:
+            return "spring-dashpot";
+        case NormalLaw::hertz:
+            return "hertz";
+    }
+    return "";
+}
+
+const char* law_name(TangentialLaw law) {
+    switch (law) {
+        case TangentialLaw::incremental_slip:
+            return "incremental-slip";
+        case TangentialLaw::linear_spring:
+            return "linear-spring";
+        case TangentialLaw::mindlin:
+            return "mindlin";
+        case TangentialLaw::none:
+            return "none";
+    }
+    return "";
+}
+
 void write_species(SceneText& out, const Species& species) {
     out.element("species");
     out.words("name", species.name);
@@ -83,49 +109,45 @@ void write_species(SceneText& out, const Species& species) {
     out.words("colour", colour_text(species.colour));
 }
 
-void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, const PairPlan& plan,
-                const std::string& other, const Species& species) {
-    const Contact& contact = scene.contact;
+void write_pair(SceneText& out, const PairContact& pair, const PairPlan& plan, const std::string& other,
+                const Species& species) {
     out.element("contact.pair");
     out.put("between", fmt::format("[{}, {}]", quoted(species.name), quoted(other)));
+    const bool hertz = pair.normal == NormalLaw::hertz;
+    out.words("law", law_name(pair.normal));
+    out.words("friction_law", law_name(pair.tangential));
+    if (pair.normal != NormalLaw::walton_braun) out.flag("attraction", pair.attraction);
     if (pair.normal_damping) {
         out.put("normal_damping", pair.normal_damping);
+    } else if (!pair.restitution_table.empty()) {
+        std::vector<std::string> rows;
+        for (const RestitutionPoint& p : pair.restitution_table)
+            rows.push_back(fmt::format("[{}, {}]", number(p.speed), number(p.restitution)));
+        out.put("restitution_table", fmt::format("[{}]", fmt::join(rows, ", ")));
     } else {
         out.put("restitution", pair.restitution);
         out.put("restitution_speed", pair.restitution_speed);
     }
     if (!pair.stiffness) out.comment(fmt::format("chosen for: {}", plan.stiffness_reason));
-    out.put("stiffness", plan.loading_stiffness);
-    if (contact.tangential == TangentialLaw::none) return;
+    hertz ? out.put("modulus", plan.modulus) : out.put("stiffness", plan.loading_stiffness);
+    if (pair.tangential == TangentialLaw::none) return;
     out.put("friction", pair.friction);
+    out.put("rolling_friction", pair.rolling_friction);
     out.put("tangential_ratio", pair.tangential_ratio);
-    if (contact.tangential == TangentialLaw::incremental_slip) out.put("gamma", pair.gamma);
+    if (pair.tangential == TangentialLaw::incremental_slip) out.put("gamma", pair.gamma);
     out.put("tangential_damping", pair.tangential_damping);
 }
 
 void write_contact(SceneText& out, const Scene& scene, const Plan& plan) {
     const Contact& contact = scene.contact;
     out.table("contact");
-    out.words("law", contact.normal == NormalLaw::walton_braun ? "walton-braun" : "spring-dashpot");
-    switch (contact.tangential) {
-        case TangentialLaw::incremental_slip:
-            out.words("friction_law", "incremental-slip");
-            break;
-        case TangentialLaw::linear_spring:
-            out.words("friction_law", "linear-spring");
-            break;
-        case TangentialLaw::none:
-            out.words("friction_law", "none");
-            break;
-    }
-    if (contact.tangential != TangentialLaw::none)
+    if (contact.rubs())
         out.words("arms", contact.arms == LeverArms::contact_plane ? "contact-plane" : "radius");
     const std::size_t count = scene.species.size();
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = a; b < count; ++b)
-            write_pair(out, scene, scene.between(a, b), plan.between(a, b), scene.species[b].name,
-                       scene.species[a]);
-        write_pair(out, scene, contact.wall[a], plan.wall[a], "wall", scene.species[a]);
+            write_pair(out, scene.between(a, b), plan.between(a, b), scene.species[b].name, scene.species[a]);
+        write_pair(out, contact.wall[a], plan.wall[a], "wall", scene.species[a]);
     }
 }
 

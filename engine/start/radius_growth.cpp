@@ -24,10 +24,9 @@ constexpr double kRestitution = 0.3;  // a plastic contact law lets the crowd co
 // The scene's laws, plastic and without friction.
 Plan growth_plan(const Plan& plan) {
     Plan growth = plan;
-    growth.normal = NormalLaw::walton_braun;
-    growth.tangential = TangentialLaw::none;
     for (auto* table : {&growth.grain, &growth.wall}) {
         for (PairPlan& pair : *table) {
+            pair.model = {NormalForce::walton_braun, TangentialLaw::none, false};
             pair.restitution = kRestitution;
             pair.unloading_stiffness = pair.loading_stiffness / (kRestitution * kRestitution);
         }

@@ -19,16 +19,19 @@ constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '2'};
 // What must be equal for a continuation to be the same run: laws, stiffness, step, drive.
 std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
     std::ostringstream out;
-    write_value(out, plan.normal);
-    write_value(out, plan.tangential);
     write_value(out, plan.arms);
     for (const auto* table : {&plan.grain, &plan.wall}) {
         for (const PairPlan& p : *table) {
+            write_value(out, p.model.normal);
+            write_value(out, p.model.tangential);
+            write_value(out, p.model.rolls);
             for (const double v :
-                 {p.loading_stiffness, p.unloading_stiffness, p.hardening, p.tangential_stiffness, p.gamma,
-                  p.friction, p.normal_damping, p.tangential_damping}) {
+                 {p.loading_stiffness, p.unloading_stiffness, p.hardening, p.modulus, p.tangential_stiffness,
+                  p.tangential_ratio, p.gamma, p.friction, p.rolling_friction, p.normal_damping,
+                  p.tangential_damping, p.hertz_damping, p.attraction ? 1.0 : 0.0}) {
                 write_value(out, v);
             }
+            write_vector(out, p.restitution_table);
         }
     }
     write_value(out, plan.clock.step);

@@ -53,7 +53,7 @@ void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
 
         const auto motion_one = load_records(motion, 4, i), motion_two = load_records(motion, 4, j);
         Triple<Lanes> velocity = triple(motion_one) - triple(motion_two);
-        if constexpr (wants == Wants::spin) {
+        if constexpr (wants >= Wants::spin) {
             // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which
             // is what keeps angular momentum. The original program took the radii.
             Lanes first_arm = radius_one, second_arm = radius_two;
@@ -68,6 +68,10 @@ void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
             store(first_arm, out.first_arm + c);
             store(second_arm, out.second_arm + c);
             store(Lanes(0.5 * in.step) * (spin_one + spin_two).dot(k), out.twist + c);
+            if constexpr (wants == Wants::rolling) {
+                const Triple<Lanes> rolling = spin_one - spin_two;
+                put(rolling - k * k.dot(rolling), in.rolling->rate, c);
+            }
         }
         put(velocity, out.velocity, c);
     }
@@ -104,12 +108,13 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
 
         Triple<Lanes> velocity =
             triple(load_records(motion, 4, i)) - triple(load_records(numbers(walls.motion), 8, face));
-        if constexpr (wants == Wants::spin) {
+        if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
             const Triple<Lanes> rate = triple(load_records(spin, 4, i));
             velocity += (rate * arm).cross(k);
             store(arm, out.first_arm + c);
             store(Lanes(0.5 * in.step) * rate.dot(k), out.twist + c);
+            if constexpr (wants == Wants::rolling) put(rate - k * k.dot(rate), in.rolling->rate, c);
         }
         put(velocity, out.velocity, c);
     }
@@ -123,6 +128,8 @@ void pairs(const GeometryInput& in, double period, TouchChunk& out) {
             return pairs_chunk<Wants::velocity>(in, period, out);
         case Wants::spin:
             return pairs_chunk<Wants::spin>(in, period, out);
+        case Wants::rolling:
+            return pairs_chunk<Wants::rolling>(in, period, out);
     }
 }
 
@@ -134,6 +141,8 @@ void walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
             return walls_chunk<Wants::velocity>(in, state, out);
         case Wants::spin:
             return walls_chunk<Wants::spin>(in, state, out);
+        case Wants::rolling:
+            return walls_chunk<Wants::rolling>(in, state, out);
     }
 }
 

@@ -12,7 +12,7 @@
 namespace grainreel {
 
 // What a law wants to know of the motion.
-enum class Wants { overlap, velocity, spin };
+enum class Wants { overlap, velocity, spin, rolling };
 inline Wants wants_of(const LawKernel& law) {
     return law.rubs ? Wants::spin : law.uses_velocity ? Wants::velocity : Wants::overlap;
 }
@@ -23,7 +23,8 @@ struct GeometryInput {
     int count;                           // at most kChunk; rounded up to a multiple of kBlock all can be read
     Wants wants;
     LeverArms arms;
-    double step;  // s
+    double step;            // s
+    RollingChunk* rolling;  // set when that is wanted
 };
 
 // period: m, of x; 0 for none.

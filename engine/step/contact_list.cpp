@@ -4,6 +4,12 @@
 
 namespace grainreel {
 
+void KeptContacts::append(const KeptContacts& more) {
+    first.insert(first.end(), more.first.begin(), more.first.end());
+    second.insert(second.end(), more.second.begin(), more.second.end());
+    history.insert(history.end(), more.history.begin(), more.history.end());
+}
+
 void ContactList::begin(int history_size) {
     history_size_ = history_size;
     old_slot_.swap(slot_);
@@ -20,6 +26,7 @@ void ContactList::fill_up() {
     history_.assign(first.size() / kBlock * history_size_, Block{});
     kind.resize(first.size());
     mass_.resize(first.size() / kBlock);
+    radius_.resize(first.size() / kBlock);
     found_ = 0;
 }
 

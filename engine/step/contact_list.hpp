@@ -17,10 +17,10 @@ struct alignas(64) Block {
 struct KeptContacts {
     std::vector<std::int32_t> first, second;  // of a wall contact: grain, face
     std::vector<double> history;              // contact by contact
-    std::size_t pairs = 0;                    // so many are of pairs, those after them of walls
 
     std::size_t size() const { return first.size(); }
-    void clear() { first.clear(), second.clear(), history.clear(), pairs = 0; }
+    void clear() { first.clear(), second.clear(), history.clear(); }
+    void append(const KeptContacts& more);
 };
 
 class ContactList {
@@ -40,8 +40,10 @@ class ContactList {
         return history_.data()[contact / kBlock * history_size_].value;
     }
     const double* mass_of_block(std::int32_t contact) const { return mass_[contact / kBlock].value; }
-    void set_effective_mass(std::int32_t contact, double mass) {
+    const double* radius_of_block(std::int32_t contact) const { return radius_[contact / kBlock].value; }
+    void set_effective(std::int32_t contact, double mass, double radius) {
         mass_[contact / kBlock].value[contact % kBlock] = mass;
+        radius_[contact / kBlock].value[contact % kBlock] = radius;
     }
 
     // A new list: begin(), then add() by rising slot, then end(). A slot is the contact's place in the
@@ -51,6 +53,8 @@ class ContactList {
         slot_.push_back(slot), first.push_back(i), second.push_back(j);
     }
     void end(bool carry_histories);
+
+    int history_size() const { return history_size_; }
 
     // Appends the contacts that have a history and whose first grain is no lower than `begin`.
     void keep(KeptContacts& kept, std::int32_t begin) const;
@@ -70,7 +74,7 @@ class ContactList {
     int history_size_ = 0;
     std::vector<std::int32_t> slot_, old_slot_;
     std::vector<Block> history_, old_history_;
-    std::vector<Block> mass_;  // kg
+    std::vector<Block> mass_, radius_;  // kg, m: effective ones
     std::int32_t old_size_ = 0;
     std::int32_t found_ = 0;  // where restore() looks first: contacts come back in nearly their old order
 };

@@ -9,29 +9,6 @@ namespace grainreel {
 
 namespace {
 
-// Kinds that do not differ are one: no lookup.
-LawParameters one_if_equal(LawParameters p) {
-    std::vector<double> first;
-    for (std::size_t row = 0; row < p.values.size(); row += p.kinds) {
-        const auto begin = p.values.begin() + row;
-        if (std::any_of(begin, begin + p.kinds, [&](double v) { return v != *begin; })) return p;
-        first.push_back(*begin);
-    }
-    return {first, 1};
-}
-
-}  // namespace
-
-ContactRules::ContactRules(const Plan& plan, double period_of_x)
-    : law(&law_kernel(plan.normal, plan.tangential)),
-      of_pairs(one_if_equal(law->parameters(plan.grain))),
-      of_walls(one_if_equal(law->parameters(plan.wall))),
-      species(static_cast<std::int32_t>(plan.wall.size())),
-      arms(plan.arms),
-      period(period_of_x) {}
-
-namespace {
-
 bool near(const Grains& grains, std::int32_t i, std::int32_t j, double period, double skin) {
     const Place &one = grains.place[i], &two = grains.place[j];
     Vec3 apart = two.position - one.position;
@@ -40,29 +17,35 @@ bool near(const Grains& grains, std::int32_t i, std::int32_t j, double period, d
     return apart.squaredNorm() < limit * limit;
 }
 
-void add_near_walls(ContactList& walls, const Grains& grains, const std::vector<WallNeighbour>& list,
-                    const std::vector<Face>& faces, const Vec3& offset, double skin, std::int32_t begin,
-                    std::int32_t end) {
-    const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
-    std::size_t slot = std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin();
-    for (; slot < list.size() && list[slot].grain < end; ++slot) {
-        const Place& place = grains.place[list[slot].grain];
-        const Face& face = faces[list[slot].face];
-        const Vec3 moved = face.moves ? offset : Vec3::Zero();
-        if (distance_to(face, moved, place.position).distance < place.radius + skin) {
-            walls.add(static_cast<std::int32_t>(slot), list[slot].grain, list[slot].face);
-        }
+// Rows of the parameters, effective masses and radii, as far as the group's laws ask for them.
+void note_kinds(ContactList& list, const Grains& grains, const ContactGroup& group, std::int32_t species) {
+    if (!group.needs_rows() && !group.needs_mass_or_radius()) return;
+    for (std::int32_t c = 0; c < list.filled(); ++c) {
+        const std::int32_t i = list.first[c], j = list.second[c];
+        const std::int32_t kind =
+            group.of_pairs ? grains.species[i] * species + grains.species[j] : grains.species[i];
+        list.kind[c] = group.row[kind];
+        if (!group.needs_mass_or_radius()) continue;
+        double mass = grains.motion[i].inverse_mass, curvature = 1 / grains.place[i].radius;
+        if (group.of_pairs) mass += grains.motion[j].inverse_mass, curvature += 1 / grains.place[j].radius;
+        list.set_effective(c, 1 / mass, 1 / curvature);
     }
 }
 
-void note_kinds(ContactList& list, const Grains& grains, const ContactRules& rules, bool of_pairs) {
-    const bool kinds = (of_pairs ? rules.of_pairs : rules.of_walls).kinds > 1;
-    if (!kinds && !rules.law->uses_velocity) return;
-    for (std::int32_t c = 0; c < list.filled(); ++c) {
-        const std::int32_t i = list.first[c], j = list.second[c];
-        list.kind[c] = of_pairs ? grains.species[i] * rules.species + grains.species[j] : grains.species[i];
-        const double inverse = grains.motion[i].inverse_mass + (of_pairs ? grains.motion[j].inverse_mass : 0);
-        list.set_effective_mass(c, 1 / inverse);
+void add_near_walls(const ContactRules& rules, std::vector<ContactList>& lists, const Grains& grains,
+                    const std::vector<WallNeighbour>& list, const std::vector<Face>& faces,
+                    const Vec3& offset, double skin, std::int32_t begin, std::int32_t end) {
+    const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
+    std::size_t slot = std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin();
+    for (; slot < list.size() && list[slot].grain < end; ++slot) {
+        const std::int32_t grain = list[slot].grain;
+        const Place& place = grains.place[grain];
+        const Face& face = faces[list[slot].face];
+        const Vec3 moved = face.moves ? offset : Vec3::Zero();
+        if (distance_to(face, moved, place.position).distance < place.radius + skin) {
+            lists[rules.group_of_wall[grains.species[grain]]].add(static_cast<std::int32_t>(slot), grain,
+                                                                  list[slot].face);
+        }
     }
 }
 
@@ -80,84 +63,126 @@ void ContactPass::own(const NeighbourLists& lists, std::int32_t begin, std::int3
     }
 }
 
-void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
-                          const std::vector<Face>& faces, const Vec3& wall_offset, double skin,
-                          bool carry_histories) {
-    const NeighbourList& list = lists.pairs;
-    pairs_.begin(rules.law->history_size);
-    for (const auto& [slot, i] : incoming_) {
-        if (near(grains, i, list.partner[slot], rules.period, skin)) pairs_.add(slot, i, list.partner[slot]);
-    }
+void ContactPass::add_pairs_within(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
+                                   double skin) {
+    const bool one_group = rules.one_group_of_pairs();
+    const auto add = [&](std::int32_t slot, std::int32_t i, std::int32_t j) {
+        if (!near(grains, i, j, rules.period, skin)) return;
+        const std::int32_t group =
+            one_group ? 0 : rules.group_of_pair[grains.species[i] * rules.species + grains.species[j]];
+        lists_[group].add(slot, i, j);
+    };
+    for (const auto& [slot, i] : incoming_) add(slot, i, list.partner[slot]);
     for (std::int32_t i = begin_; i < end_; ++i) {
-        for (std::int32_t slot = list.start[i], last = list.start[i + 1]; slot < last; ++slot) {
-            const std::int32_t j = list.partner[slot];
-            if (near(grains, i, j, rules.period, skin)) pairs_.add(slot, i, j);
-        }
-    }
-    walls_.begin(rules.law->history_size);
-    add_near_walls(walls_, grains, lists.walls, faces, wall_offset, skin, begin_, end_);
-    for (ContactList* each : {&pairs_, &walls_}) {
-        each->end(carry_histories);
-        note_kinds(*each, grains, rules, each == &pairs_);
+        for (std::int32_t slot = list.start[i], last = list.start[i + 1]; slot < last; ++slot)
+            add(slot, i, list.partner[slot]);
     }
 }
 
-void ContactPass::restore(const ContactRules& rules, const KeptContacts& kept,
+void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
+                          const std::vector<Face>& faces, const Vec3& wall_offset, double skin,
+                          bool carry_histories) {
+    lists_.resize(rules.groups.size());
+    for (std::size_t g = 0; g < lists_.size(); ++g) lists_[g].begin(rules.groups[g].history_size());
+    add_pairs_within(rules, grains, lists.pairs, skin);
+    add_near_walls(rules, lists_, grains, lists.walls, faces, wall_offset, skin, begin_, end_);
+    for (std::size_t g = 0; g < lists_.size(); ++g) {
+        lists_[g].end(carry_histories);
+        note_kinds(lists_[g], grains, rules.groups[g], rules.species);
+    }
+}
+
+void ContactPass::keep(std::vector<KeptContacts>& kept) const {
+    kept.resize(lists_.size());
+    for (std::size_t g = 0; g < lists_.size(); ++g) {
+        kept[g].clear();
+        lists_[g].keep(kept[g], begin_);
+    }
+}
+
+void ContactPass::restore(const ContactRules& rules, std::size_t group, const KeptContacts& kept,
                           const std::vector<std::int32_t>& index) {
+    const ContactGroup& of = rules.groups[group];
     const auto own = [&](std::int32_t grain) { return grain >= begin_ && grain < end_; };
-    const std::size_t numbers = rules.law->history_size;
+    const int numbers = of.history_size();
     std::vector<double> turned(numbers);
     for (std::size_t k = 0; k < kept.size(); ++k) {
-        const bool of_pairs = k < kept.pairs;
-        std::int32_t i = index[kept.first[k]], j = of_pairs ? index[kept.second[k]] : kept.second[k];
-        if (!own(i) && !(of_pairs && own(j))) continue;
-        const double sign = of_pairs && i > j ? -1 : 1;
+        std::int32_t i = index[kept.first[k]], j = of.of_pairs ? index[kept.second[k]] : kept.second[k];
+        if (!own(i) && !(of.of_pairs && own(j))) continue;
+        const double sign = of.of_pairs && i > j ? -1 : 1;
         if (sign < 0) std::swap(i, j);
-        for (std::size_t h = 0; h < numbers; ++h) {
+        for (int h = 0; h < numbers; ++h) {
             const double value = kept.history[k * numbers + h];
-            turned[h] = rules.law->turns[h] ? sign * value : value;
+            turned[h] = of.turns(h) ? sign * value : value;
         }
         // A contact not found has parted since the last step.
-        (of_pairs ? pairs_ : walls_).restore(i, j, turned.data());
+        lists_[group].restore(i, j, turned.data());
     }
 }
 
 // Sets touch_ for a chunk after the other and calls law(input, number of the chunk's first contact).
 template <class Law>
-void ContactPass::each_chunk(const ContactRules& rules, const Grains& grains, const WallState& state,
-                             bool of_pairs, double step, const Law& law) const {
-    const ContactList& list = of_pairs ? pairs_ : walls_;
-    const LawParameters* parameters = of_pairs ? &rules.of_pairs : &rules.of_walls;
+void ContactPass::each_chunk(const ContactRules& rules, std::size_t group, const Grains& grains,
+                             const WallState& state, double step, const Law& law) const {
+    const ContactGroup& of = rules.groups[group];
+    const ContactList& list = lists_[group];
+    const Wants wants = of.rolling ? Wants::rolling : wants_of(*of.law);
     for (std::int32_t c = 0; c < list.size(); c += kChunk) {
         const int count = std::min(kChunk, list.size() - c);
-        const GeometryInput in{&grains, list.first.data() + c, list.second.data() + c,
-                               count,   wants_of(*rules.law),  rules.arms,
-                               step};
-        of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
+        const GeometryInput in{
+            &grains,  list.first.data() + c, list.second.data() + c, count, wants, rules.arms, step,
+            &rolling_};
+        of.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
         if (count < kChunk) touch_.touching &= (std::uint64_t{1} << count) - 1;  // not the fill
-        law(LawInput{count, &touch_, list.mass_of_block(c), list.kind.data() + c, parameters, step}, c);
+        law(LawInput{count, &touch_, list.mass_of_block(c), list.radius_of_block(c), list.kind.data() + c,
+                     &of.parameters, step, of.history_size(), &rolling_},
+            c);
     }
 }
 
-void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state, double step) {
-    const auto chunk = [&](const LawInput& in, ContactList& list, std::int32_t c) {
-        rules.law->step(in, list.history_of_block(c), force_);
-        return ChunkOfContacts{list.first.data() + c, list.second.data() + c, in.count, &touch_, &force_,
-                               rules.law->rubs};
-    };
-    each_chunk(rules, grains, state, true, step, [&](const LawInput& in, std::int32_t c) {
-        add_pairs(chunk(in, pairs_, c), loads_, begin_, end_, grains);
-    });
-    each_chunk(rules, grains, state, false, step, [&](const LawInput& in, std::int32_t c) {
-        add_walls(chunk(in, walls_, c), loads_, state, step, grains);
-    });
+namespace {
+
+// The second law of a chunk starts behind the first in each block of the history.
+LawInput for_rolling(const ContactGroup& group, LawInput in) {
+    in.parameters = &group.rolling_parameters;
+    return in;
+}
+std::ptrdiff_t behind_law(const ContactGroup& group) {
+    return std::ptrdiff_t{kBlock} * group.law->history_size;
 }
 
-void ContactPass::observe(const ContactRules& rules, const Grains& grains, const WallState& state,
-                          bool of_pairs, const Seen& seen) const {
-    const ContactList& list = of_pairs ? pairs_ : walls_;
-    each_chunk(rules, grains, state, of_pairs, 0, [&](const LawInput& in, std::int32_t c) {
-        rules.law->observe(in, list.history_of_block(c), force_);
+}  // namespace
+
+void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state, double step) {
+    for (std::size_t g = 0; g < lists_.size(); ++g) {
+        const ContactGroup& group = rules.groups[g];
+        ContactList& list = lists_[g];
+        each_chunk(rules, g, grains, state, step, [&](const LawInput& in, std::int32_t c) {
+            double* history = list.history_of_block(c);
+            group.law->step(in, history, force_);
+            if (group.rolling)
+                group.rolling->step(for_rolling(group, in), history + behind_law(group), force_);
+            const ChunkOfContacts chunk{list.first.data() + c,
+                                        list.second.data() + c,
+                                        in.count,
+                                        &touch_,
+                                        &force_,
+                                        group.law->rubs,
+                                        group.rolling ? &rolling_ : nullptr};
+            group.of_pairs ? add_pairs(chunk, loads_, begin_, end_, grains)
+                           : add_walls(chunk, loads_, state, step, grains);
+        });
+    }
+}
+
+void ContactPass::observe(const ContactRules& rules, std::size_t group, const Grains& grains,
+                          const WallState& state, const Seen& seen) const {
+    const ContactGroup& of = rules.groups[group];
+    const ContactList& list = lists_[group];
+    each_chunk(rules, group, grains, state, 0, [&](const LawInput& in, std::int32_t c) {
+        const double* history = list.history_of_block(c);
+        of.law->observe(in, history, force_);
+        if (of.rolling) of.rolling->observe(for_rolling(of, in), history + behind_law(of), force_);
         for (int k = 0; k < in.count; ++k) {
             if ((touch_.touching >> k & 1) && list.first[c + k] >= begin_)
                 seen(list.first[c + k], list.second[c + k], k, touch_, force_);

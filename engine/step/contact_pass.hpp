@@ -10,21 +10,11 @@
 
 #include "engine/step/contact_geometry.hpp"
 #include "engine/step/contact_list.hpp"
+#include "engine/step/contact_rules.hpp"
 #include "engine/step/loads.hpp"
 #include "engine/step/neighbours.hpp"
 
 namespace grainreel {
-
-// What holds for a whole run.
-struct ContactRules {
-    const LawKernel* law;
-    LawParameters of_pairs, of_walls;
-    std::int32_t species;
-    LeverArms arms;
-    double period;  // m, of x; 0 for none
-
-    ContactRules(const Plan& plan, double period_of_x);
-};
 
 class ContactPass {
   public:
@@ -36,29 +26,31 @@ class ContactPass {
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                  const std::vector<Face>& faces, const Vec3& wall_offset, double skin, bool carry_histories);
 
-    // Appends the contacts under own grains that have a history, pairs or walls; and takes back those that
-    // have to do with an own grain, numbered as the grains are now.
-    void keep_pairs(KeptContacts& kept) const { pairs_.keep(kept, begin_); }
-    void keep_walls(KeptContacts& kept) const { walls_.keep(kept, begin_); }
-    void restore(const ContactRules& rules, const KeptContacts& kept, const std::vector<std::int32_t>& index);
+    // The contacts under own grains that have a history, by group.
+    void keep(std::vector<KeptContacts>& kept) const;
+    // Takes back those of one group that have to do with an own grain, numbered as the grains are now.
+    void restore(const ContactRules& rules, std::size_t group, const KeptContacts& kept,
+                 const std::vector<std::int32_t>& index);
 
     // One step of all laws: adds the forces of pairs, then of walls, to the loads of the own grains, and the
     // moving walls' work to them.
     void compute(const ContactRules& rules, Grains& grains, const WallState& state, double step);
 
-    // Shows every pair under an own grain, or every wall contact, that touches: its bodies, and where to find
-    // it in the chunks.
+    // Shows every contact of a group under an own grain that touches: its bodies, and where to find it in the
+    // chunks.
     using Seen = std::function<void(std::int32_t first, std::int32_t second, int at, const TouchChunk&,
                                     const ForceChunk&)>;
-    void observe(const ContactRules& rules, const Grains& grains, const WallState& state, bool of_pairs,
+    void observe(const ContactRules& rules, std::size_t group, const Grains& grains, const WallState& state,
                  const Seen& seen) const;
 
   private:
     template <class Law>
-    void each_chunk(const ContactRules& rules, const Grains& grains, const WallState& state, bool of_pairs,
-                    double step, const Law& law) const;
+    void each_chunk(const ContactRules& rules, std::size_t group, const Grains& grains,
+                    const WallState& state, double step, const Law& law) const;
+    void add_pairs_within(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
+                          double skin);
 
-    ContactList pairs_, walls_;
+    std::vector<ContactList> lists_;    // one a group
     std::int32_t begin_ = 0, end_ = 0;  // the own grains
     struct Pair {
         std::int32_t slot, first;
@@ -66,6 +58,7 @@ class ContactPass {
     std::vector<Pair> incoming_;  // listed pairs of an earlier thread's grain and an own one
     mutable TouchChunk touch_;
     mutable ForceChunk force_;
+    mutable RollingChunk rolling_;
     LoadChunk loads_;
 };
 

@@ -42,6 +42,18 @@ HWY_INLINE void fill(const ChunkOfContacts& chunk, LoadChunk& out) {
     }
 }
 
+// What resists rolling comes on top of the torques.
+void add_rolling(const ChunkOfContacts& chunk, LoadChunk& out) {
+    if (!chunk.rolling) return;
+    for (std::uint64_t left = chunk.touch->touching; left != 0; left &= left - 1) {
+        const int c = std::countr_zero(left);
+        const auto& torque = chunk.rolling->torque;
+        const Vec3 on_second(torque[0][c], torque[1][c], torque[2][c]);
+        out.contact[c].on_first.torque -= on_second;
+        out.contact[c].on_second.torque += on_second;
+    }
+}
+
 // Of a load: force and torque, or the force alone.
 template <bool rubs>
 constexpr int kNumbers = rubs ? 8 : 4;
@@ -60,6 +72,7 @@ template <bool rubs>
 void pairs_of(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t begin, std::int32_t end,
               Grains& grains) {
     fill<rubs>(chunk, scratch);
+    if (rubs) add_rolling(chunk, scratch);
     constexpr int n = kNumbers<rubs>;
     for (std::uint64_t left = chunk.touch->touching; left != 0;) {
         int c = std::countr_zero(left);
@@ -86,6 +99,7 @@ void pairs(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t begin,
 template <bool rubs>
 void walls_of(const ChunkOfContacts& chunk, LoadChunk& scratch, Grains& grains) {
     fill<rubs>(chunk, scratch);
+    if (rubs) add_rolling(chunk, scratch);
     for (std::uint64_t left = chunk.touch->touching; left != 0; left &= left - 1) {
         const int c = std::countr_zero(left);
         add_one<rubs>(scratch.contact[c].on_first, grains.load[chunk.first[c]]);

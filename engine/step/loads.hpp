@@ -24,6 +24,7 @@ struct ChunkOfContacts {
     const TouchChunk* touch;
     const ForceChunk* force;
     bool rubs;
+    const RollingChunk* rolling;  // nullptr where rolling meets no resistance
 };
 
 // Adds them to the loads of those of their grains that lie in [begin, end).

@@ -36,7 +36,7 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
     if (count <= 0) return;
     if (fresh_) listed_step_ = from;
     fresh_ = false;
-    KickInput kicks{around_.gravity, step, rules_.law->rubs, Vec3::Zero(), 1};
+    KickInput kicks{around_.gravity, step, rules_.rubs, Vec3::Zero(), 1};
     if (drag > 0) kicks.keep = std::exp(-drag * step);
     team_.run([&](int member) { run_member(member, from, from + count, kicks); });
 }

@@ -81,8 +81,8 @@ class StepLoop {
     struct alignas(64) Member {
         ContactPass contacts;
         WallState walls;
-        KeptContacts kept;
-        NeighbourList part;  // of the pair search
+        std::vector<KeptContacts> kept;  // by group
+        NeighbourList part;              // of the pair search
         Reach reach;
         Vec3 fastest{0, 0, 0};  // m/s, largest components of its grains against the bed's free flight
         double farthest = 0;    // m, from where they were listed
@@ -100,9 +100,9 @@ class StepLoop {
     void rebuild(int member, const Pose& pose);
     void note_listing(const Pose& pose);
     void share_out();
-    ContactView view(std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
+    ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
                      const ForceChunk& force) const;
-    KeptContacts all_kept() const;
+    std::vector<KeptContacts> all_kept() const;
     template <class Loop, class Kept, class ReachType, class Each>
     static void transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& each);
 

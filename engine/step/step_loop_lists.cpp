@@ -14,10 +14,7 @@ void StepLoop::refresh(int member, bool same_lists) {
 // New order, new neighbour lists, new contacts, histories carried over: called by all members.
 void StepLoop::rebuild(int member, const Pose& pose) {
     Member& mine = members_[member];
-    mine.kept.clear();
-    mine.contacts.keep_pairs(mine.kept);
-    mine.kept.pairs = mine.kept.size();
-    mine.contacts.keep_walls(mine.kept);
+    mine.contacts.keep(mine.kept);
     team_.barrier();
     if (member == 0) {
         const auto& order = spatial_order(cells_, grains_, around_.skin, around_.period);
@@ -42,7 +39,10 @@ void StepLoop::rebuild(int member, const Pose& pose) {
     }
     team_.barrier();
     refresh(member, false);
-    for (const Member& m : members_) mine.contacts.restore(rules_, m.kept, new_index_);
+    for (const Member& m : members_) {
+        for (std::size_t g = 0; g < m.kept.size(); ++g)
+            mine.contacts.restore(rules_, g, m.kept[g], new_index_);
+    }
 }
 
 void StepLoop::note_listing(const Pose& pose) {

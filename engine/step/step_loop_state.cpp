@@ -11,18 +11,20 @@ void StepLoop::visit_contacts(std::int64_t at_step,
     WallState walls;
     const Pose pose = around_.motion.at(at_step);
     walls.set(around_.faces, pose, pose, 0);
-    for (const bool of_pairs : {true, false}) {
+    for (std::size_t g = 0; g < rules_.groups.size(); ++g) {
+        const bool of_pairs = rules_.groups[g].of_pairs, rubs = rules_.groups[g].law->rubs;
         for (const Member& m : members_) {
-            m.contacts.observe(
-                rules_, grains_, walls, of_pairs,
-                [&](std::int32_t i, std::int32_t j, int at, const TouchChunk& touch,
-                    const ForceChunk& force) { visit(view(i, of_pairs ? j : -1 - j, at, touch, force)); });
+            m.contacts.observe(rules_, g, grains_, walls,
+                               [&](std::int32_t i, std::int32_t j, int at, const TouchChunk& touch,
+                                   const ForceChunk& force) {
+                                   visit(view(rubs, i, of_pairs ? j : -1 - j, at, touch, force));
+                               });
         }
     }
 }
 
-ContactView StepLoop::view(std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
-                           const ForceChunk& force) const {
+ContactView StepLoop::view(bool rubs, std::int32_t first, std::int32_t second, int at,
+                           const TouchChunk& touch, const ForceChunk& force) const {
     const auto of = [at](const double(*axes)[kChunk]) { return Vec3(axes[0][at], axes[1][at], axes[2][at]); };
     const Place& one = grains_.place[first];
     ContactView v{};
@@ -32,25 +34,26 @@ ContactView StepLoop::view(std::int32_t first, std::int32_t second, int at, cons
     v.overlap = touch.overlap[at];
     v.smaller_radius = second < 0 ? one.radius : std::min(one.radius, grains_.place[second].radius);
     v.normal_force = force.normal[at];
-    v.tangential = rules_.law->rubs ? of(force.tangential) : Vec3::Zero();
+    v.tangential = rubs ? of(force.tangential) : Vec3::Zero();
     v.stored_energy = force.stored[at];
     v.point = one.position + v.normal * (one.radius - 0.5 * v.overlap);
     return v;
 }
 
-// Contacts with a history in one order, whoever works on them: pairs, then walls, by rising first grain.
-KeptContacts StepLoop::all_kept() const {
-    KeptContacts all;
-    for (const Member& m : members_) m.contacts.keep_pairs(all);
-    all.pairs = all.size();
-    for (const Member& m : members_) m.contacts.keep_walls(all);
+// Contacts with a history in one order, whoever works on them: by rising first grain.
+std::vector<KeptContacts> StepLoop::all_kept() const {
+    std::vector<KeptContacts> all(rules_.groups.size()), part;
+    for (const Member& m : members_) {
+        m.contacts.keep(part);
+        for (std::size_t g = 0; g < part.size(); ++g) all[g].append(part[g]);
+    }
     return all;
 }
 
 // Everything saved, in its order.
 template <class Loop, class Kept, class ReachType, class Each>
 void StepLoop::transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& each) {
-    each(kept.first), each(kept.second), each(kept.history), each(kept.pairs);
+    for (auto& group : kept) each(group.first), each(group.second), each(group.history);
     each(loop.lists_.pairs.start), each(loop.lists_.pairs.partner);
     each(loop.lists_.pairs.farthest_partner);
     each(loop.lists_.walls);
@@ -59,12 +62,12 @@ void StepLoop::transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& ea
 }
 
 void StepLoop::save(std::ostream& out) const {
-    const KeptContacts kept = all_kept();
+    const std::vector<KeptContacts> kept = all_kept();
     transfer(*this, kept, members_[0].reach, Writing{out});
 }
 
 void StepLoop::load(std::istream& in) {
-    KeptContacts kept;
+    std::vector<KeptContacts> kept(rules_.groups.size());
     Reach reach;
     transfer(*this, kept, reach, Reading{in});
     if (!in) return;  // the caller says so
@@ -75,7 +78,8 @@ void StepLoop::load(std::istream& in) {
     for (int member = 0; member < team_.size(); ++member) {
         members_[member].reach = reach;
         refresh(member, false);
-        members_[member].contacts.restore(rules_, kept, same);
+        for (std::size_t g = 0; g < kept.size(); ++g)
+            members_[member].contacts.restore(rules_, g, kept[g], same);
     }
 }
 

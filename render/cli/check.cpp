@@ -133,23 +133,43 @@ void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
 
 void print_model(const Scene& scene, const Plan& plan, Listing& list) {
     std::vector<std::string> in, out;
-    in.push_back(plan.normal == NormalLaw::spring_dashpot ? "normal force: linear spring and dashpot"
-                                                          : "normal force: Walton-Braun latching spring");
-    if (plan.normal == NormalLaw::walton_braun_speed) in.push_back("restitution that falls with speed");
-    const bool rubs = plan.tangential != TangentialLaw::none;
-    if (plan.tangential == TangentialLaw::incremental_slip)
-        in.push_back("friction: Walton's incremental slip");
-    if (plan.tangential == TangentialLaw::linear_spring)
-        in.push_back("friction: linear spring with Coulomb's cap");
+    const auto any = [&](auto&& is) {
+        const auto of = [&](const PairPlan& pair) { return is(pair.model); };
+        return std::any_of(plan.grain.begin(), plan.grain.end(), of) ||
+               std::any_of(plan.wall.begin(), plan.wall.end(), of);
+    };
+    const auto note = [&](bool used, const char* what) {
+        if (used) in.push_back(what);
+    };
+    const auto normal = [&](NormalForce law) {
+        return any([&](const ContactModel& m) { return m.normal == law; });
+    };
+    const auto tangential = [&](TangentialLaw law) {
+        return any([&](const ContactModel& m) { return m.tangential == law; });
+    };
+    const bool by_speed = normal(NormalForce::walton_braun_speed) || normal(NormalForce::walton_braun_table);
+    note(normal(NormalForce::walton_braun) || by_speed, "normal force: Walton-Braun latching spring");
+    note(by_speed, "restitution that depends on speed");
+    note(normal(NormalForce::spring_dashpot), "normal force: linear spring and dashpot");
+    note(normal(NormalForce::hertz), "normal force: Hertz with dashpot");
+    note(tangential(TangentialLaw::incremental_slip), "friction: Walton's incremental slip");
+    note(tangential(TangentialLaw::linear_spring), "friction: linear spring with Coulomb's cap");
+    note(tangential(TangentialLaw::mindlin), "friction: Mindlin's spring with Coulomb's cap");
+    const bool rubs = plan.rubs();
+    (plan.rolls() ? in : out).push_back("rolling resistance");
     (rubs ? in : out).push_back("spin and torque");
     if (!rubs) out.push_back("friction");
     (scene.gravity.norm() > 0 ? in : out).push_back("gravity");
     (plan.moving_walls ? in : out).push_back("moving walls");
-    for (const char* absent : {"air", "cohesion", "rolling resistance", "wear and breakage"})
-        out.push_back(absent);
-    if (plan.normal == NormalLaw::walton_braun) out.push_back("restitution that depends on speed");
+    for (const char* absent : {"air", "cohesion", "wear and breakage"}) out.push_back(absent);
+    if (normal(NormalForce::walton_braun)) out.push_back("restitution that depends on speed");
     list.line("modelled", fmt::format("{}", fmt::join(in, ", ")));
     list.line("left out", fmt::format("{}", fmt::join(out, ", ")));
+}
+
+std::string stiffness_text(const PairPlan& pair) {
+    return pair.modulus > 0 ? fmt::format("{:.3g} Pa", pair.modulus)
+                            : fmt::format("{:.3g} N/m", pair.loading_stiffness);
 }
 
 void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
@@ -159,8 +179,8 @@ void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
                "stiffness", "chosen for", "e", "friction", "duration", "steps");
     const auto row = [&](const std::string& name, const PairPlan& pair) {
         fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6.3g}{:>10.3g}{:>12}{:>11.1f}\n", "", name, widest,
-                   fmt::format("{:.3g} N/m", pair.loading_stiffness), pair.stiffness_reason, pair.restitution,
-                   pair.friction, span(pair.contact_time), pair.contact_time / plan.clock.step);
+                   stiffness_text(pair), pair.stiffness_reason, pair.restitution, pair.friction,
+                   span(pair.contact_time), pair.contact_time / plan.clock.step);
     };
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         for (std::size_t b = a; b < scene.species.size(); ++b)

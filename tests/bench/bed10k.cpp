@@ -37,9 +37,9 @@ Plan bed_plan() {
     pair.normal_damping = 2634;
     pair.tangential_damping = 1317;
     pair.friction = 0.5;
+    pair.attraction = true;
+    pair.model = {NormalForce::spring_dashpot, TangentialLaw::linear_spring, false};
     Plan plan;
-    plan.normal = NormalLaw::spring_dashpot;
-    plan.tangential = TangentialLaw::linear_spring;
     plan.grain.assign(4, pair);
     plan.wall.assign(2, pair);
     plan.clock.step = 2e-6;

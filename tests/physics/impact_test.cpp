@@ -13,7 +13,7 @@ struct Impact {
 };
 
 Impact head_on(const PairPlan& pair, double v, double step, double gap,
-               NormalLaw law = NormalLaw::walton_braun) {
+               NormalForce law = NormalForce::walton_braun) {
     World w = make_world(pair, step, law, TangentialLaw::none);
     w.grains.add(0, 0, Vec3(-kRadius - gap / 2, 0, 0), kRadius, kDensity);
     w.grains.add(1, 0, Vec3(kRadius + gap / 2, 0, 0), kRadius, kDensity);
@@ -84,7 +84,7 @@ TEST(NormalImpact, RestitutionFallsWithSpeedAsWaltonAndBraunHaveIt) {
     for (const double v : {0.02, 0.3, 2.0, 10.0}) {
         const double e = 1 / std::sqrt(1 + 0.4 * v), time = std::numbers::pi / 2 * (1 + e) / natural;
         const double step = time / 4000;
-        const Impact impact = head_on(pair, v, step, 0.37 * v * step, NormalLaw::walton_braun_speed);
+        const Impact impact = head_on(pair, v, step, 0.37 * v * step, NormalForce::walton_braun_speed);
         EXPECT_NEAR(impact.e, e, 2e-4) << v;
         EXPECT_NEAR(impact.contact_time, time, 3 * step) << v;
         EXPECT_NEAR(impact.lost, 0.25 * sphere_mass() * v * v * (1 - e * e), 1e-3 * sphere_mass() * v * v)
@@ -99,10 +99,11 @@ TEST(NormalImpact, SpringAndDashpotReboundAsTheClosedFormSays) {
     for (const double damping_ratio : {0.03, 0.2, 0.5}) {
         PairPlan pair = walton_braun_pair(1, 0);
         pair.normal_damping = 2 * natural * damping_ratio;
+        pair.attraction = true;
         const double slower = std::sqrt(1 - damping_ratio * damping_ratio);
         const double e = std::exp(-std::numbers::pi * damping_ratio / slower);
         const double time = std::numbers::pi / (natural * slower), step = time / 8000;
-        const Impact impact = head_on(pair, v, step, 0.5 * v * step, NormalLaw::spring_dashpot);
+        const Impact impact = head_on(pair, v, step, 0.5 * v * step, NormalForce::spring_dashpot);
         EXPECT_NEAR(impact.e, e, 5e-4) << damping_ratio;
         EXPECT_NEAR(impact.contact_time, time, 3 * step) << damping_ratio;
     }
@@ -113,7 +114,7 @@ TEST(NormalImpact, WithoutHardeningTheLawOfSpeedsIsThePlainOne) {
     const PairPlan pair = walton_braun_pair(0.7, 0);
     const double step = 2e-7, v = 0.5;
     const Impact plain = head_on(pair, v, step, 1e-9);
-    const Impact other = head_on(pair, v, step, 1e-9, NormalLaw::walton_braun_speed);
+    const Impact other = head_on(pair, v, step, 1e-9, NormalForce::walton_braun_speed);
     EXPECT_NEAR(other.e, plain.e, 1e-12);
     EXPECT_EQ(other.contact_time, plain.contact_time);
 }
@@ -185,8 +186,8 @@ TEST(ObliqueImpact, SpinOfOneSphereIsSlipForBoth) {
 TEST(ObliqueImpact, SlidingContactTakesCoulombsShare) {
     const double e = 0.9, mu = 0.2, vn = 0.05, ratio = 0.8;
     const double vt = 1.5 * vn * mu * std::max({3.5, 1 / ratio, 3.5 * (1 + e) - 1 / (e * ratio)});
-    World w =
-        make_world(walton_braun_pair(e, mu, ratio), 0, NormalLaw::walton_braun, TangentialLaw::linear_spring);
+    World w = make_world(walton_braun_pair(e, mu, ratio), 0, NormalForce::walton_braun,
+                         TangentialLaw::linear_spring);
     w.plan.clock.step = std::numbers::pi / 2 * (1 + e) * std::sqrt(sphere_mass() / kStiffness) / 2000;
     w.around.faces = {floor_face()};
     w.grains.add(0, 0, Vec3(0, 0, kRadius + 0.4 * vn * w.plan.clock.step), kRadius, kDensity);

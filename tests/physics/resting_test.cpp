@@ -10,7 +10,7 @@ constexpr double kGravity = 9.81;
 
 // A ball in equilibrium on the loading branch of the floor.
 World ball_on_floor(double mu, const Vec3& gravity, TangentialLaw law = TangentialLaw::incremental_slip) {
-    World w = make_world(walton_braun_pair(0.9, mu), 2e-6, NormalLaw::walton_braun, law);
+    World w = make_world(walton_braun_pair(0.9, mu), 2e-6, NormalForce::walton_braun, law);
     w.around.faces = {floor_face()};
     w.around.gravity = gravity;
     const double sink = sphere_mass() * -gravity.z() / kStiffness;
@@ -71,7 +71,7 @@ TEST(OnTheFloor, SpringDashpotBallRestsAtItsWeightOverStiffness) {
     PairPlan pair = walton_braun_pair(0.7, 0);
     pair.unloading_stiffness = pair.loading_stiffness;
     pair.normal_damping = 0.2 * 2 * std::sqrt(kStiffness / sphere_mass());
-    World w = make_world(pair, 1e-6, NormalLaw::spring_dashpot, TangentialLaw::none);
+    World w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
     w.around.faces = {floor_face()};
     w.around.gravity = {0, 0, -kGravity};
     w.grains.add(0, 0, Vec3(0, 0, 1.1 * kRadius), kRadius, kDensity);
@@ -84,7 +84,7 @@ TEST(OnTheFloor, SpringDashpotBallRestsAtItsWeightOverStiffness) {
 // Released at touch, a Walton-Braun ball swings for ever between 2(1 - e^2) mg/K1 and 2 mg/K1.
 TEST(OnTheFloor, WaltonBraunBallSwingsOnItsLatchedBranch) {
     const double e = 0.7;
-    World w = make_world(walton_braun_pair(e, 0), 1e-7, NormalLaw::walton_braun, TangentialLaw::none);
+    World w = make_world(walton_braun_pair(e, 0), 1e-7, NormalForce::walton_braun, TangentialLaw::none);
     w.around.faces = {floor_face()};
     w.around.gravity = {0, 0, -kGravity};
     w.grains.add(0, 0, Vec3(0, 0, kRadius), kRadius, kDensity);

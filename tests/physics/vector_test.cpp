@@ -6,12 +6,15 @@
 
 #include "engine/laws/contact_law-inl.hpp"
 #include "engine/laws/frictionless-inl.hpp"
+#include "engine/laws/hertz-inl.hpp"
 #include "engine/laws/incremental_slip-inl.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/laws/linear_spring-inl.hpp"
+#include "engine/laws/mindlin-inl.hpp"
 #include "engine/laws/spring_dashpot-inl.hpp"
 #include "engine/laws/walton_braun-inl.hpp"
 #include "engine/laws/walton_braun_speed-inl.hpp"
+#include "engine/laws/walton_braun_table-inl.hpp"
 #include "engine/step/contact_list.hpp"
 #include "tests/physics/world.hpp"
 
@@ -46,6 +49,11 @@ std::vector<PairPlan> three_kinds() {
         p.normal_damping = 2000 * (1 - e);
         p.tangential_damping = 1000 * (1 - e);
         p.hardening = e == 0.8 ? 0 : 3e4 * (1 - e);
+        p.attraction = e > 0.6;
+        p.modulus = 1e8;
+        p.hertz_damping = 1 - e;
+        p.tangential_ratio = e;
+        if (e == 0.8) p.restitution_table = {{0.01, 0.95}, {0.03, 0.7}, {0.1, 0.6}};
         p.gamma = e == 0.8 ? 0.7 : e == 0.5 ? 2 : 1.0 / 3.0;
         kinds.push_back(p);
     }
@@ -54,9 +62,9 @@ std::vector<PairPlan> three_kinds() {
 
 // A crowd of contacts that slip, turn, part and meet again; the kernel's answer must be the scalar law's.
 template <class Normal, class Tangential>
-void compare(NormalLaw normal, TangentialLaw tangential, const std::vector<PairPlan>& kinds) {
+void compare(NormalForce normal, TangentialLaw tangential, const std::vector<PairPlan>& kinds) {
     using Law = ContactLaw<Normal, Tangential>;
-    const LawKernel& kernel = law_kernel(normal, tangential);
+    const LawKernel& kernel = law_kernel({normal, tangential, false});
     const LawParameters parameters = kernel.parameters(kinds);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> one(-1, 1);
@@ -64,10 +72,11 @@ void compare(NormalLaw normal, TangentialLaw tangential, const std::vector<PairP
     ForceChunk force;
     std::vector<Block> history(kChunk / kBlock * kernel.history_size, Block{});
     std::vector<typename Law::template History<double>> expected(kChunk);
-    Block mass[kChunk / kBlock];
+    Block mass[kChunk / kBlock], radius[kChunk / kBlock];
     std::int32_t kind[kChunk];
     for (int c = 0; c < kChunk; ++c) {
         mass[c / kBlock].value[c % kBlock] = 1e-4 * (1.5 + one(random));
+        radius[c / kBlock].value[c % kBlock] = 1e-3 * (1.5 + one(random));
         kind[c] = static_cast<std::int32_t>(c % kinds.size());
         const Vec3 k = Vec3(one(random), one(random), one(random)).normalized();
         for (int a = 0; a < 3; ++a) touch.normal[a][c] = k[a];
@@ -86,7 +95,9 @@ void compare(NormalLaw normal, TangentialLaw tangential, const std::vector<PairP
                 touch.velocity[a][c] = one(random);
             }
         }
-        kernel.step({kChunk, &touch, mass[0].value, kind, &parameters, step}, history[0].value, force);
+        kernel.step({kChunk, &touch, mass[0].value, radius[0].value, kind, &parameters, step,
+                     kernel.history_size, nullptr},
+                    history[0].value, force);
         for (int c = 0; c < kChunk; ++c) {
             auto& h = expected[c];
             Touch<double> t{};
@@ -94,6 +105,7 @@ void compare(NormalLaw normal, TangentialLaw tangential, const std::vector<PairP
             t.overlap = touch.overlap[c];
             t.twist = touch.twist[c];
             t.effective_mass = mass[c / kBlock].value[c % kBlock];
+            t.effective_radius = radius[c / kBlock].value[c % kBlock];
             typename Law::template Force<double> f{0, {0, 0, 0}};
             if (t.overlap > 0) {
                 const Triple<double> velocity{touch.velocity[0][c], touch.velocity[1][c],
@@ -128,14 +140,21 @@ TEST(VectorLaws, AreTheScalarLawsToTheLastBitAtEveryWidth) {
             using WB = WaltonBraun;
             using WS = WaltonBraunSpeed;
             using SD = SpringDashpot;
-            constexpr auto wb = NormalLaw::walton_braun, sd = NormalLaw::spring_dashpot;
+            constexpr auto wb = NormalForce::walton_braun, sd = NormalForce::spring_dashpot;
             compare<WB, IncrementalSlip>(wb, TangentialLaw::incremental_slip, kinds);
             compare<WB, LinearSpring>(wb, TangentialLaw::linear_spring, kinds);
             compare<WB, Frictionless>(wb, TangentialLaw::none, kinds);
-            constexpr auto ws = NormalLaw::walton_braun_speed;
+            constexpr auto ws = NormalForce::walton_braun_speed;
             compare<WS, IncrementalSlip>(ws, TangentialLaw::incremental_slip, kinds);
             compare<WS, LinearSpring>(ws, TangentialLaw::linear_spring, kinds);
             compare<WS, Frictionless>(ws, TangentialLaw::none, kinds);
+            using WT = WaltonBraunTable;
+            constexpr auto wt = NormalForce::walton_braun_table;
+            compare<WT, IncrementalSlip>(wt, TangentialLaw::incremental_slip, kinds);
+            compare<WT, LinearSpring>(wt, TangentialLaw::linear_spring, kinds);
+            compare<WT, Frictionless>(wt, TangentialLaw::none, kinds);
+            compare<Hertz, Mindlin>(NormalForce::hertz, TangentialLaw::mindlin, kinds);
+            compare<Hertz, Frictionless>(NormalForce::hertz, TangentialLaw::none, kinds);
             compare<SD, IncrementalSlip>(sd, TangentialLaw::incremental_slip, kinds);
             compare<SD, LinearSpring>(sd, TangentialLaw::linear_spring, kinds);
             compare<SD, Frictionless>(sd, TangentialLaw::none, kinds);
@@ -153,7 +172,7 @@ TEST(VectorLaws, PowersAreThoseOfTheLibrary) {
 
 // A tumbling heap of two sizes in a corner with a round wall: every kind of contact there is.
 std::vector<double> tumble(TangentialLaw tangential, int threads, double skin = 0.0002) {
-    World w = make_world(walton_braun_pair(0.8, 0.4), 2e-6, NormalLaw::walton_braun, tangential);
+    World w = make_world(walton_braun_pair(0.8, 0.4), 2e-6, NormalForce::walton_braun, tangential);
     w.team = std::make_unique<Team>(threads);
     Face round;
     round.kind = Face::Kind::cylinder;

@@ -68,7 +68,7 @@ TEST(Wedge, BallInACornerTouchesBothFaces) {
     PairPlan pair = walton_braun_pair(0.9, 0);
     pair.unloading_stiffness = pair.loading_stiffness;
     pair.normal_damping = 1000;
-    World w = make_world(pair, 1e-6, NormalLaw::spring_dashpot, TangentialLaw::none);
+    World w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
     w.around.faces = container_faces(c, Drive{});
     const double lean = 0.2;
     w.around.gravity = 9.81 * Vec3(0, std::sin(lean), -std::cos(lean));
@@ -100,6 +100,51 @@ TEST(Cylinder, DistanceIsRadial) {
     EXPECT_NEAR(d.distance, 0.04 - 0.005, 1e-15);
     EXPECT_NEAR(d.normal.x(), -0.6, 1e-12);
     EXPECT_NEAR(d.normal.y(), -0.8, 1e-12);
+}
+
+// Pressed sideways against the wall, a ball leans on it with its weight, wherever around the axis.
+TEST(Cylinder, HoldsABallByItsWeightOverStiffness) {
+    PairPlan pair = walton_braun_pair(0.7, 0);
+    pair.unloading_stiffness = pair.loading_stiffness;
+    pair.normal_damping = 0.2 * 2 * std::sqrt(kStiffness / sphere_mass());
+    World w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
+    Face wall;
+    wall.kind = Face::Kind::cylinder;
+    wall.point = Vec3(0.001, -0.002, 0);
+    wall.radius = 0.01;
+    w.around.faces = {wall};
+    const Vec3 outwards = Vec3(3, -4, 0) / 5;
+    w.around.gravity = 9.81 * outwards;
+    w.grains.add(0, 0, wall.point + (wall.radius - 1.05 * kRadius) * outwards, kRadius, kDensity);
+    w.start();
+    w.run(300000);
+    const double sink = sphere_mass() * 9.81 / kStiffness;
+    const Vec3 rest = wall.point + (wall.radius - kRadius + sink) * outwards;
+    EXPECT_LT((w.position(0) - rest).norm(), 1e-4 * sink);
+}
+
+// A ball that rolls without slip on a plate shaken sideways follows it by 2/7: m a = T, I w' = -T r and
+// a - r w' = a_plate give a = 2/7 a_plate. The plate's velocity is all that the ball feels of it.
+TEST(Drive, DragsARollingBallByTwoSeventhsOfItsMotion) {
+    Drive drive;
+    drive.present = true;
+    drive.frequency = 20;
+    drive.amplitude = 0.0005;
+    drive.direction = Vec3(1, 0, 0);
+    World w = make_world(walton_braun_pair(0.9, 0.8), 1 / (drive.frequency * 20000));
+    w.plan.clock.steps_per_period = 20000;
+    w.around.faces = {floor_face()};
+    w.around.faces[0].moves = true;
+    w.around.motion = WallMotion(drive, w.plan.clock);
+    w.around.gravity = {0, 0, -9.81};
+    const double sink = sphere_mass() * 9.81 / kStiffness;
+    w.grains.add(0, 0, Vec3(0, 0, kRadius - sink), kRadius, kDensity);
+    w.start();
+    for (int quarter = 1; quarter <= 20; ++quarter) {
+        w.run(5000);
+        const double plate = w.around.motion.at(w.step).offset.x();
+        EXPECT_NEAR(w.position(0).x(), 2.0 / 7 * plate, 0.01 * drive.amplitude) << quarter;
+    }
 }
 
 TEST(Drive, FollowsItsSineAndItsVelocityIsItsDerivative) {

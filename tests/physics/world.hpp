@@ -62,11 +62,11 @@ inline PairPlan walton_braun_pair(double e, double friction, double tangential_r
 }
 
 // One species, the same contact everywhere, nothing around it.
-inline World make_world(const PairPlan& pair, double step, NormalLaw normal = NormalLaw::walton_braun,
+inline World make_world(PairPlan pair, double step, NormalForce normal = NormalForce::walton_braun,
                         TangentialLaw tangential = TangentialLaw::incremental_slip) {
     World w;
-    w.plan.normal = normal;
-    w.plan.tangential = tangential;
+    pair.model.normal = normal;
+    pair.model.tangential = tangential;
     w.plan.grain.assign(1, pair);
     w.plan.wall.assign(1, pair);
     w.plan.clock.step = step;

@@ -215,7 +215,7 @@ TEST(Messages, NothingToChooseTheStiffnessBy) {
 
 TEST(Messages, DampingBeyondTheCritical) {
     // critical: 2 sqrt(k / m) of the pair of the largest effective mass, half a 1 mm grain's for a-a
-    EXPECT_EQ(complaint(box_text, {"contact.normal_damping=1e5"}),
+    EXPECT_EQ(complaint(box_text, {"contact.normal_damping=1e5", "contact.attraction=true"}),
               "--set contact.normal_damping: 'normal_damping' of 100000 1/s between \"a\" and \"a\" is not "
               "below the "
               "critical 78176.4 1/s, so "

@@ -66,11 +66,11 @@ TEST(Reader, WallsInheritAndPairsOverride) {
 }
 
 TEST(Reader, NoFrictionAnywhereLeavesOutTheTangentialLaw) {
-    EXPECT_EQ(read_text(with(wedge_text, "friction = 0.3", "friction = 0")).contact.tangential,
-              TangentialLaw::none);
+    EXPECT_FALSE(read_text(with(wedge_text, "friction = 0.3", "friction = 0")).contact.rubs());
     const Scene rough_wall =
         read_text(with(wedge_text, "friction = 0.3", "friction = 0") + "[contact.wall]\nfriction = 0.3\n");
-    EXPECT_EQ(rough_wall.contact.tangential, TangentialLaw::incremental_slip);
+    EXPECT_EQ(rough_wall.contact.grain[0].tangential, TangentialLaw::none);
+    EXPECT_EQ(rough_wall.contact.wall[0].tangential, TangentialLaw::incremental_slip);
 }
 
 TEST(Reader, GravityMayBeAVector) {

@@ -1,0 +1,83 @@
+// Tangential force beside Hertz' normal one: Mindlin's no-slip stiffness K_t = 8 G* sqrt(R_eff a) with
+// Coulomb's cap and a dashpot (Mindlin 1949, J. Appl. Mech. 16, 259; Di Renzo & Di Maio 2005, Chem. Eng. Sci.
+// 60, 1303). K_t is 2(1 - nu)/(2 - nu) times Hertz' tangent stiffness for equal materials. Where the contact
+// shrinks its force shrinks with its radius, or energy would be made (Thornton, Cummins & Cleary 2013, Powder
+// Technol. 233, 30).
+#if defined(GRAINREEL_LAWS_MINDLIN_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_MINDLIN_INL
+#undef GRAINREEL_LAWS_MINDLIN_INL
+#else
+#define GRAINREEL_LAWS_MINDLIN_INL
+#endif
+
+#include "engine/laws/carry-inl.hpp"
+#include "engine/laws/friction-inl.hpp"
+#include "engine/laws/touch-inl.hpp"
+#include "engine/scene/plan.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+struct Mindlin {
+    static constexpr bool rubs = true;
+
+    template <class R>
+    struct Parameters {
+        R ratio;     // tangential over normal tangent stiffness
+        R friction;  // mu
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(ratio), visit(friction);
+        }
+    };
+    static Parameters<double> from(const PairPlan& plan) {
+        return {plan.tangential_ratio, finite_friction(plan.friction)};
+    }
+
+    template <class R>
+    struct History {
+        Triple<R> spring_force;  // N, on j
+        Triple<R> normal;        // k of the last step; zero for a new contact
+        R stiffness;             // N/m, K_t of the last step
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit.turning(spring_force), visit.turning(normal), visit(stiffness);
+        }
+    };
+
+    // N, on j. A normal force that pulls caps by its size.
+    template <class R, class Normal>
+    static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal& normal, History<R>& h,
+                                      const Touch<R>& touch, R normal_force) {
+        const R stiffness = p.ratio * normal.tangent_stiffness(touch);
+        const R shrunk = select(stiffness < h.stiffness, stiffness / h.stiffness, R(1));
+        h.spring_force = carry_along(h.spring_force, h.normal, touch.normal, touch.twist) * shrunk;
+        h.normal = touch.normal;
+        h.stiffness = stiffness;
+        h.spring_force += touch.slip * stiffness;
+        const Triple<R> damping = touch.slip_velocity * normal.sideways_damping(touch);
+        const Triple<R> capped =
+            capped_at(h.spring_force + damping, p.friction * size_of(normal_force));
+        h.spring_force = capped - damping;  // sliding, the spring keeps what the cap leaves it
+        return capped;
+    }
+    // N, on j, as it stands at an instant, without a step.
+    template <class R, class Normal>
+    static HWY_INLINE Triple<R> now(const Parameters<R>& p, const Normal& normal, const History<R>& h,
+                                    const Touch<R>& touch, R normal_force) {
+        return capped_at(h.spring_force + touch.slip_velocity * normal.sideways_damping(touch),
+                         p.friction * size_of(normal_force));
+    }
+
+    template <class R>
+    static HWY_INLINE R stored_energy(const Parameters<R>&, const History<R>& h) {
+        return select(h.stiffness > R(0), h.spring_force.squared() / (R(2) * h.stiffness), R(0));
+    }
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

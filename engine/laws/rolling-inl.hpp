@@ -1,0 +1,70 @@
+// Resistance to rolling: an elastic-plastic rolling spring (Iwashita & Oda 1998, J. Eng. Mech. 124, 285; Ai et
+// al. 2011, Powder Technol. 206, 269, model C without dashpot). The torque grows with the angle rolled,
+//
+//   M = k_r theta,   k_r = K0 R_eff^2,   |M| <= mu_r R_eff N,
+//
+// and, being a spring, holds a grain at rest on a slope, which a constant torque does not. It comes on top of
+// any law that rubs.
+#if defined(GRAINREEL_LAWS_ROLLING_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_ROLLING_INL
+#undef GRAINREEL_LAWS_ROLLING_INL
+#else
+#define GRAINREEL_LAWS_ROLLING_INL
+#endif
+
+#include "engine/laws/carry-inl.hpp"
+#include "engine/laws/friction-inl.hpp"
+#include "engine/scene/plan.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+struct RollingSpring {
+    template <class R>
+    struct Parameters {
+        R stiffness;  // N/m, K0
+        R friction;   // mu_r
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(stiffness), visit(friction);
+        }
+    };
+    static Parameters<double> from(const PairPlan& plan) {
+        return {plan.tangential_stiffness, plan.rolling_friction};
+    }
+
+    template <class R>
+    struct History {
+        Triple<R> torque;  // N m, on j
+        Triple<R> normal;  // k of the last step; zero for a new contact
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit.turning(torque), visit.turning(normal);
+        }
+    };
+
+    // N m, on j. `angle`: rad, that i has turned against j across k in this step; `twist` as in Touch.
+    template <class R>
+    static HWY_INLINE Triple<R> torque(const Parameters<R>& p, History<R>& h, const Triple<R>& normal,
+                                       R twist, const Triple<R>& angle, R effective_radius, R normal_force) {
+        const Triple<R> old = carry_along(h.torque, h.normal, normal, twist);
+        h.normal = normal;
+        h.torque = capped_at(old + angle * (p.stiffness * effective_radius * effective_radius),
+                             p.friction * effective_radius * larger(R(0), normal_force));
+        return h.torque;
+    }
+
+    // J, M^2 / (2 k_r).
+    template <class R>
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, R effective_radius) {
+        const R stiffness = p.stiffness * effective_radius * effective_radius;
+        return select(stiffness > R(0), h.torque.squared() / (R(2) * stiffness), R(0));
+    }
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

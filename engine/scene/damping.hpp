@@ -1,0 +1,18 @@
+// How strong a dashpot must be for a wanted restitution, and the other way round. Dimensionless.
+#pragma once
+
+namespace grainreel {
+
+// Linear spring and dashpot, beta = c / (2 sqrt(m k)) the damping ratio. While the dashpot may pull the
+// contact ends with the overlap: e = exp(-pi beta / sqrt(1 - beta^2)), beta < 1. Without attraction it ends
+// with the force, a little earlier and faster (Schwager & Poeschel 2007, Granul. Matter 9, 465, eq. 21).
+double linear_restitution(double beta, bool attraction);
+double linear_damping(double restitution, bool attraction);
+
+// Hertz' spring with the dashpot d sqrt(m k) a^(1/4) v (Tsuji, Tanaka & Ishida 1992, Powder Technol. 71, 239),
+// whose restitution does not depend on speed. While it may pull, d = -sqrt(5) ln e / sqrt(pi^2 + ln^2 e)
+// (Antypov & Elliott 2011, EPL 94, 50004); without attraction the impact is integrated, to about 1e-5.
+double hertz_restitution(double damping, bool attraction);
+double hertz_damping(double restitution, bool attraction);
+
+}  // namespace grainreel

@@ -1,0 +1,66 @@
+#include "engine/step/contact_rules.hpp"
+
+#include <algorithm>
+
+namespace grainreel {
+namespace {
+
+// Kinds that do not differ are one: no lookup.
+LawParameters one_if_equal(LawParameters p) {
+    std::vector<double> first;
+    for (std::size_t row = 0; row < p.values.size(); row += p.kinds) {
+        const auto begin = p.values.begin() + row;
+        if (std::any_of(begin, begin + p.kinds, [&](double v) { return v != *begin; })) return p;
+        first.push_back(*begin);
+    }
+    return {first, 1};
+}
+
+// Adds the groups of all pairs, or of all walls, and says which kind is in which.
+std::vector<std::int32_t> add_groups(const std::vector<PairPlan>& kinds, bool of_pairs,
+                                     std::vector<ContactGroup>& groups) {
+    const std::size_t begin = groups.size();
+    std::vector<std::int32_t> group_of;
+    std::vector<std::vector<PairPlan>> members;
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        const ContactModel& model = kinds[kind].model;
+        std::size_t g = begin;
+        while (g < groups.size() && !(groups[g].model == model)) ++g;
+        if (g == groups.size()) {
+            ContactGroup group{};
+            group.model = model;
+            group.law = &law_kernel(model);
+            group.rolling = model.rolls ? &rolling_kernel() : nullptr;
+            group.of_pairs = of_pairs;
+            group.row.assign(kinds.size(), 0);
+            groups.push_back(group);
+            members.emplace_back();
+        }
+        groups[g].row[kind] = static_cast<std::int32_t>(members[g - begin].size());
+        members[g - begin].push_back(kinds[kind]);
+        group_of.push_back(static_cast<std::int32_t>(g));
+    }
+    for (std::size_t g = begin; g < groups.size(); ++g) {
+        ContactGroup& group = groups[g];
+        group.parameters = one_if_equal(group.law->parameters(members[g - begin]));
+        if (group.rolling) group.rolling_parameters = one_if_equal(group.rolling->parameters(members[g - begin]));
+    }
+    return group_of;
+}
+
+}  // namespace
+
+bool ContactGroup::turns(int number) const {
+    return number < law->history_size ? law->turns[number] : rolling->turns[number - law->history_size];
+}
+
+ContactRules::ContactRules(const Plan& plan, double period_of_x)
+    : species(static_cast<std::int32_t>(plan.wall.size())),
+      arms(plan.arms),
+      period(period_of_x),
+      rubs(plan.rubs()) {
+    group_of_pair = add_groups(plan.grain, true, groups);
+    group_of_wall = add_groups(plan.wall, false, groups);
+}
+
+}  // namespace grainreel
