@@ -58,8 +58,7 @@ struct Mindlin {
         h.stiffness = stiffness;
         h.spring_force += touch.slip * stiffness;
         const Triple<R> damping = touch.slip_velocity * normal.sideways_damping(touch);
-        const Triple<R> capped =
-            capped_at(h.spring_force + damping, p.friction * size_of(normal_force));
+        const Triple<R> capped = capped_at(h.spring_force + damping, p.friction * size_of(normal_force));
         h.spring_force = capped - damping;  // sliding, the spring keeps what the cap leaves it
         return capped;
     }

@@ -1,5 +1,5 @@
-// Resistance to rolling: an elastic-plastic rolling spring (Iwashita & Oda 1998, J. Eng. Mech. 124, 285; Ai et
-// al. 2011, Powder Technol. 206, 269, model C without dashpot). The torque grows with the angle rolled,
+// Resistance to rolling: an elastic-plastic rolling spring (Iwashita & Oda 1998, J. Eng. Mech. 124, 285; Ai
+// et al. 2011, Powder Technol. 206, 269, model C without dashpot). The torque grows with the angle rolled,
 //
 //   M = k_r theta,   k_r = K0 R_eff^2,   |M| <= mu_r R_eff N,
 //

@@ -1,4 +1,5 @@
-// Runs the resistance to rolling over a chunk of contacts, after their law: LawKernel as kernel-inl.hpp has it.
+// Runs the resistance to rolling over a chunk of contacts, after their law: LawKernel as kernel-inl.hpp has
+// it.
 #if defined(GRAINREEL_LAWS_ROLLING_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_ROLLING_KERNEL_INL
 #undef GRAINREEL_LAWS_ROLLING_KERNEL_INL

@@ -20,8 +20,8 @@ struct WaltonBraunTable {
 
     template <class R>
     struct Parameters {
-        R loading;      // N/m, K1
-        R restitution;  // of the slowest impacts
+        R loading;                                        // N/m, K1
+        R restitution;                                    // of the slowest impacts
         R from[kPieces], width[kPieces], slope[kPieces];  // m/s, m/s, s/m; unused pieces have no slope
 
         template <class Each>

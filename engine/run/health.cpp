@@ -46,8 +46,8 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
                                        moment(limits.clock, step), grain_name(limits, grains, i)));
         }
         for (const Face& face : around.faces) {
-            const Vec3 offset = face.moves ? pose.offset : Vec3::Zero();
-            if (distance_to(face, offset, grains.place[i].position).distance > -grains.place[i].radius)
+            if (distance_to(face, face.displacement(pose), grains.place[i].position).distance >
+                -grains.place[i].radius)
                 continue;
             throw RunError(
                 fmt::format("{}: {} went through the {}; take a smaller run.step or a larger "

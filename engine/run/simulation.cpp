@@ -39,6 +39,7 @@ double smallest_radius(const Scene& scene) {
 Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
     Surroundings around;
     around.faces = container_faces(scene.container, scene.drive);
+    for (const Face& face : free_faces(scene.walls)) around.faces.push_back(face);
     around.motion = WallMotion(scene.drive, plan.clock);
     around.gravity = scene.gravity;
     around.period = period_of_depth(scene.container);
@@ -49,6 +50,7 @@ Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
 double solid_fraction(const Container& container, const Grains& grains) {
     std::vector<double> heights;
     for (const Place& p : grains.place) heights.push_back(p.position.z());
+    if (container.shape == Container::Shape::none) return 0;
     const double top = std::clamp(bed_height(heights), 0.0, container.height);
     double solid = 0;
     for (const Place& p : grains.place) {
@@ -136,7 +138,11 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     if (m.scene.start.method == Start::Method::layers) {
         result.finished = m.pack_layers(watcher, progress);
     } else {
-        m.pack_from_file();
+        if (m.scene.start.method == Start::Method::grains) {
+            m.grains = listed_grains(m.scene);
+        } else {
+            m.pack_from_file();
+        }
         if (m.loop) return result;  // goes on where the file stopped
         check_grains_match(m.scene, m.grains);
         check_grains_fit(m.scene, m.around.faces, m.grains);
@@ -146,7 +152,7 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     }
     m.make_loop();
     m.loop->restart();
-    if (m.scene.start.method == Start::Method::file) check_grains_clear(m.scene, m.grains, *m.loop);
+    if (m.scene.start.method != Start::Method::layers) check_grains_clear(m.scene, m.grains, *m.loop);
     if (result.finished) {
         progress.stage = PackingProgress::Stage::settling;
         const auto watch = [&](double done, std::int64_t steps) {

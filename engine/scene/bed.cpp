@@ -49,6 +49,38 @@ double fill_height(const Scene& scene, double solid_fraction) {
     return area / (floor + std::sqrt(floor * floor + slope * area));
 }
 
+// Listed grains and the ways they would fly undisturbed or thrown back by the first wall, as far as five
+// times their own extent; of a start from a file nothing is known but the size of its grains.
+Extent extent_of(const Scene& scene) {
+    const Container& c = scene.container;
+    if (c.shape != Container::Shape::none) {
+        const double x = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
+        return {Vec3(-x, -c.half_width, 0), Vec3(x, c.half_width, c.height)};
+    }
+    double largest = 0;
+    for (const Species& s : scene.species) largest = std::max(largest, s.diameter.largest);
+    const Vec3 margin = largest * Vec3::Ones();
+    if (scene.start.grains.empty()) {
+        const double side = std::cbrt(solid_volume(scene) / 0.2);
+        return {-0.5 * side * Vec3::Ones() - margin, 0.5 * side * Vec3::Ones() + margin};
+    }
+    Extent extent{scene.start.grains[0].position, scene.start.grains[0].position};
+    for (const ListedGrain& g : scene.start.grains) extent.take(g.position);
+    const double farthest = 5 * (extent.size() + 2 * margin).norm();
+    for (const ListedGrain& g : scene.start.grains) {
+        Vec3 flight = scene.run.duration * g.velocity;
+        if (flight.norm() > farthest) flight *= farthest / flight.norm();
+        if (scene.walls.empty()) extent.take(g.position + flight);
+        for (const FreeWall& wall : scene.walls) {
+            const double height = wall.normal.dot(g.position - wall.point);
+            if (std::abs(height) < farthest) extent.take(g.position - height * wall.normal);
+            const double towards = std::min(0.0, wall.normal.dot(flight));
+            extent.take(g.position + flight - 2 * towards * wall.normal);
+        }
+    }
+    return {extent.low - margin, extent.high + margin};
+}
+
 double bed_width(const Scene& scene) {
     const Container& c = scene.container;
     const double width = 2 * c.half_width;

@@ -16,4 +16,16 @@ double fill_height(const Scene& scene, double solid_fraction);
 // periodic.
 double bed_width(const Scene& scene);
 
+// The box that the container takes up, or in empty space the grains and their way.
+struct Extent {
+    Vec3 low, high;  // m
+    Vec3 size() const { return high - low; }
+    Vec3 middle() const { return 0.5 * (low + high); }
+    void take(const Vec3& point) {
+        low = low.cwiseMin(point);
+        high = high.cwiseMax(point);
+    }
+};
+Extent extent_of(const Scene& scene);
+
 }  // namespace grainreel

@@ -64,6 +64,7 @@ void check_wedge(const Scene& scene) {
 
 void check_grain_sizes(const Scene& scene) {
     const Container& c = scene.container;
+    if (c.shape == Container::Shape::none) return;
     struct Extent {
         double size;
         const char* key;

@@ -32,8 +32,7 @@ double linear_restitution(double beta, bool attraction) {
     const double rest = std::sqrt(std::abs(1 - beta * beta));
     if (attraction) return beta < 1 ? std::exp(-pi * beta / rest) : 0;
     if (rest < 1e-6) return std::exp(-2);
-    if (beta < 1)
-        return std::exp(-beta / rest * (pi - std::atan2(2 * beta * rest, 1 - 2 * beta * beta)));
+    if (beta < 1) return std::exp(-beta / rest * (pi - std::atan2(2 * beta * rest, 1 - 2 * beta * beta)));
     return std::exp(-beta / rest * std::log((beta + rest) / (beta - rest)));
 }
 

@@ -9,9 +9,9 @@ namespace grainreel {
 double linear_restitution(double beta, bool attraction);
 double linear_damping(double restitution, bool attraction);
 
-// Hertz' spring with the dashpot d sqrt(m k) a^(1/4) v (Tsuji, Tanaka & Ishida 1992, Powder Technol. 71, 239),
-// whose restitution does not depend on speed. While it may pull, d = -sqrt(5) ln e / sqrt(pi^2 + ln^2 e)
-// (Antypov & Elliott 2011, EPL 94, 50004); without attraction the impact is integrated, to about 1e-5.
+// Hertz' spring with the dashpot d sqrt(m k) a^(1/4) v (Tsuji, Tanaka & Ishida 1992, Powder Technol. 71,
+// 239), whose restitution does not depend on speed. While it may pull, d = -sqrt(5) ln e / sqrt(pi^2 + ln^2
+// e) (Antypov & Elliott 2011, EPL 94, 50004); without attraction the impact is integrated, to about 1e-5.
 double hertz_restitution(double damping, bool attraction);
 double hertz_damping(double restitution, bool attraction);
 

@@ -207,8 +207,8 @@ std::optional<Vec3> Document::vector(const std::string& path) {
     element.range = Range{};
     const toml::array* array = node->as_array();
     if (array == nullptr || array->size() != 3)
-        fail(path, fmt::format("must be three numbers, but is {}; write for example [0, 0, 1]",
-                               written_value(*node)));
+        fail(path, fmt::format("must be three numbers, but is {}; write for example {}", written_value(*node),
+                               element.kind == KeyKind::vector ? element.example() : "[0, 0, 1]"));
     Vec3 value;
     for (int i = 0; i < 3; ++i) value[i] = number_in(path, *array->get(static_cast<std::size_t>(i)), element);
     return value;

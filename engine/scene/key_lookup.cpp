@@ -113,6 +113,9 @@ std::string Key::example() const {
     if (kind == KeyKind::text) return "\"small\"";
     if (kind == KeyKind::colour) return "\"orange\"";
     if (kind == KeyKind::species_pair) return "[\"small\", \"wall\"]";
+    if (kind == KeyKind::vector)
+        return dimension == Dimension::number ? "[0, 0, 1]"
+                                              : fmt::format("[{}, 0, 0]", text_of(dimension).example);
     if (kind == KeyKind::speed_table) return "[[\"0.1 m/s\", 0.95], [\"2 m/s\", 0.8]]";
     return text_of(dimension).example;
 }

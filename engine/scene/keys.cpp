@@ -76,7 +76,8 @@ void add_species(Keys& keys) {
                                 Dimension::acceleration, not_negative));
     keys.push_back(
         entry("species[].name", KeyKind::text, required(), "For the legend and for [[contact.pair]]."));
-    keys.push_back(integer("species[].count", 1, most_grains, required(), "How many grains."));
+    keys.push_back(
+        integer("species[].count", 1, most_grains, note("required, but for [[grain]]"), "How many grains."));
     keys.push_back(of_dimension(entry("species[].diameter", KeyKind::diameter, required(),
                                       "One length, or a spread: { min, max } or { mean, deviation }."),
                                 Dimension::length, positive));
@@ -156,8 +157,9 @@ void add_contact(Keys& keys) {
 }
 
 void add_container(Keys& keys) {
-    keys.push_back(choice("container.shape", {"wedge", "box", "cylinder"}, required(),
-                          "The origin is the middle of the floor; x along the depth, y across, z up."));
+    keys.push_back(choice(
+        "container.shape", {"wedge", "box", "cylinder", "none"}, required(),
+        "none: empty space. The origin is the middle of the floor; x along the depth, y across, z up."));
     keys.push_back(
         quantity("container.height", Dimension::length, positive, required(), "Floor to lid or rim."));
     keys.push_back(quantity("container.depth", Dimension::length, positive, note("required; wedge, box"),
@@ -179,6 +181,26 @@ void add_container(Keys& keys) {
                          "No front and back walls: what leaves at one enters at the other."));
 }
 
+void add_exact(Keys& keys) {
+    const auto vector = [&](const char* path, Dimension dimension, Fallback fallback, const char* about) {
+        keys.push_back(
+            of_dimension(entry(path, KeyKind::vector, std::move(fallback), about), dimension, any));
+    };
+    keys.push_back(entry("wall[].name", KeyKind::text, note("wall 1, wall 2, ..."),
+                         "A plane anywhere, beside the container's faces or without any; for messages."));
+    vector("wall[].point", Dimension::length, required(), "Any point of it.");
+    vector("wall[].normal", Dimension::number, required(), "Towards the grains; any length.");
+    vector("wall[].velocity", Dimension::speed, literal("[0, 0, 0]"), "Steady, from the start.");
+    keys.push_back(entry("wall[].moves", KeyKind::flag, literal("false"), "Follows the drive as well."));
+    keys.push_back(entry("grain[].species", KeyKind::text, note("the first"),
+                         "Grains placed one by one; whose numbers it has."));
+    vector("grain[].position", Dimension::length, required(), "Of the centre.");
+    vector("grain[].velocity", Dimension::speed, literal("[0, 0, 0]"), "At the start.");
+    vector("grain[].spin", Dimension::spin, literal("[0, 0, 0]"), "Angular velocity at the start.");
+    keys.push_back(quantity("grain[].diameter", Dimension::length, positive, note("the species' mean"),
+                            "Inside the species' spread."));
+}
+
 void add_drive(Keys& keys) {
     keys.push_back(quantity("drive.frequency", Dimension::frequency, positive, required(), "f."));
     keys.push_back(quantity("drive.g_level", Dimension::number, positive, note("required, or `amplitude`"),
@@ -197,9 +219,9 @@ void add_drive(Keys& keys) {
 }
 
 void add_run(Keys& keys) {
-    keys.push_back(choice("start.method", {"layers", "file"}, literal("\"layers\""),
-                          "Grow and settle layers, the first species of the largest grains at the bottom; or "
-                          "go on from a file."));
+    keys.push_back(choice("start.method", {"layers", "file", "grains"}, note("layers; grains with [[grain]]"),
+                          "Grow and settle layers, the first species of the largest grains at the bottom; go "
+                          "on from a file; or the grains as listed, at once."));
     keys.push_back(entry("start.file", KeyKind::text, note("required; file"),
                          "Checkpoint or final.csv of an earlier run, relative to the scene's folder."));
     keys.push_back(entry("start.keep_clock", KeyKind::flag, literal("false"),
@@ -272,6 +294,7 @@ const std::vector<Key>& scene_keys() {
         add_species(all);
         add_contact(all);
         add_container(all);
+        add_exact(all);
         add_drive(all);
         add_run(all);
         add_film(all);

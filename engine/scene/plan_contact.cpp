@@ -207,6 +207,21 @@ void plan_hertz(const BedPlan& bed, PairPlan& pair, const PairContact& contact, 
     pair.contact_time = hertz_contact_time(smallest.effective_mass, k, speed);
 }
 
+// m/s: how fast listed grains, or a grain and a wall, may come together.
+double closing_speed(const Scene& scene) {
+    double fastest = 0;
+    Vec3 low = scene.start.grains[0].velocity, high = low;
+    const auto take = [&](const Vec3& velocity) {
+        low = low.cwiseMin(velocity);
+        high = high.cwiseMax(velocity);
+        fastest = std::max(fastest, velocity.norm());
+    };
+    for (const ListedGrain& grain : scene.start.grains) take(grain.velocity);
+    for (const FreeWall& wall : scene.walls) take(wall.velocity);
+    return std::max(scene.walls.empty() && scene.container.shape == Container::Shape::none ? 0.0 : fastest,
+                    (high - low).norm());
+}
+
 }  // namespace
 
 std::vector<Touching> extremes(const Species& a, const Species* b) {
@@ -249,7 +264,9 @@ BedPlan plan_bed(const Scene& scene) {
     for (const PairContact& pair : scene.contact.grain) restitution = std::max(restitution, pair.restitution);
     if (drive.present) bed.impact_speed = speed_over_drive(restitution, bed.layers) * drive.speed();
     const double fall = std::sqrt(2 * bed.gravity * (scene.container.height - bed.height));
-    if (scene.start.method == Start::Method::layers) {
+    if (scene.start.method == Start::Method::grains) {
+        bed.impact_speed += fall + closing_speed(scene);
+    } else if (scene.start.method == Start::Method::layers) {
         bed.drop_speed = fall;
         bed.impact_speed = std::max(bed.impact_speed, fall * scene.run.overlap / settling_overlap);
     } else if (!drive.present) {

@@ -43,9 +43,13 @@ SizeSpread read_diameter(Document& document, const std::string& path) {
 Species read_one_species(Document& document, const std::string& path) {
     Species species;
     species.name = document.required_text(path + ".name");
-    const auto count = document.integer(path + ".count");
-    if (!count) document.fail_missing(path + ".count");
-    species.count = *count;
+    if (document.size("grain") > 0) {
+        document.refuse(path + ".count", "the grains are listed one by one");
+    } else {
+        const auto count = document.integer(path + ".count");
+        if (!count) document.fail_missing(path + ".count");
+        species.count = *count;
+    }
     if (!document.has(path + ".diameter")) document.fail_missing(path + ".diameter");
     species.diameter = read_diameter(document, path + ".diameter");
     if (const auto mass = document.quantity(path + ".mass")) {
@@ -98,7 +102,14 @@ void read_container(Document& document, Scene& scene) {
     document.required_text("container.shape");
     container.shape = chosen<Shape>(
         document, "container.shape",
-        {{"wedge", Shape::wedge}, {"box", Shape::box}, {"cylinder", Shape::cylinder}}, Shape::wedge);
+        {{"wedge", Shape::wedge}, {"box", Shape::box}, {"cylinder", Shape::cylinder}, {"none", Shape::none}},
+        Shape::wedge);
+    if (container.shape == Shape::none) {
+        for (const char* key : {"half_angle", "slant_height", "half_width", "width", "diameter", "depth",
+                                "height", "periodic_depth", "top", "outlet"})
+            document.refuse(std::string("container.") + key, "there is no container");
+        return;
+    }
     if (container.shape == Shape::wedge) {
         container.half_angle = document.required_quantity("container.half_angle");
         container.slant_height = document.required_quantity("container.slant_height");
@@ -160,19 +171,33 @@ void read_drive(Document& document, Scene& scene) {
 }
 
 void read_start(Document& document, Scene& scene) {
+    using Method = Start::Method;
     Start& start = scene.start;
-    start.method = chosen<Start::Method>(document, "start.method",
-                                         {{"layers", Start::Method::layers}, {"file", Start::Method::file}},
-                                         Start::Method::layers);
-    if (start.method == Start::Method::layers) {
-        document.refuse("start.file", "'method' is \"layers\"");
-        document.refuse("start.keep_clock", "'method' is \"layers\"");
+    const bool listed = !start.grains.empty();
+    start.method =
+        chosen<Method>(document, "start.method",
+                       {{"layers", Method::layers}, {"file", Method::file}, {"grains", Method::grains}},
+                       listed ? Method::grains : Method::layers);
+    if (listed && start.method != Method::grains)
+        document.fail("start.method",
+                      "must be \"grains\" where grains are listed; remove it or the [[grain]]s");
+    if (!listed && start.method == Method::grains)
+        document.fail("start.method", "is \"grains\", but none is listed; write [[grain]] and its position");
+    if (start.method != Method::file)
+        for (const char* key : {"start.file", "start.keep_clock"})
+            document.refuse(key, "the start is not from a file");
+    if (start.method != Method::layers)
+        for (const char* key : {"start.settle_limit", "start.settle_damping"})
+            document.refuse(key, start.method == Method::file ? "a start from a file does not settle"
+                                                              : "grains placed by hand do not settle");
+    if (start.method == Method::layers) {
+        if (scene.container.shape == Container::Shape::none)
+            document.fail("container.shape",
+                          "is \"none\", so nothing holds layers; list the grains or start from a file");
         start.settle_limit = document.quantity("start.settle_limit").value_or(start.settle_limit);
         start.settle_damping = document.quantity("start.settle_damping").value_or(start.settle_damping);
-        return;
     }
-    document.refuse("start.settle_limit", "a start from a file does not settle");
-    document.refuse("start.settle_damping", "a start from a file does not settle");
+    if (start.method != Method::file) return;
     const std::filesystem::path file = document.required_text("start.file");
     const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
     start.file = std::filesystem::absolute(folder / file).lexically_normal().string();

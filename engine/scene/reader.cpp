@@ -80,11 +80,13 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file,
     read_species(document, scene);
     read_contact(document, scene);
     read_container(document, scene);
+    read_exact(document, scene);
     read_drive(document, scene);
     read_start(document, scene);
     read_run(document, scene);
     read_output(document, scene);
     read_film(document, scene);
+    size_empty_space(scene);
     document.check_all_read();
     check_scene(scene);
     return scene;

@@ -13,6 +13,8 @@ namespace grainreel {
 void read_species(Document& document, Scene& scene);
 void read_contact(Document& document, Scene& scene);  // after the species
 void read_container(Document& document, Scene& scene);
+void read_exact(Document& document, Scene& scene);  // after the species
+void size_empty_space(Scene& scene);                // when all else is read
 void read_drive(Document& document, Scene& scene);  // after gravity
 void read_start(Document& document, Scene& scene);
 void read_film(Document& document, Scene& scene);  // after drive and run

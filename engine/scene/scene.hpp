@@ -87,13 +87,13 @@ struct Contact {
 };
 
 struct Container {
-    enum class Shape { wedge, box, cylinder };
-    Shape shape = Shape::wedge;
-    double half_width = 0;    // m, along y: y_max, at and above the slanted part; the radius of a cylinder
-    double depth = 0;         // m, along x (front to back); unused by a cylinder
-    double height = 0;        // m, floor to lid or rim
-    double half_angle = 0;    // rad, slanted walls against the vertical; wedge only
-    double slant_height = 0;  // m, H: height of the slanted part; wedge only
+    enum class Shape { wedge, box, cylinder, none };
+    Shape shape = Shape::wedge;  // none: empty space; the sizes then are those of what is looked at
+    double half_width = 0;       // m, along y: y_max, at and above the slanted part; the radius of a cylinder
+    double depth = 0;            // m, along x (front to back); unused by a cylinder
+    double height = 0;           // m, floor to lid or rim
+    double half_angle = 0;       // rad, slanted walls against the vertical; wedge only
+    double slant_height = 0;     // m, H: height of the slanted part; wedge only
     bool lid = true;
     bool periodic_depth = false;          // no front and back walls: what leaves at one enters at the other
     double floor_half_width() const;      // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
@@ -102,6 +102,16 @@ struct Container {
     // m, the free half-width at height z above the floor.
     double half_width_at(double z) const;
     bool operator==(const Container&) const = default;
+};
+
+// A plane anywhere, with the grains on one side of it.
+struct FreeWall {
+    std::string name;
+    Vec3 point{0, 0, 0};     // m
+    Vec3 normal{0, 0, 1};    // unit, towards the grains
+    Vec3 velocity{0, 0, 0};  // m/s, steady
+    bool moves = false;      // follows the drive as well
+    bool operator==(const FreeWall&) const = default;
 };
 
 struct Drive {
@@ -118,13 +128,24 @@ struct Drive {
     bool operator==(const Drive&) const = default;
 };
 
+// A grain placed by hand.
+struct ListedGrain {
+    std::size_t species = 0;
+    double diameter = 0;     // m
+    Vec3 position{0, 0, 0};  // m
+    Vec3 velocity{0, 0, 0};  // m/s
+    Vec3 spin{0, 0, 0};      // rad/s
+    bool operator==(const ListedGrain&) const = default;
+};
+
 struct Start {
-    enum class Method { layers, file };
+    enum class Method { layers, file, grains };
     Method method = Method::layers;
     std::string file;         // path: checkpoint of an earlier run, or its final.csv
     bool keep_clock = false;  // go on at the file's step and phase; needs a checkpoint, same step and drive
     double settle_limit = 5;  // s, of settling at most
-    double settle_damping = 10;  // 1/s, extra drag on every grain while settling only; 0 for none
+    double settle_damping = 10;       // 1/s, extra drag on every grain while settling only; 0 for none
+    std::vector<ListedGrain> grains;  // with `grains`
     bool operator==(const Start&) const = default;
 };
 
@@ -187,6 +208,7 @@ struct Scene {
     std::vector<Species> species;
     Contact contact;
     Container container;
+    std::vector<FreeWall> walls;
     Vec3 gravity{0, 0, -9.81};  // m/s2
     Drive drive;
     Start start;

@@ -67,7 +67,7 @@ const UnitSystem& unit_system() {
     return system;
 }
 
-constexpr std::array<DimensionText, 14> dimension_texts{{
+constexpr std::array<DimensionText, 15> dimension_texts{{
     {"m", "a length", "\"5 mm\""},
     {"s", "a time", "\"10 s\""},
     {"Hz", "a frequency", "\"25 Hz\""},
@@ -80,6 +80,7 @@ constexpr std::array<DimensionText, 14> dimension_texts{{
     {"N/m", "a stiffness", "\"2e4 N/m\""},
     {"Pa", "a pressure", "\"70 GPa\""},
     {"m/s", "a speed", "\"0.5 m/s\""},
+    {"rad/s", "an angular velocity", "\"10 rad/s\""},
     {"m/s2", "an acceleration", "\"9.81 m/s2\""},
     {"1", "a plain number", "0.5"},
 }};

@@ -22,6 +22,7 @@ enum class Dimension {
     stiffness,
     pressure,
     speed,
+    spin,
     acceleration,
     number,
 };

@@ -87,10 +87,10 @@ const char* law_name(TangentialLaw law) {
     return "";
 }
 
-void write_species(SceneText& out, const Species& species) {
+void write_species(SceneText& out, const Species& species, bool listed) {
     out.element("species");
     out.words("name", species.name);
-    out.whole("count", species.count);
+    if (!listed) out.whole("count", species.count);
     const SizeSpread& d = species.diameter;
     switch (d.kind) {
         case SizeSpread::Kind::fixed:
@@ -168,6 +168,9 @@ void write_container(SceneText& out, const Container& container) {
             out.words("shape", "cylinder");
             out.put("diameter", 2 * container.half_width);
             break;
+        case Container::Shape::none:
+            out.words("shape", "none");
+            return;
     }
     if (container.shape != Container::Shape::cylinder) {
         out.put("depth", container.depth);
@@ -176,6 +179,25 @@ void write_container(SceneText& out, const Container& container) {
     out.put("height", container.height);
     out.words("top", container.lid ? "lid" : "open");
     out.words("outlet", "closed");
+}
+
+void write_exact(SceneText& out, const Scene& scene) {
+    for (const FreeWall& wall : scene.walls) {
+        out.element("wall");
+        out.words("name", wall.name);
+        out.put("point", vector(wall.point));
+        out.put("normal", vector(wall.normal));
+        out.put("velocity", vector(wall.velocity));
+        out.flag("moves", wall.moves);
+    }
+    for (const ListedGrain& grain : scene.start.grains) {
+        out.element("grain");
+        out.words("species", scene.species[grain.species].name);
+        out.put("diameter", grain.diameter);
+        out.put("position", vector(grain.position));
+        out.put("velocity", vector(grain.velocity));
+        out.put("spin", vector(grain.spin));
+    }
 }
 
 void write_drive(SceneText& out, const Scene& scene) {
@@ -194,7 +216,9 @@ void write_drive(SceneText& out, const Scene& scene) {
 void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     const Start& start = scene.start;
     out.table("start");
-    if (start.method == Start::Method::layers) {
+    if (start.method == Start::Method::grains) {
+        out.words("method", "grains");
+    } else if (start.method == Start::Method::layers) {
         out.words("method", "layers");
         out.put("settle_limit", start.settle_limit);
         out.put("settle_damping", start.settle_damping);
@@ -258,9 +282,10 @@ std::string resolved_scene(const Scene& scene, const Plan& plan) {
     out.comment("Every value as it was used, in SI units; phases in turns, the camera in degrees.");
     out.words("title", scene.title);
     out.put("gravity", vector(scene.gravity));
-    for (const Species& species : scene.species) write_species(out, species);
+    for (const Species& species : scene.species) write_species(out, species, !scene.start.grains.empty());
     write_contact(out, scene, plan);
     write_container(out, scene.container);
+    write_exact(out, scene);
     write_drive(out, scene);
     write_run(out, scene, plan);
     write_film(out, scene.film);

@@ -15,6 +15,8 @@ constexpr double kSameSize = 1e-6;  // relative: a diameter written by hand is n
 constexpr double kTooDeep = 1.0 / 3;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& what) {
+    if (scene.start.method == Start::Method::grains)
+        throw UserError(fmt::format("{}: the list {}", scene.where("grain"), what));
     throw UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
 }
 
@@ -37,6 +39,17 @@ Grains grains_from_table(const Scene& scene) {
         grains.spin.back().rate = frame.spin[i];
     }
     if (!frame.orientation.empty()) grains.orientation = frame.orientation;
+    return grains;
+}
+
+Grains listed_grains(const Scene& scene) {
+    Grains grains;
+    for (const ListedGrain& g : scene.start.grains) {
+        grains.add(static_cast<std::int32_t>(grains.size()), static_cast<std::int32_t>(g.species), g.position,
+                   0.5 * g.diameter, scene.species[g.species].density);
+        grains.motion.back().velocity = g.velocity;
+        grains.spin.back().rate = g.spin;
+    }
     return grains;
 }
 
@@ -64,6 +77,9 @@ void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const 
     for (std::size_t i = 0; i < grains.size(); ++i) {
         for (const Face& face : faces) {
             if (distance_to(face, Vec3::Zero(), grains.place[i].position).distance > 0) continue;
+            if (scene.start.method == Start::Method::grains)
+                throw UserError(fmt::format("{}: the grain lies beyond the {}; move one of the two",
+                                            scene.where(fmt::format("grain[{}]", grains.id[i])), face.name));
             throw UserError(
                 fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; give the "
                             "container of the run the file comes from",
@@ -76,10 +92,11 @@ void check_grains_clear(const Scene& scene, const Grains& grains, const StepLoop
     loop.visit_contacts(-1, [&](const ContactView& c) {
         if (c.second < 0 || c.overlap <= kTooDeep * c.smaller_radius) return;
         fail(scene,
-             fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; take the file of "
-                         "another run",
+             fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; {}",
                          std::min(grains.id[c.first], grains.id[c.second]),
-                         std::max(grains.id[c.first], grains.id[c.second]), c.overlap / c.smaller_radius));
+                         std::max(grains.id[c.first], grains.id[c.second]), c.overlap / c.smaller_radius,
+                         scene.start.method == Start::Method::grains ? "move one of them"
+                                                                     : "take the file of another run"));
     });
 }
 

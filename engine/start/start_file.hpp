@@ -1,5 +1,5 @@
-// A start from an earlier run's file: its grains, and whether they are those that the scene speaks of. All
-// throw UserError with the place of `start.file`.
+// A start from an earlier run's file, or from grains listed in the scene: the grains, and whether they are
+// those that the scene speaks of. All throw UserError with the place of `start.file`, or of the list.
 #pragma once
 
 #include <vector>
@@ -13,6 +13,9 @@ namespace grainreel {
 
 // The grains of a final.csv, in its order.
 Grains grains_from_table(const Scene& scene);
+
+// Those of [[grain]], numbered as listed.
+Grains listed_grains(const Scene& scene);
 
 // As many grains of each species as the scene says, and as large.
 void check_grains_match(const Scene& scene, const Grains& grains);

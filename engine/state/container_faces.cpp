@@ -40,11 +40,22 @@ void add_side_walls(const Container& c, std::vector<Face>& faces) {
 
 std::vector<Face> container_faces(const Container& container, const Drive& drive) {
     std::vector<Face> faces;
+    if (container.shape == Container::Shape::none) return faces;
     faces.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
     add_side_walls(container, faces);
     if (container.lid) faces.push_back(plane("lid", {0, 0, container.height}, {0, 0, -1}));
     for (Face& face : faces) {
         face.moves = drive.present && (drive.moves == Drive::Moves::container || face.name == "floor");
+    }
+    return faces;
+}
+
+std::vector<Face> free_faces(const std::vector<FreeWall>& walls) {
+    std::vector<Face> faces;
+    for (const FreeWall& wall : walls) {
+        faces.push_back(plane(wall.name, wall.point, wall.normal));
+        faces.back().moves = wall.moves;
+        faces.back().velocity = wall.velocity;
     }
     return faces;
 }

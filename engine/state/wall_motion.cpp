@@ -14,7 +14,9 @@ WallMotion::WallMotion(const Drive& drive, const Clock& clock)
       clock_(clock) {}
 
 Pose WallMotion::at(std::int64_t step) const {
-    if (!moving() || step < 0) return {};
+    if (step < 0) return {};
+    const double time = clock_.time(step);
+    if (!moving()) return {Vec3::Zero(), Vec3::Zero(), time};
     const double angle = 2 * std::numbers::pi * clock_.phase(step);
     const double sine = std::sin(angle), cosine = std::cos(angle);
     double share = 1, share_rate = 0, start = 0;
@@ -29,7 +31,7 @@ Pose WallMotion::at(std::int64_t step) const {
     }
     const double offset = amplitude_ * (share * sine - start);
     const double velocity = amplitude_ * (share * angular_frequency_ * cosine + share_rate * sine);
-    return {offset * direction_, velocity * direction_};
+    return {offset * direction_, velocity * direction_, time};
 }
 
 }  // namespace grainreel

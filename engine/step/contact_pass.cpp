@@ -33,16 +33,15 @@ void note_kinds(ContactList& list, const Grains& grains, const ContactGroup& gro
 }
 
 void add_near_walls(const ContactRules& rules, std::vector<ContactList>& lists, const Grains& grains,
-                    const std::vector<WallNeighbour>& list, const std::vector<Face>& faces,
-                    const Vec3& offset, double skin, std::int32_t begin, std::int32_t end) {
+                    const std::vector<WallNeighbour>& list, const std::vector<Face>& faces, const Pose& pose,
+                    double skin, std::int32_t begin, std::int32_t end) {
     const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
     std::size_t slot = std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin();
     for (; slot < list.size() && list[slot].grain < end; ++slot) {
         const std::int32_t grain = list[slot].grain;
         const Place& place = grains.place[grain];
         const Face& face = faces[list[slot].face];
-        const Vec3 moved = face.moves ? offset : Vec3::Zero();
-        if (distance_to(face, moved, place.position).distance < place.radius + skin) {
+        if (distance_to(face, face.displacement(pose), place.position).distance < place.radius + skin) {
             lists[rules.group_of_wall[grains.species[grain]]].add(static_cast<std::int32_t>(slot), grain,
                                                                   list[slot].face);
         }
@@ -80,12 +79,12 @@ void ContactPass::add_pairs_within(const ContactRules& rules, const Grains& grai
 }
 
 void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
-                          const std::vector<Face>& faces, const Vec3& wall_offset, double skin,
+                          const std::vector<Face>& faces, const Pose& pose, double skin,
                           bool carry_histories) {
     lists_.resize(rules.groups.size());
     for (std::size_t g = 0; g < lists_.size(); ++g) lists_[g].begin(rules.groups[g].history_size());
     add_pairs_within(rules, grains, lists.pairs, skin);
-    add_near_walls(rules, lists_, grains, lists.walls, faces, wall_offset, skin, begin_, end_);
+    add_near_walls(rules, lists_, grains, lists.walls, faces, pose, skin, begin_, end_);
     for (std::size_t g = 0; g < lists_.size(); ++g) {
         lists_[g].end(carry_histories);
         note_kinds(lists_[g], grains, rules.groups[g], rules.species);

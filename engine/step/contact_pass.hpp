@@ -24,7 +24,7 @@ class ContactPass {
     // Takes from the neighbour lists what may touch within `skin` (m). Histories are carried when the
     // neighbour lists are those of the last refresh.
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
-                 const std::vector<Face>& faces, const Vec3& wall_offset, double skin, bool carry_histories);
+                 const std::vector<Face>& faces, const Pose& pose, double skin, bool carry_histories);
 
     // The contacts under own grains that have a history, by group.
     void keep(std::vector<KeptContacts>& kept) const;

@@ -43,7 +43,8 @@ std::vector<std::int32_t> add_groups(const std::vector<PairPlan>& kinds, bool of
     for (std::size_t g = begin; g < groups.size(); ++g) {
         ContactGroup& group = groups[g];
         group.parameters = one_if_equal(group.law->parameters(members[g - begin]));
-        if (group.rolling) group.rolling_parameters = one_if_equal(group.rolling->parameters(members[g - begin]));
+        if (group.rolling)
+            group.rolling_parameters = one_if_equal(group.rolling->parameters(members[g - begin]));
     }
     return group_of;
 }

@@ -76,8 +76,7 @@ std::vector<WallNeighbour> list_wall_neighbours(const Grains& grains, const std:
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const Place& p = grains.place[i];
         for (std::size_t f = 0; f < faces.size(); ++f) {
-            const Vec3 offset = faces[f].moves ? pose.offset : Vec3::Zero();
-            if (distance_to(faces[f], offset, p.position).distance < p.radius + skin) {
+            if (distance_to(faces[f], faces[f].displacement(pose), p.position).distance < p.radius + skin) {
                 list.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(f)});
             }
         }

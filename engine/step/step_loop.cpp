@@ -87,6 +87,20 @@ Vec3 StepLoop::drift_since_listing(std::int64_t n, double step) const {
     return time * (listed_velocity_ + 0.5 * time * around_.gravity);
 }
 
+namespace {
+
+// m: how far any face has gone between two poses, against a frame that has gone by `flown`.
+double farthest_face(const std::vector<Face>& faces, const Pose& before, const Pose& now, const Vec3& flown) {
+    double squared = 0;
+    for (const Face& face : faces) {
+        const Vec3 gone = face.displacement(now) - face.displacement(before) - flown;
+        squared = std::max(squared, gone.squaredNorm());
+    }
+    return std::sqrt(squared);
+}
+
+}  // namespace
+
 // All threads come to the same answer: they add up the same numbers.
 bool StepLoop::contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double step) const {
     Reach& reach = mine.reach;
@@ -95,15 +109,14 @@ bool StepLoop::contacts_expired(Member& mine, const Pose& now, const Vec3& drift
     reach.fastest = largest.norm();
     reach.moved += reach.fastest * step;
     const Vec3 flown = drift - reach.drift;
-    const double still_face = flown.norm(), moving_face = (now.offset - reach.wall_offset - flown).norm();
-    return 2 * reach.moved > reach.skin || reach.moved + std::max(still_face, moving_face) > reach.skin;
+    return 2 * reach.moved > reach.skin ||
+           reach.moved + farthest_face(around_.faces, reach.pose, now, flown) > reach.skin;
 }
 
 bool StepLoop::lists_expired(const Member& mine, const Pose& now, const Vec3& drift) const {
     double moved = 0;
     for (const Member& m : members_) moved = std::max(moved, m.farthest);
-    const double still_face = drift.norm(), moving_face = (now.offset - listed_pose_.offset - drift).norm();
-    const double used = moved + std::max({moved, still_face, moving_face});
+    const double used = moved + std::max(moved, farthest_face(around_.faces, listed_pose_, now, drift));
     return used + mine.reach.skin > around_.skin;
 }
 
@@ -120,12 +133,13 @@ void StepLoop::set_reach(Member& mine, const Pose& now, const Vec3& drift, const
                          double step) const {
     constexpr double kStepsPerRefresh = 16, kLeastShare = 1e-3, kMostShare = 0.4;
     Reach& reach = mine.reach;
-    const double wall = std::max(frame.norm(), (now.velocity - frame).norm());
+    double wall = 0;
+    for (const Face& face : around_.faces) wall = std::max(wall, (face.velocity_at(now) - frame).norm());
     const double wanted = kStepsPerRefresh * step * (reach.fastest + std::max(reach.fastest, wall));
     reach.skin = std::clamp(wanted, kLeastShare * around_.skin, kMostShare * around_.skin);
     reach.moved = 0;
     reach.drift = drift;
-    reach.wall_offset = now.offset;
+    reach.pose = now;
 }
 
 }  // namespace grainreel

@@ -70,11 +70,11 @@ class StepLoop {
     // How far the contact lists reach, and what has used that up since their last refresh. Every thread keeps
     // its own, and all are alike.
     struct Reach {
-        double skin = 0;            // m
-        double moved = 0;           // m, that no grain has surpassed against the bed's free flight
-        double fastest = 0;         // m/s, of the last step
-        Vec3 drift{0, 0, 0};        // m, of the free flight at the refresh
-        Vec3 wall_offset{0, 0, 0};  // m, likewise
+        double skin = 0;      // m
+        double moved = 0;     // m, that no grain has surpassed against the bed's free flight
+        double fastest = 0;   // m/s, of the last step
+        Vec3 drift{0, 0, 0};  // m, of the free flight at the refresh
+        Pose pose;            // likewise
     };
 
     // What a thread writes; a cache line apart from the next thread's.

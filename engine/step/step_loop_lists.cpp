@@ -7,7 +7,7 @@ namespace grainreel {
 void StepLoop::refresh(int member, bool same_lists) {
     Member& mine = members_[member];
     if (!same_lists) mine.contacts.own(lists_, share_[member], share_[member + 1]);
-    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.wall_offset, mine.reach.skin,
+    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin,
                           same_lists);
 }
 

@@ -95,11 +95,20 @@ std::string container_text(const Container& c) {
         case Container::Shape::box:
             return fmt::format("box, width {}, depth {}{}, height {}, {}", length(2 * c.half_width),
                                length(c.depth), c.periodic_depth ? " (periodic)" : "", length(c.height), top);
+        case Container::Shape::none:
+            return "none";
         case Container::Shape::cylinder:
             break;
     }
     return fmt::format("cylinder, diameter {}, height {}, {}", length(2 * c.half_width), length(c.height),
                        top);
+}
+
+std::string wall_text(const FreeWall& wall) {
+    std::string text = fmt::format("{}: plane towards ({:.3g}, {:.3g}, {:.3g})", wall.name, wall.normal.x(),
+                                   wall.normal.y(), wall.normal.z());
+    if (wall.velocity.norm() > 0) text += fmt::format(", moving at {:.3g} m/s", wall.velocity.norm());
+    return wall.moves ? text + ", follows the drive" : text;
 }
 
 std::string drive_text(const Scene& scene) {
@@ -125,8 +134,11 @@ void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
         list.line("", fmt::format("{} {} of {}, {:.4g} kg/m3", grouped(s.count), s.name,
                                   diameter_text(s.diameter), s.density));
     list.line("container", container_text(scene.container));
-    list.line("bed", fmt::format("about {} high at rest, {:.0f} % of the container's height",
-                                 length(plan.bed_height), 100 * plan.bed_height / scene.container.height));
+    for (const FreeWall& wall : scene.walls) list.line("", wall_text(wall));
+    if (scene.start.method != Start::Method::grains)
+        list.line("bed",
+                  fmt::format("about {} high at rest, {:.0f} % of the container's height",
+                              length(plan.bed_height), 100 * plan.bed_height / scene.container.height));
     list.line("gravity", fmt::format("{:.4g} m/s2", scene.gravity.norm()));
     list.line("drive", drive_text(scene));
 }
@@ -197,8 +209,9 @@ void print_time(const Scene& scene, const Plan& plan, Listing& list) {
                           period > 0 ? fmt::format(", {} a period", grouped(period)) : "", plan.step_reason));
     list.line("steps", fmt::format("{} for {}", grouped(plan.steps), span(plan.clock.time(plan.steps))));
     list.line("start",
-              scene.start.method == Start::Method::file
-                  ? "from " + scene.start.file
+              scene.start.method == Start::Method::file ? "from " + scene.start.file
+              : scene.start.method == Start::Method::grains
+                  ? "the grains as listed"
                   : fmt::format("layers, then settling for {} at most", span(scene.start.settle_limit)));
     list.line("overlap",
               fmt::format("up to {:.2g} % of the smaller diameter expected, with impacts at {:.3g} m/s; most "

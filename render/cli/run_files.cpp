@@ -1,5 +1,7 @@
 #include "render/cli/run_files.hpp"
 
+#include "engine/scene/bed.hpp"
+
 #include "build_info.hpp"
 
 namespace grainreel {
@@ -19,10 +21,8 @@ TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains) {
     info.species = species_names(scene);
     info.capacity = grains;
     info.orientation = scene.output.orientation;
-    const Container& box = scene.container;
-    const double half_depth = box.shape == Container::Shape::cylinder ? box.half_width : box.depth / 2;
-    info.cell_origin = {-half_depth, -box.half_width, 0};
-    if (box.periodic_depth) info.periodic_length.x() = box.depth;
+    info.cell_origin = extent_of(scene).low;
+    if (scene.container.periodic_depth) info.periodic_length.x() = scene.container.depth;
     return info;
 }
 

@@ -31,10 +31,11 @@ std::string frequency_text(double hertz) {
     return hertz >= 1000 ? fmt::format("{:.3g} kHz", hertz / 1000) : fmt::format("{:.3g} Hz", hertz);
 }
 
-std::string time_text(double seconds) {
+std::string time_text(double seconds, double duration) {
+    const Unit unit = duration < 0.1 ? Unit{0.001, "ms"} : Unit{1, "s"};
     // A minus as wide as a digit, and no "-0.000".
-    const double shown = std::abs(seconds) < 0.0005 ? 0 : seconds;
-    return fmt::format("t = {}{:.3f} s", shown < 0 ? "−" : "", std::abs(shown));
+    const double value = seconds / unit.size, shown = std::abs(value) < 0.0005 ? 0 : value;
+    return fmt::format("t = {}{:.3f} {}", shown < 0 ? "−" : "", std::abs(shown), unit.name);
 }
 
 std::string diameter_text(const SizeSpread& diameter) {

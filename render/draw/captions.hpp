@@ -13,7 +13,7 @@ std::string length_text(double metres);
 // "20 Hz", "1.5 kHz".
 std::string frequency_text(double hertz);
 // "t = 3.250 s"
-std::string time_text(double seconds);
+std::string time_text(double seconds, double duration);  // in ms where all lasts less than 0.1 s
 // "5 mm" or, for a spread, "4–6 mm"
 std::string diameter_text(const SizeSpread& diameter);
 // The longest 1, 2 or 5 times a power of ten that is not longer; m.

@@ -18,6 +18,7 @@ struct LabMark {
 
 std::vector<LabMark> lab_marks(const Scene& scene) {
     if (!scene.drive.present || scene.drive.amplitude <= 0) return {};
+    if (scene.container.shape == Container::Shape::none) return {};
     const Container& container = scene.container;
     const double thickness = drawn_thickness(container), half = outer_floor_half_width(container);
     // In the plane of the near cross-section; beside a cylinder, across the line of sight.
@@ -59,10 +60,25 @@ double drawn_thickness(const Container& container) {
     return 0.018 * (2 * container.half_width + container.height);
 }
 
+namespace {
+
+std::vector<Vec3> corners_of(const Scene& scene) {
+    switch (scene.container.shape) {
+        case Container::Shape::cylinder:
+            return cylinder_corners(scene.container);
+        case Container::Shape::none:
+            return extent_corners(extent_of(scene));
+        case Container::Shape::wedge:
+        case Container::Shape::box:
+            break;
+    }
+    return prism_corners(scene.container);
+}
+
+}  // namespace
+
 std::vector<Vec3> framing_points(const Scene& scene) {
-    const std::vector<Vec3> corners = scene.container.shape == Container::Shape::cylinder
-                                          ? cylinder_corners(scene.container)
-                                          : prism_corners(scene.container);
+    const std::vector<Vec3> corners = corners_of(scene);
     std::vector<Vec3> points;
     const Vec3 stroke =
         scene.drive.present ? Vec3(scene.drive.amplitude * scene.drive.direction) : Vec3(0, 0, 0);
@@ -87,6 +103,11 @@ void draw_container(const Scene& scene, const View& at_rest, const View& view, c
     const Sketches sketches{{at_rest, view, palette, picture_height, frame.wall_offset},
                             {at_rest, view, palette, picture_height, frame.floor_offset},
                             {at_rest, view, palette, picture_height, Vec3(0, 0, 0)}};
+    for (const FreeWall& wall : scene.walls) {
+        const Vec3 offset = (wall.moves ? frame.floor_offset : Vec3(0, 0, 0)) + frame.time * wall.velocity;
+        draw_free_wall(wall, extent_of(scene), {at_rest, view, palette, picture_height, offset}, shapes);
+    }
+    if (scene.container.shape == Container::Shape::none) return;
     if (scene.container.shape == Container::Shape::cylinder)
         draw_cylinder(scene.container, sketches, shapes);
     else

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/scene/bed.hpp"
 #include "render/draw/container_drawing.hpp"
 
 namespace grainreel {
@@ -68,11 +69,16 @@ struct Sketches {
 void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 
+// A plane, as far as the box reaches.
+void draw_free_wall(const FreeWall& wall, const Extent& extent, const Sketch& sketch,
+                    ContainerShapes& shapes);
+
 // Half the width of everything drawn, at the height of the floor's top; m.
 double outer_floor_half_width(const Container& container);
 
 // Corners of the drawn container at rest, walls with thickness.
 std::vector<Vec3> prism_corners(const Container& container);
 std::vector<Vec3> cylinder_corners(const Container& container);
+std::vector<Vec3> extent_corners(const Extent& extent);
 
 }  // namespace grainreel

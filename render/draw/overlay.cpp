@@ -1,5 +1,7 @@
 #include "render/draw/overlay.hpp"
 
+#include "engine/scene/bed.hpp"
+
 #include <algorithm>
 
 #include "render/draw/captions.hpp"
@@ -11,7 +13,7 @@ TextSize static_part(const Writer& writer, const Scene& scene, const View* view,
     const TypeScale& type = writer.type;
     const double x = type.margin, inner = std::max(1.0, width - (layout.portrait ? 2.0 : 1.5) * type.margin);
     // The scale holds at the depth of the container's middle.
-    const double scale = view ? view->pixels_per_metre({0, 0, 0.5 * scene.container.height}) : 1;
+    const double scale = view ? view->pixels_per_metre(extent_of(scene).middle()) : 1;
     double y = type.margin;
     const TextSize title = title_block(writer, scene, x, y, inner);
     y += title.height + (title.height > 0 ? 1.2 * type.gap : 0);

@@ -200,7 +200,8 @@ TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame
 }
 
 TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y) {
-    TextSize size = writer.write(x, y, time_text(frame.time), writer.strong(), writer.palette.ink);
+    TextSize size =
+        writer.write(x, y, time_text(frame.time, scene.run.duration), writer.strong(), writer.palette.ink);
     if (!scene.drive.present) return size;
     const auto line = [&](const std::string& text) {
         const TextSize part =

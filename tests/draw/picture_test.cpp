@@ -235,8 +235,9 @@ TEST(Overlay, NumbersReadWell) {
     EXPECT_EQ(length_text(0.00025), "250 µm");
     EXPECT_EQ(length_text(2), "2 m");
     EXPECT_EQ(frequency_text(1500), "1.5 kHz");
-    EXPECT_EQ(time_text(-0.35), "t = −0.350 s");
-    EXPECT_EQ(time_text(-0.0001), "t = 0.000 s");
+    EXPECT_EQ(time_text(-0.35, 10), "t = −0.350 s");
+    EXPECT_EQ(time_text(-0.0001, 10), "t = 0.000 s");
+    EXPECT_EQ(time_text(0.0012345, 0.05), "t = 1.234 ms");
     EXPECT_EQ(diameter_text({SizeSpread::Kind::uniform, 0.004, 0.006, 0.005, 0}), "4–6 mm");
     EXPECT_DOUBLE_EQ(round_length(0.0199), 0.01);
     EXPECT_DOUBLE_EQ(round_length(0.021), 0.02);

@@ -124,8 +124,8 @@ TEST(Hertz, RestitutionIsTheAskedOneAtAnySpeed) {
             for (const double v : {0.03, 1.0}) {
                 const double deepest = std::pow(1.25 * sphere_mass() / 2 * v * v / kHertz, 0.4);
                 const double step = 2.9432 * deepest / v / 4000;
-                EXPECT_NEAR(
-                    rebound(hertz_pair(e, 0, attraction), NormalForce::hertz, v, step).restitution, e, 1e-3)
+                EXPECT_NEAR(rebound(hertz_pair(e, 0, attraction), NormalForce::hertz, v, step).restitution, e,
+                            1e-3)
                     << "attraction " << attraction << ", " << v << " m/s";
             }
         }
@@ -213,8 +213,8 @@ TEST(KindsOfContact, EachHasItsLawAndItsNumbers) {
     const int species[4][2] = {{0, 0}, {0, 1}, {1, 0}, {1, 1}};
     for (int k = 0; k < 4; ++k) {
         for (const int side : {0, 1}) {
-            w.grains.add(2 * k + side, species[k][side], Vec3((side - 0.5) * 2.02 * kRadius, 10 * kRadius * k, 0),
-                         kRadius, kDensity);
+            w.grains.add(2 * k + side, species[k][side],
+                         Vec3((side - 0.5) * 2.02 * kRadius, 10 * kRadius * k, 0), kRadius, kDensity);
             w.grains.motion.back().velocity = Vec3((0.5 - side) * v, 0, 0);
         }
     }

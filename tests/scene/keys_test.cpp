@@ -51,7 +51,12 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
         box = with(box, line, "");
     const std::string from_file =
         wedge_text + "[start]\nmethod = \"file\"\nfile = \"" GRAINREEL_SOURCE "/docs/scenes.md\"\n";
-    const std::string cases[] = {wedge_text, box, locked, motion, from_file};
+    std::string exact = exact_text;
+    for (const char* line : {"gravity = 0\n", "velocity = [0, 0, \"10 cm/s\"]\n",
+                             "velocity = [0, \"0.5 m/s\", 0]\n", "spin = [0, 0, \"60 rad/s\"]\n"})
+        exact = with(exact, line, "");
+    exact += "[drive]\nfrequency = 20\namplitude = 0.001\n";
+    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

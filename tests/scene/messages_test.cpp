@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"density = 2500", "density = 2500\nmass = 1e-4",
              "7:1: 'density' is of no use here: 'mass' is given; remove it"},
         Case{"[run]\n", "[start]\nkeep_clock = true\n[run]\n",
-             "27:1: 'keep_clock' is of no use here: 'method' is \"layers\"; remove it"},
+             "27:1: 'keep_clock' is of no use here: the start is not from a file; remove it"},
         Case{"[run]\n", "[[film.segment]]\nphase = 0.5\n[run]\n",
              "27:1: 'phase' is of no use here: a segment in motion shows every phase; remove it"}));
 
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"\"2 s\"", "0", "27:1: 'duration' must be larger than 0, but is 0; write for example \"10 s\""},
         Case{"\"2 s\"", "inf", "27:1: 'duration' must be finite, but is inf; write for example \"10 s\""},
         Case{"\"wedge\"", "\"cone\"",
-             "17:1: 'shape' must be \"wedge\" or \"box\" or \"cylinder\", but is \"cone\""},
+             "17:1: 'shape' must be \"wedge\" or \"box\" or \"cylinder\" or \"none\", but is \"cone\""},
         Case{"name = \"small\"", "name = 3",
              "4:1: 'name' must be text, but is 3; write for example \"small\""},
         Case{"name = \"small\"", "name = \"wall\"",
@@ -222,13 +222,74 @@ TEST(Messages, DampingBeyondTheCritical) {
               "that nothing rebounds; reduce it or raise the stiffness");
 }
 
+TEST(Messages, ExactScenes) {
+    const auto edit = [](const char* from, const char* to) { return complaint(with(exact_text, from, to)); };
+    EXPECT_EQ(complaint(exact_text), "none");
+    EXPECT_EQ(edit("position = [0, 0, 0]\n", ""),
+              "test.toml:15:1: [[grain]] lacks 'position'; write for example position = [\"5 mm\", 0, 0]");
+    EXPECT_EQ(edit("species = \"ball\"", "species = \"bell\""),
+              "test.toml:20:1: 'species' names \"bell\", which is no species; name one of [[species]]");
+    EXPECT_EQ(
+        edit("species = \"ball\"", "diameter = 0.005"),
+        "test.toml:20:1: 'diameter' of 0.005 m is outside its species' 0.004 to 0.004 m; widen the spread");
+    EXPECT_EQ(edit("[0, 0, 2]", "[0, 0, 0]"),
+              "test.toml:13:1: 'normal' must not be zero; write for example [0, 0, 1]");
+    EXPECT_EQ(edit("velocity = [0, 0, \"10 cm/s\"]", "moves = true"),
+              "test.toml:14:1: 'moves' follows a drive, but there is none; add [drive] or remove it");
+    EXPECT_EQ(edit("\"60 rad/s\"", "\"60 Hz\""),
+              "test.toml:18:1: 'spin' must be an angular velocity, but \"60 Hz\" is a frequency; write for "
+              "example \"10 rad/s\"");
+    EXPECT_EQ(edit("diameter = \"4 mm\"", "diameter = \"4 mm\"\ncount = 2"),
+              "test.toml:5:1: 'count' is of no use here: the grains are listed one by one; remove it");
+    EXPECT_EQ(edit("shape = \"none\"", "shape = \"none\"\nheight = 1"),
+              "test.toml:11:1: 'height' is of no use here: there is no container; remove it");
+    EXPECT_EQ(
+        complaint(exact_text + "[start]\nmethod = \"layers\"\n"),
+        "test.toml:25:1: 'method' must be \"grains\" where grains are listed; remove it or the [[grain]]s");
+    EXPECT_EQ(
+        complaint(exact_text + "[start]\nsettle_limit = 1\n"),
+        "test.toml:25:1: 'settle_limit' is of no use here: grains placed by hand do not settle; remove it");
+    EXPECT_EQ(complaint(with(wedge_text, "[drive]", "[start]\nmethod = \"grains\"\n[drive]")),
+              "test.toml:24:1: 'method' is \"grains\", but none is listed; write [[grain]] and its position");
+}
+
+TEST(Messages, LawsThatDoNotGoTogether) {
+    const auto set = [](std::vector<std::string> sets) { return complaint(wedge_text, sets); };
+    EXPECT_EQ(set({"contact.friction_law=mindlin"}),
+              "--set contact.friction_law: 'friction_law' puts mindlin with a linear normal law, but its "
+              "stiffness follows from Hertz' contact radius; write law = \"hertz\", or another friction_law");
+    EXPECT_EQ(
+        set({"contact.law=hertz", "contact.friction_law=linear-spring"}),
+        "--set contact.friction_law: 'friction_law' puts hertz with a tangential spring of constant "
+        "stiffness, while its own grows with the overlap; write friction_law = \"mindlin\" or \"none\"");
+    EXPECT_EQ(set({"contact.law=hertz", "contact.stiffness=1e4"}),
+              "--set contact.stiffness: 'stiffness' is of no use here: hertz has a 'modulus'; remove it");
+    EXPECT_EQ(set({"contact.modulus=1 GPa"}),
+              "--set contact.modulus: 'modulus' is of no use here: only the law hertz has it; remove it");
+    EXPECT_EQ(
+        set({"contact.attraction=true"}),
+        "--set contact.attraction: 'attraction' is of no use here: the law walton-braun has no damping; "
+        "remove it");
+    EXPECT_EQ(complaint(with(wedge_text, "restitution = 0.8",
+                             "restitution = 0.8\nrestitution_table = [[1, 0.9], [2, 0.8]]")),
+              "test.toml:14:1: 'restitution' is of no use here: 'restitution_table' is given; remove it");
+    EXPECT_EQ(complaint(with(wedge_text, "restitution = 0.8", "restitution_table = [[1, 0.9], [0.5, 0.8]]")),
+              "test.toml:14:1: 'restitution_table' must have rising speeds, none below 0; sort its rows");
+    EXPECT_EQ(
+        complaint(with(wedge_text, "restitution = 0.8", "restitution_table = [[1, 1.9]]")),
+        "test.toml:14:1: 'restitution_table' has a restitution of 1.9; it must be larger than 0, at most 1");
+    EXPECT_EQ(complaint(with(wedge_text, "restitution = 0.8", "restitution_table = [1, 2]")),
+              "test.toml:14:1: 'restitution_table' must be rows of a speed and a number, at most 8, but is "
+              "[ 1, 2 ]; write for example [[\"0.1 m/s\", 0.95], [\"2 m/s\", 0.8]]");
+}
+
 TEST(Messages, CommandLine) {
     EXPECT_EQ(complaint(wedge_text, {"drive.frequenzy=3"}),
               "--set drive.frequenzy: unknown key 'frequenzy' in [drive]; did you mean 'frequency'?");
     EXPECT_EQ(complaint(wedge_text, {"foo.bar=3"}),
               "--set foo.bar: unknown key 'foo' at the top level; the keys there are title, gravity, "
               "species, contact, "
-              "container, drive, start, run, output, film");
+              "container, wall, grain, drive, start, run, output, film");
     EXPECT_EQ(complaint(wedge_text, {"drive.frequency"}),
               "--set drive.frequency: no assignment; write --set drive.frequency=\"30 Hz\"");
     EXPECT_EQ(complaint(wedge_text, {"species[2].count=3"}),

@@ -74,4 +74,30 @@ inline Scene read_text(const std::string& text, const std::vector<std::string>& 
     return read_scene_text(text, "test.toml", sets);
 }
 
+// Two grains by hand in empty space, with a plane that comes nearer.
+inline const std::string exact_text = R"(gravity = 0
+[[species]]
+name = "ball"
+diameter = "4 mm"
+density = 2500
+[contact]
+restitution = 0.8
+friction = 0.3
+[container]
+shape = "none"
+[[wall]]
+point = [0, 0, "-3 mm"]
+normal = [0, 0, 2]
+velocity = [0, 0, "10 cm/s"]
+[[grain]]
+position = [0, 0, 0]
+velocity = [0, "0.5 m/s", 0]
+spin = [0, 0, "60 rad/s"]
+[[grain]]
+species = "ball"
+position = [0, "1 cm", 0]
+[run]
+duration = "50 ms"
+)";
+
 }  // namespace grainreel

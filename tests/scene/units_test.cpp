@@ -70,9 +70,9 @@ INSTANTIATE_TEST_SUITE_P(
             "must be an angle, but \"20 Hz\" is a frequency; write for example \"20 deg\""},
         // udunits itself takes the radian for 1 and would let these pass, wrong by 2 pi
         Bad{"25 rad/s", Dimension::frequency,
-            "must be a frequency, but \"25 rad/s\" is not; write for example \"25 Hz\""},
+            "must be a frequency, but \"25 rad/s\" is an angular velocity; write for example \"25 Hz\""},
         Bad{"150 rpm", Dimension::frequency,
-            "must be a frequency, but \"150 rpm\" is not; write for example \"25 Hz\""},
+            "must be a frequency, but \"150 rpm\" is an angular velocity; write for example \"25 Hz\""},
         Bad{"3 deg", Dimension::length,
             "must be a length, but \"3 deg\" is an angle; write for example \"5 mm\""},
         Bad{"50 %", Dimension::angle,

@@ -12,9 +12,12 @@ namespace {
 // What the writer promises to keep: the scene with the plan's choices filled in.
 Scene filled_in(Scene scene, const Plan& plan) {
     const std::size_t count = scene.species.size();
+    const auto stiffness = [](const PairPlan& pair) {
+        return pair.modulus > 0 ? pair.modulus : pair.loading_stiffness;
+    };
     for (std::size_t i = 0; i < count * count; ++i)
-        scene.contact.grain[i].stiffness = plan.grain[i].loading_stiffness;
-    for (std::size_t i = 0; i < count; ++i) scene.contact.wall[i].stiffness = plan.wall[i].loading_stiffness;
+        scene.contact.grain[i].stiffness = stiffness(plan.grain[i]);
+    for (std::size_t i = 0; i < count; ++i) scene.contact.wall[i].stiffness = stiffness(plan.wall[i]);
     scene.run.step = plan.clock.step;
     scene.run.steps_per_contact.reset();
     if (scene.output.trajectory)
@@ -32,6 +35,7 @@ void expect_round_trip(const Scene& original) {
     EXPECT_EQ(back.species, expected.species);
     EXPECT_EQ(back.contact, expected.contact);
     EXPECT_EQ(back.container, expected.container);
+    EXPECT_EQ(back.walls, expected.walls);
     EXPECT_EQ(back.gravity, expected.gravity);
     EXPECT_EQ(back.drive, expected.drive);
     EXPECT_EQ(back.start, expected.start);
@@ -56,6 +60,14 @@ void expect_round_trip(const Scene& original) {
 TEST(Writer, ResolvedScenesReadBackBitByBit) {
     expect_round_trip(read_text(wedge_text));
     expect_round_trip(read_text(box_text));
+    expect_round_trip(read_text(exact_text));
+    expect_round_trip(read_text(wedge_text +
+                                "[[wall]]\nname = \"chute\"\npoint = [0, 0, 0.1]\nnormal = [0, 1, 2]\n"
+                                "moves = true\n"));
+    expect_round_trip(read_text(
+        wedge_text, {"contact.law=hertz", "contact.wall.law=spring-dashpot", "contact.attraction=true",
+                     "contact.rolling_friction=0.01", "contact.wall.rolling_friction=0"}));
+    expect_round_trip(read_text(wedge_text, {"contact.restitution_table=[[\"10 cm/s\", 0.95], [2, 0.7]]"}));
     expect_round_trip(read_text(
         wedge_text,
         {"drive.frequency=33.3", "drive.direction=[1, 2, 3]", "drive.phase=1007 deg", "run.seed=123456789",
