@@ -34,7 +34,7 @@ struct ContactLaw {
     using Normal = NormalLawType;
     using Tangential = TangentialLawType;
     static constexpr bool rubs = Tangential::rubs;  // needs slip, twist and spin
-    static constexpr bool uses_velocity = Normal::uses_velocity;
+    static constexpr bool uses_velocity = Normal::uses_velocity, has_dashpot = Normal::has_dashpot;
     static constexpr bool uses_mass = Normal::uses_mass, uses_radius = Normal::uses_radius;
 
     template <class R>
@@ -55,7 +55,7 @@ struct ContactLaw {
     struct History {
         typename Normal::template History<R> normal;
         typename Tangential::template History<R> tangential;
-        VelocityBefore<R, uses_velocity> before;
+        VelocityBefore<R, has_dashpot> before;
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
@@ -70,15 +70,19 @@ struct ContactLaw {
         Triple<R> tangential;
     };
 
-    // `velocity`: m/s, of i's surface against j's at the middle of the step; `step` in s.
+    // `velocity`: m/s, of i's surface against j's between the last force and this one; `step`: s, between
+    // them. `ahead`: dashpots take the velocity so many steps later, 0.5 for Verlet.
     template <class R>
     static HWY_INLINE Force<R> force(const Parameters<R>& p, History<R>& h, Touch<R> touch,
-                                     const Triple<R>& velocity, R step) {
+                                     const Triple<R>& velocity, R step, R ahead) {
         if constexpr (rubs) touch.slip = across(velocity, touch.normal) * step;
-        if constexpr (uses_velocity) {
-            set_velocity(touch, at_end_of_step(velocity, h.before.velocity));
+        if constexpr (has_dashpot) {
+            set_velocity(touch, later(velocity, h.before.velocity, ahead));
             h.before.velocity = velocity;
+        } else if constexpr (uses_velocity) {
+            set_velocity(touch, velocity);
         }
+        if constexpr (uses_velocity) touch.step = step;
         Force<R> f{Normal::force(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
         if constexpr (rubs) {
             f.tangential = Tangential::force(p.tangential, p.normal, h.tangential, touch, f.normal);
@@ -107,13 +111,13 @@ struct ContactLaw {
         return velocity - normal * normal.dot(velocity);
     }
 
-    // Dashpots want the velocity at the end of the step, half a step ahead of the known one: it goes on as it
-    // changed over the last step. For free grains this is the half kick of the old force, exactly. Nothing is
-    // known of a new contact, and it keeps its velocity.
+    // Dashpots want the velocity at the time of the force, with Verlet half a step ahead of the known one: it
+    // goes on as it changed over the last step. For free grains this is the half kick of the old force,
+    // exactly. Nothing is known of a new contact, and it keeps its velocity.
     template <class R>
-    static HWY_INLINE Triple<R> at_end_of_step(const Triple<R>& velocity, const Triple<R>& before) {
+    static HWY_INLINE Triple<R> later(const Triple<R>& velocity, const Triple<R>& before, R ahead) {
         const auto known = before.squared() > R(0);
-        return velocity + select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}) * R(0.5);
+        return velocity + select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}) * ahead;
     }
 
     template <class R>

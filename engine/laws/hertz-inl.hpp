@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct Hertz {
-    static constexpr bool uses_velocity = true, uses_mass = true, uses_radius = true;
+    static constexpr bool has_dashpot = true, uses_velocity = true, uses_mass = true, uses_radius = true;
 
     template <class R>
     struct Parameters {

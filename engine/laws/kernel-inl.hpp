@@ -86,7 +86,7 @@ HWY_INLINE Touch<Lanes> touch_at(const LawInput& in, int c) {
     t.effective_mass = t.effective_radius = Lanes(0.0);
     if constexpr (Law::uses_mass) t.effective_mass = load(in.effective_mass + c);
     if constexpr (Law::uses_radius) t.effective_radius = load(in.effective_radius + c);
-    t.closing_speed = Lanes(0.0);
+    t.closing_speed = t.step = Lanes(0.0);
     t.slip = t.slip_velocity = {Lanes(0.0), Lanes(0.0), Lanes(0.0)};
     return t;
 }
@@ -127,7 +127,7 @@ void step_chunk(const LawInput& in, double* history, ForceChunk& out) {
     const std::size_t size = kernel_of<Law>().history_size, stride = in.history_stride;
     typename Law::template Parameters<Lanes> p;
     if constexpr (one_kind) p.each(SameParameters(in.parameters->values.data()));
-    const Lanes step(in.step);
+    const Lanes step(in.step), ahead(in.ahead);
     for (int c = 0; c < in.count; c += kLanes) {
         double* kept = history + (c / kBlock) * (stride * kBlock) + c % kBlock;
         if (!in.touch->any_touching(c, kLanes)) {
@@ -139,7 +139,7 @@ void step_chunk(const LawInput& in, double* history, ForceChunk& out) {
         if constexpr (!one_kind) p = parameters_at<Law>(in, c);
         typename Law::template History<Lanes> h;
         h.each(LoadHistory(kept));
-        const auto force = Law::force(p, h, touch_at<Law>(in, c), velocity_at<Law>(in, c), step);
+        const auto force = Law::force(p, h, touch_at<Law>(in, c), velocity_at<Law>(in, c), step, ahead);
         h.each(StoreHistory(touching, kept));
         put_force<Law>(touching, force, c, out);
     }

@@ -24,7 +24,8 @@ struct LawInput {
     const double* effective_radius;  // m, likewise
     const std::int32_t* kind;        // of each contact; not read where there is only one
     const LawParameters* parameters;
-    double step;            // s
+    double step;            // s, between the last forces and these
+    double ahead;           // steps from the known velocity to the time of the force
     int history_stride;     // numbers a contact that the history has for all laws together
     RollingChunk* rolling;  // read and written by the resistance to rolling only
 };

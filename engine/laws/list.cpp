@@ -13,6 +13,7 @@
 #include "engine/laws/rolling_kernel-inl.hpp"
 #include "engine/laws/spring_dashpot-inl.hpp"
 #include "engine/laws/walton_braun-inl.hpp"
+#include "engine/laws/walton_braun_corrected-inl.hpp"
 #include "engine/laws/walton_braun_speed-inl.hpp"
 #include "engine/laws/walton_braun_table-inl.hpp"
 
@@ -45,6 +46,8 @@ const LawKernel* find_kernel(const ContactModel& model) {
     switch (model.normal) {
         case NormalForce::walton_braun:
             return with_linear<WaltonBraun>(model.tangential);
+        case NormalForce::walton_braun_corrected:
+            return with_linear<WaltonBraunCorrected>(model.tangential);
         case NormalForce::walton_braun_speed:
             return with_linear<WaltonBraunSpeed>(model.tangential);
         case NormalForce::walton_braun_table:

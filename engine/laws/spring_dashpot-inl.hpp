@@ -18,7 +18,7 @@ namespace grainreel::HWY_NAMESPACE {
 constexpr double kFarBelow = 1e30;  // N
 
 struct SpringDashpot {
-    static constexpr bool uses_velocity = true, uses_mass = true, uses_radius = false;
+    static constexpr bool has_dashpot = true, uses_velocity = true, uses_mass = true, uses_radius = false;
 
     template <class R>
     struct Parameters {

@@ -14,14 +14,15 @@ namespace grainreel::HWY_NAMESPACE {
 
 template <class R>
 struct Touch {
-    Triple<R> normal;         // unit k, from grain i to grain j, or from the grain to the wall
-    R overlap;                // m, > 0
-    R effective_mass;         // kg; set only for laws that use it
-    R effective_radius;       // m; likewise
-    R closing_speed;          // m/s, k . (v_i - v_j), > 0 when approaching; set only for laws with a dashpot
-    Triple<R> slip;           // m, of i over j at the contact during this step; set only for laws that rub
-    R twist;                  // rad, mean rotation of the two bodies about k during this step; likewise
-    Triple<R> slip_velocity;  // m/s; set only for laws that rub and use velocity
+    Triple<R> normal;    // unit k, from grain i to grain j, or from the grain to the wall
+    R overlap;           // m, > 0
+    R effective_mass;    // kg; set only for laws that use it
+    R effective_radius;  // m; likewise
+    R closing_speed;     // m/s, k . (v_i - v_j), > 0 when approaching; set only for laws that use velocity
+    Triple<R> slip;      // m, of i over j at the contact during this step; set only for laws that rub
+    R twist;             // rad, mean rotation of the two bodies about k during this step; likewise
+    Triple<R> slip_velocity;  // m/s; set only for laws that rub and have a dashpot
+    R step;                   // s, between two forces; set only for laws that use velocity
 };
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct WaltonBraunSpeed {
-    static constexpr bool uses_velocity = false, uses_mass = false, uses_radius = false;
+    static constexpr bool has_dashpot = false, uses_velocity = false, uses_mass = false, uses_radius = false;
 
     template <class R>
     struct Parameters {

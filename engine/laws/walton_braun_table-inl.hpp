@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct WaltonBraunTable {
-    static constexpr bool uses_velocity = false, uses_mass = true, uses_radius = false;
+    static constexpr bool has_dashpot = false, uses_velocity = false, uses_mass = true, uses_radius = false;
     static constexpr int kPieces = static_cast<int>(kTablePoints) - 1;
 
     template <class R>

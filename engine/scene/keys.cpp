@@ -238,6 +238,12 @@ void add_run(Keys& keys) {
                             "With a drive shortened so that a multiple of 8 steps makes a period."));
     keys.push_back(quantity("run.overlap", Dimension::number, {0, 0.1, true, false}, literal("0.01"),
                             "Wanted largest overlap over the smaller diameter; sets the stiffness."));
+    keys.push_back(
+        choice("run.integrator", {"velocity-verlet", "leapfrog", "position-verlet", "forest-ruth", "gear"},
+               literal("\"velocity-verlet\""), "How a step is made; the others are for comparison."));
+    keys.push_back(
+        entry("run.contact_corrections", KeyKind::flag, literal("false"),
+              "walton-braun with velocity-verlet: corrects onset, peak and exit of each contact."));
     keys.push_back(integer("run.steps_per_contact", 4, 1000000,
                            note("12 or more by restitution; 40 for spring-dashpot"),
                            "Steps in one free impact."));

@@ -90,6 +90,7 @@ bool Plan::rolls() const {
 Plan make_plan(const Scene& scene) {
     Plan plan;
     plan.arms = scene.contact.arms;
+    plan.integrator = scene.run.integrator;
     plan.moving_walls = scene.drive.present && scene.drive.amplitude > 0;
 
     const BedPlan bed = plan_bed(scene);

@@ -11,7 +11,14 @@
 namespace grainreel {
 
 // What the engine computes for one kind of contact: the simplest that does what the scene asks for.
-enum class NormalForce { walton_braun, walton_braun_speed, walton_braun_table, spring_dashpot, hertz };
+enum class NormalForce {
+    walton_braun,
+    walton_braun_corrected,
+    walton_braun_speed,
+    walton_braun_table,
+    spring_dashpot,
+    hertz
+};
 struct ContactModel {
     NormalForce normal = NormalForce::walton_braun;
     TangentialLaw tangential = TangentialLaw::incremental_slip;  // `none` when nothing rubs
@@ -46,6 +53,7 @@ struct PairPlan {
 
 struct Plan {
     LeverArms arms = LeverArms::contact_plane;
+    Integrator integrator = Integrator::velocity_verlet;
     bool moving_walls = false;
 
     std::vector<PairPlan> grain;  // species x species, row-major

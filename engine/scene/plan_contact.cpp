@@ -173,10 +173,11 @@ double restitution_at(const std::vector<RestitutionPoint>& table, double speed) 
     return e;
 }
 
-ContactModel contact_model(const PairContact& contact) {
+ContactModel contact_model(const PairContact& contact, bool corrected) {
     ContactModel model;
     model.tangential = contact.tangential;
     model.rolls = contact.rolling_friction > 0;
+    if (corrected) model.normal = NormalForce::walton_braun_corrected;
     if (contact.normal == NormalLaw::spring_dashpot) model.normal = NormalForce::spring_dashpot;
     if (contact.normal == NormalLaw::hertz) model.normal = NormalForce::hertz;
     if (contact.restitution_speed) model.normal = NormalForce::walton_braun_speed;
@@ -278,7 +279,7 @@ BedPlan plan_bed(const Scene& scene) {
 PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Species& a,
                    const Species* b) {
     PairPlan pair;
-    pair.model = contact_model(contact);
+    pair.model = contact_model(contact, scene.run.contact_corrections);
     const Stiffness stiffness = choose_stiffness(scene, bed, contact, a, b);
     pair.loading_stiffness = stiffness.value;
     pair.stiffness_reason = stiffness.reason;

@@ -110,6 +110,10 @@ void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, cons
             fmt::format("{:.4g} s is above the stable limit of {:.4g} s: the run will blow up; shorten "
                         "the step or leave it out",
                         plan.clock.step, step.stable));
+    if (plan.integrator == Integrator::forest_ruth && plan.rubs())
+        warnings.add("run.integrator",
+                     "drifts backwards at times, which friction takes for a turn of the slip: tangential "
+                     "velocities are off by several per cent at any step; take velocity-verlet");
     if (!scene.run.step && !scene.run.steps_per_contact) return;
     for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall}) {
         for (const PairPlan& pair : *pairs) {

@@ -30,7 +30,8 @@ ListedGrain read_grain(Document& document, const Scene& scene, const std::string
     grain.species = species_of(document, scene, table + ".species");
     const SizeSpread& spread = scene.species[grain.species].diameter;
     grain.diameter = document.quantity(table + ".diameter").value_or(spread.mean);
-    if (grain.diameter < spread.smallest * (1 - same_size) || grain.diameter > spread.largest * (1 + same_size))
+    if (grain.diameter < spread.smallest * (1 - same_size) ||
+        grain.diameter > spread.largest * (1 + same_size))
         document.fail(table + ".diameter",
                       fmt::format("of {:.6g} m is outside its species' {:.6g} to {:.6g} m; widen the spread",
                                   grain.diameter, spread.smallest, spread.largest));

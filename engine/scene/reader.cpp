@@ -34,6 +34,20 @@ void read_gravity(Document& document, Scene& scene) {
     }
 }
 
+// Corrections need a spring of constant slopes.
+void check_correctable(const Document& document, const Contact& contact) {
+    const auto check = [&](const PairContact& pair) {
+        if (pair.normal == NormalLaw::walton_braun && !pair.restitution_speed &&
+            pair.restitution_table.empty())
+            return;
+        document.fail("run.contact_corrections",
+                      "is made for the law walton-braun with a restitution that is "
+                      "the same at any speed; remove it");
+    };
+    for (const PairContact& pair : contact.grain) check(pair);
+    for (const PairContact& pair : contact.wall) check(pair);
+}
+
 void read_run(Document& document, Scene& scene) {
     Run& run = scene.run;
     run.duration = document.quantity("run.duration").value_or(run.duration);
@@ -43,6 +57,17 @@ void read_run(Document& document, Scene& scene) {
     run.overlap = document.quantity("run.overlap").value_or(run.overlap);
     if (const auto steps = document.integer("run.steps_per_contact"))
         run.steps_per_contact = static_cast<int>(*steps);
+    run.integrator = chosen<Integrator>(document, "run.integrator",
+                                        {{"velocity-verlet", Integrator::velocity_verlet},
+                                         {"leapfrog", Integrator::leapfrog},
+                                         {"position-verlet", Integrator::position_verlet},
+                                         {"forest-ruth", Integrator::forest_ruth},
+                                         {"gear", Integrator::gear}},
+                                        Integrator::velocity_verlet);
+    run.contact_corrections = document.flag("run.contact_corrections").value_or(run.contact_corrections);
+    if (run.contact_corrections && run.integrator != Integrator::velocity_verlet)
+        document.fail("run.contact_corrections", "is made for velocity-verlet; remove it or the integrator");
+    if (run.contact_corrections) check_correctable(document, scene.contact);
     if (run.step) document.refuse("run.steps_per_contact", "'step' is given");
 }
 

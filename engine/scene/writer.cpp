@@ -213,6 +213,22 @@ void write_drive(SceneText& out, const Scene& scene) {
     out.words("moves", drive.moves == Drive::Moves::container ? "container" : "floor");
 }
 
+const char* integrator_name(Integrator integrator) {
+    switch (integrator) {
+        case Integrator::velocity_verlet:
+            return "velocity-verlet";
+        case Integrator::leapfrog:
+            return "leapfrog";
+        case Integrator::position_verlet:
+            return "position-verlet";
+        case Integrator::forest_ruth:
+            return "forest-ruth";
+        case Integrator::gear:
+            return "gear";
+    }
+    return "";
+}
+
 void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     const Start& start = scene.start;
     out.table("start");
@@ -235,6 +251,8 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     if (!run.step) out.comment(fmt::format("chosen for: {}", plan.step_reason));
     out.put("step", plan.clock.step);
     out.put("overlap", run.overlap);
+    out.words("integrator", integrator_name(run.integrator));
+    out.flag("contact_corrections", run.contact_corrections);
 
     const Output& output = scene.output;
     out.table("output");

@@ -24,6 +24,7 @@ constexpr double kRestitution = 0.3;  // a plastic contact law lets the crowd co
 // The scene's laws, plastic and without friction.
 Plan growth_plan(const Plan& plan) {
     Plan growth = plan;
+    growth.integrator = Integrator::velocity_verlet;
     for (auto* table : {&growth.grain, &growth.wall}) {
         for (PairPlan& pair : *table) {
             pair.model = {NormalForce::walton_braun, TangentialLaw::none, false};

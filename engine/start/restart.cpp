@@ -14,12 +14,13 @@ namespace grainreel {
 
 namespace {
 
-constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '2'};
+constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '3'};
 
 // What must be equal for a continuation to be the same run: laws, stiffness, step, drive.
 std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
     std::ostringstream out;
     write_value(out, plan.arms);
+    write_value(out, plan.integrator);
     for (const auto* table : {&plan.grain, &plan.wall}) {
         for (const PairPlan& p : *table) {
             write_value(out, p.model.normal);
@@ -48,7 +49,7 @@ std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
 template <class Grain, class Each>
 void transfer_grains(Grain& g, const Each& each) {
     each(g.id), each(g.species), each(g.place), each(g.motion), each(g.spin), each(g.load);
-    each(g.wall_work), each(g.orientation);
+    each(g.wall_work), each(g.orientation), each(g.derivatives);
 }
 
 UserError cannot_start(const Scene& scene, const std::string& what) {

@@ -44,6 +44,7 @@ void Grains::reorder(const std::vector<std::int32_t>& order) {
     permute(load, order);
     permute(wall_work, order);
     permute(orientation, order);
+    permute(derivatives, order);
 }
 
 }  // namespace grainreel

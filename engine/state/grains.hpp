@@ -31,6 +31,12 @@ struct alignas(64) Load {
     double zero_too = 0;
 };
 
+// Higher derivatives that a predictor-corrector carries along.
+struct Derivatives {
+    Vec3 acceleration{0, 0, 0}, jerk{0, 0, 0};            // m/s2, m/s3
+    Vec3 spin_acceleration{0, 0, 0}, spin_jerk{0, 0, 0};  // rad/s2, rad/s3
+};
+
 struct Grains {
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> species;
@@ -38,8 +44,9 @@ struct Grains {
     std::vector<Motion> motion;
     std::vector<Spin> spin;  // kept, but at rest and unread, in scenes without friction
     std::vector<Load> load;
-    std::vector<double> wall_work;        // J, done by moving walls on this grain since the drive started
-    std::vector<Quaternion> orientation;  // empty unless asked for
+    std::vector<double> wall_work;         // J, done by moving walls on this grain since the drive started
+    std::vector<Quaternion> orientation;   // empty unless asked for
+    std::vector<Derivatives> derivatives;  // empty unless the integrator has them
 
     std::size_t size() const { return id.size(); }
 

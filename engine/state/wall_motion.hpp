@@ -20,7 +20,9 @@ class WallMotion {
     // over the ramp as 10u^3 - 15u^4 + 6u^5 (twice differentiable). Without a ramp the sine's start is taken
     // off, z_w = a (sin(wt + phi) - sin phi): the container starts from rest position, though not from rest.
     // The phase comes from the step count, so it does not drift. Before step 0 the walls are at rest.
-    Pose at(std::int64_t step) const;
+    Pose at(std::int64_t step) const { return at(step, 0); }
+    // Between two steps; `share` of one, from 0 to 1.
+    Pose at(std::int64_t step, double share) const;
 
   private:
     double amplitude_ = 0, angular_frequency_ = 0, ramp_ = 0, start_phase_ = 0;

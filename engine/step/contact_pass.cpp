@@ -122,19 +122,19 @@ void ContactPass::restore(const ContactRules& rules, std::size_t group, const Ke
 // Sets touch_ for a chunk after the other and calls law(input, number of the chunk's first contact).
 template <class Law>
 void ContactPass::each_chunk(const ContactRules& rules, std::size_t group, const Grains& grains,
-                             const WallState& state, double step, const Law& law) const {
+                             const WallState& state, const Times& times, const Law& law) const {
     const ContactGroup& of = rules.groups[group];
     const ContactList& list = lists_[group];
     const Wants wants = of.rolling ? Wants::rolling : wants_of(*of.law);
     for (std::int32_t c = 0; c < list.size(); c += kChunk) {
         const int count = std::min(kChunk, list.size() - c);
         const GeometryInput in{
-            &grains,  list.first.data() + c, list.second.data() + c, count, wants, rules.arms, step,
+            &grains,  list.first.data() + c, list.second.data() + c, count, wants, rules.arms, times.since,
             &rolling_};
         of.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
         if (count < kChunk) touch_.touching &= (std::uint64_t{1} << count) - 1;  // not the fill
         law(LawInput{count, &touch_, list.mass_of_block(c), list.radius_of_block(c), list.kind.data() + c,
-                     &of.parameters, step, of.history_size(), &rolling_},
+                     &of.parameters, times.since, times.ahead, of.history_size(), &rolling_},
             c);
     }
 }
@@ -152,11 +152,12 @@ std::ptrdiff_t behind_law(const ContactGroup& group) {
 
 }  // namespace
 
-void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state, double step) {
+void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state,
+                          const Times& times) {
     for (std::size_t g = 0; g < lists_.size(); ++g) {
         const ContactGroup& group = rules.groups[g];
         ContactList& list = lists_[g];
-        each_chunk(rules, g, grains, state, step, [&](const LawInput& in, std::int32_t c) {
+        each_chunk(rules, g, grains, state, times, [&](const LawInput& in, std::int32_t c) {
             double* history = list.history_of_block(c);
             group.law->step(in, history, force_);
             if (group.rolling)
@@ -169,7 +170,7 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
                                         group.law->rubs,
                                         group.rolling ? &rolling_ : nullptr};
             group.of_pairs ? add_pairs(chunk, loads_, begin_, end_, grains)
-                           : add_walls(chunk, loads_, state, step, grains);
+                           : add_walls(chunk, loads_, state, times.acts, grains);
         });
     }
 }
@@ -178,7 +179,7 @@ void ContactPass::observe(const ContactRules& rules, std::size_t group, const Gr
                           const WallState& state, const Seen& seen) const {
     const ContactGroup& of = rules.groups[group];
     const ContactList& list = lists_[group];
-    each_chunk(rules, group, grains, state, 0, [&](const LawInput& in, std::int32_t c) {
+    each_chunk(rules, group, grains, state, {0, 0, 0}, [&](const LawInput& in, std::int32_t c) {
         const double* history = list.history_of_block(c);
         of.law->observe(in, history, force_);
         if (of.rolling) of.rolling->observe(for_rolling(of, in), history + behind_law(of), force_);

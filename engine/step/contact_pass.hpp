@@ -34,7 +34,12 @@ class ContactPass {
 
     // One step of all laws: adds the forces of pairs, then of walls, to the loads of the own grains, and the
     // moving walls' work to them.
-    void compute(const ContactRules& rules, Grains& grains, const WallState& state, double step);
+    struct Times {
+        double since;  // s, since the last forces
+        double ahead;  // steps, from the velocity between the two to that of now
+        double acts;   // s, that the forces will act
+    };
+    void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Times& times);
 
     // Shows every contact of a group under an own grain that touches: its bodies, and where to find it in the
     // chunks.
@@ -46,7 +51,7 @@ class ContactPass {
   private:
     template <class Law>
     void each_chunk(const ContactRules& rules, std::size_t group, const Grains& grains,
-                    const WallState& state, double step, const Law& law) const;
+                    const WallState& state, const Times& times, const Law& law) const;
     void add_pairs_within(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
                           double skin);
 

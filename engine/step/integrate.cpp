@@ -26,17 +26,18 @@ HWY_INLINE Record<4> first_three(double x, double fourth = 0) {
     return record_of(Vec3(x, x, x), fourth);
 }
 
-// A velocity or spin after half a kick; `inverse`: its mass or inertia.
+// A velocity or spin after a kick; `inverse`: its mass or inertia.
 HWY_INLINE Record<4> kicked(const Record<4>& rate, const Record<4>& push, const Record<4>& inverse,
-                            const Record<4>& extra, const Record<4>& half) {
-    return rate + half * (push * inverse + extra);
+                            const Record<4>& extra, const Record<4>& time) {
+    return rate + time * (push * inverse + extra);
 }
 
-// Which halves of a step a pass over the grains makes.
+// Whether a pass over the grains ends a step, begins one, or both.
 template <bool ends, bool begins>
 HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     const Numbers at(grains);
-    const Record<4> half = first_three(0.5 * in.step), whole = first_three(in.step), nothing = record_of(0.0);
+    const Record<4> last = first_three(in.end_kick), next = first_three(in.begin_kick);
+    const Record<4> whole = first_three(in.drift), nothing = record_of(0.0);
     const Record<4> gravity = record_of(in.gravity), frame = record_of(in.frame);
     const Record<4> keep = first_three(in.keep, 1);
     Record<4> fastest = nothing;
@@ -44,9 +45,9 @@ HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, st
         double *motion = at.motion + 4 * i, *load = at.load + 8 * i;
         const Record<4> force = record_at<4>(load), inverse_mass = record_of(motion[3]);
         Record<4> velocity = record_at<4>(motion);
-        if (ends) velocity = kicked(velocity, force, inverse_mass, gravity, half) * keep;
+        if (ends) velocity = kicked(velocity, force, inverse_mass, gravity, last) * keep;
         if (begins) {
-            velocity = kicked(velocity, force, inverse_mass, gravity, half);
+            velocity = kicked(velocity, force, inverse_mass, gravity, next);
             double* place = at.place + 4 * i;
             put(record_at<4>(place) + whole * velocity, place);
             put(nothing, load);
@@ -57,9 +58,9 @@ HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, st
         double* spin = at.spin + 4 * i;
         const Record<4> torque = record_at<4>(load + 4), inverse_inertia = record_of(spin[3]);
         Record<4> rate = record_at<4>(spin);
-        if (ends) rate = kicked(rate, torque, inverse_inertia, nothing, half) * keep;
+        if (ends) rate = kicked(rate, torque, inverse_inertia, nothing, last) * keep;
         if (begins) {
-            rate = kicked(rate, torque, inverse_inertia, nothing, half);
+            rate = kicked(rate, torque, inverse_inertia, nothing, next);
             put(nothing, load + 4);
         }
         put(rate, spin);
@@ -99,7 +100,7 @@ Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
 void turn(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     if (!in.rubs || grains.orientation.empty()) return;
     for (std::int32_t i = begin; i < end; ++i) {
-        grains.orientation[i] = turned(grains.orientation[i], grains.spin[i].rate, in.step);
+        grains.orientation[i] = turned(grains.orientation[i], grains.spin[i].rate, in.drift);
     }
 }
 
@@ -123,6 +124,70 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
     const Vec3 fastest = HWY_DYNAMIC_DISPATCH(both_halves)(grains, in, begin, end);
     turn(grains, in, begin, end);
     return fastest;
+}
+
+void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i)
+        grains.place[i].position += in.drift * grains.motion[i].velocity;
+    turn(grains, in, begin, end);
+}
+
+namespace {
+
+Vec3 acceleration(const Grains& grains, const KickInput& in, std::int32_t i) {
+    return grains.motion[i].inverse_mass * grains.load[i].force + in.gravity;
+}
+Vec3 spin_acceleration(const Grains& grains, std::int32_t i) {
+    return grains.spin[i].inverse_inertia * grains.load[i].torque;
+}
+
+}  // namespace
+
+void begin_derivatives(Grains& grains, const KickInput& in) {
+    grains.derivatives.assign(grains.size(), {});
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(grains.size()); ++i) {
+        grains.derivatives[i].acceleration = acceleration(grains, in, i);
+        if (in.rubs) grains.derivatives[i].spin_acceleration = spin_acceleration(grains, i);
+    }
+}
+
+Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const double h = in.drift;
+    Vec3 fastest(0, 0, 0);
+    for (std::int32_t i = begin; i < end; ++i) {
+        Derivatives& d = grains.derivatives[i];
+        Vec3& v = grains.motion[i].velocity;
+        const Vec3 mean = v + h / 2 * d.acceleration + h * h / 6 * d.jerk;
+        grains.place[i].position += h * mean;
+        fastest = fastest.cwiseMax((mean - in.frame).cwiseAbs());
+        v += h * d.acceleration + h * h / 2 * d.jerk;
+        d.acceleration += h * d.jerk;
+        grains.load[i] = {};
+        if (!in.rubs) continue;
+        grains.spin[i].rate += h * d.spin_acceleration + h * h / 2 * d.spin_jerk;
+        d.spin_acceleration += h * d.spin_jerk;
+    }
+    turn(grains, in, begin, end);
+    return fastest;
+}
+
+// Coefficients 1/6, 5/6, 1, 1/3 for a force that gives the second derivative; 5/12, 1, 1/2 for a torque that
+// gives the first.
+void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const double h = in.drift;
+    for (std::int32_t i = begin; i < end; ++i) {
+        Derivatives& d = grains.derivatives[i];
+        const Vec3 more = acceleration(grains, in, i) - d.acceleration;
+        grains.place[i].position += h * h / 12 * more;
+        grains.motion[i].velocity = (grains.motion[i].velocity + 5 * h / 12 * more) * in.keep;
+        d.acceleration += more;
+        d.jerk += more / h;
+        if (!in.rubs) continue;
+        const Vec3 faster = spin_acceleration(grains, i) - d.spin_acceleration;
+        grains.spin[i].rate = (grains.spin[i].rate + 5 * h / 12 * faster) * in.keep;
+        d.spin_acceleration += faster;
+        d.spin_jerk += faster / h;
+    }
 }
 
 }  // namespace grainreel

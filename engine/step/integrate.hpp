@@ -1,4 +1,4 @@
-// Velocity Verlet (Swope et al. 1982): half a kick and a drift before the forces, half a kick after them.
+// Kicks and drifts of the grains, and Gear's prediction and correction. Which follow on which: scheme.hpp.
 #pragma once
 
 #include <cstdint>
@@ -8,21 +8,32 @@
 namespace grainreel {
 
 struct KickInput {
-    Vec3 gravity;     // m/s2
-    double step;      // s
-    bool rubs;        // spins follow torques
-    Vec3 frame;       // m/s, velocity against which speeds are measured
-    double keep = 1;  // share of velocity and spin that drag leaves
+    Vec3 gravity;           // m/s2
+    bool rubs;              // spins follow torques
+    double keep = 1;        // share of velocity and spin that drag leaves after an ending kick
+    Vec3 frame{0, 0, 0};    // m/s, velocity against which speeds are measured
+    double end_kick = 0;    // s, by the forces of now
+    double begin_kick = 0;  // s, by the same forces once more
+    double drift = 0;       // s
 };
 
-// First half for the grains [begin, end): v and w to the middle of the step, x to its end; loads are used up
-// and set to zero. Returns the largest components (m/s) of their velocities against the frame.
+// Begins: kick and drift of the grains [begin, end); loads are used up and set to zero. Returns the largest
+// components (m/s) of their velocities against the frame.
 Vec3 kick_and_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// Second half: v and w to the end of the step. Loads stay.
+// Ends: v and w after the last kick. Loads stay.
 void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// The second half of a step and the first of the next at once, the same bits as one after the other.
+// An end and a beginning at once, the same bits as one after the other.
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// A drift alone. Loads stay.
+void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// Gear's four values (position) and three (spin): to the end of `in.drift`, as kick_and_drift; then what the
+// new forces say of it. The first prediction takes the forces of now.
+void begin_derivatives(Grains& grains, const KickInput& in);
+Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
 }  // namespace grainreel

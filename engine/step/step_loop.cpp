@@ -12,6 +12,7 @@ StepLoop::StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& g
       grains_(grains),
       team_(team),
       rules_(plan, surroundings.period),
+      scheme_(scheme_of(plan.integrator)),
       members_(team.size()) {}
 
 void StepLoop::restart() {
@@ -26,7 +27,7 @@ void StepLoop::restart() {
         rebuild(member, rest);
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
-        members_[member].contacts.compute(rules_, grains_, members_[member].walls, 0);
+        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0});
     });
     rebuilds_ = refreshes_ = 0;
     fresh_ = true;
@@ -34,44 +35,98 @@ void StepLoop::restart() {
 
 void StepLoop::run(std::int64_t from, std::int64_t count, double step, double drag) {
     if (count <= 0) return;
-    if (fresh_) listed_step_ = from;
+    KickInput kicks{around_.gravity, rules_.rubs};
+    if (fresh_) {
+        listed_step_ = static_cast<double>(from);
+        first_step_ = from;
+        if (scheme_.corrects) begin_derivatives(grains_, kicks);
+    }
     fresh_ = false;
-    KickInput kicks{around_.gravity, step, rules_.rubs, Vec3::Zero(), 1};
-    if (drag > 0) kicks.keep = std::exp(-drag * step);
-    team_.run([&](int member) { run_member(member, from, from + count, kicks); });
+    if (drag > 0) kicks.keep = std::exp(-drag * step / static_cast<double>(scheme_.stages.size()));
+    team_.run([&](int member) { run_member(member, from, from + count, step, kicks); });
+    first_step_ = kGoesOn;
 }
 
 // Steps `from` to `to`, the part of one thread. A thread writes to its own grains only; it reads the others'
 // positions and velocities between the two barriers of a step, while nobody writes them.
-void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, KickInput kicks) {
-    Member& mine = members_[member];
+void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
     for (std::int64_t n = from; n < to; ++n) {
-        kicks.frame =
-            (drift_since_listing(n + 1, kicks.step) - drift_since_listing(n, kicks.step)) / kicks.step;
-        const std::int32_t begin = share_[member], end = share_[member + 1];
-        mine.fastest = n == from ? kick_and_drift(grains_, kicks, begin, end)
-                                 : kick_and_go_on(grains_, kicks, begin, end);
-        const Pose now = around_.motion.at(n + 1);
-        mine.walls.set(around_.faces, around_.motion.at(n), now, kicks.step);
-        team_.barrier();
-        renew_contacts(member, n + 1, now, kicks);
-        mine.contacts.compute(rules_, grains_, mine.walls, kicks.step);
-        team_.barrier();
+        for (std::size_t stage = 0; stage < scheme_.stages.size(); ++stage) {
+            const Evaluation at = evaluation(n, stage, step);
+            const double last = at.time - at.since / step;
+            kicks.frame = (drift_since_listing(at.time, step) - drift_since_listing(last, step)) / at.since;
+            move(member, n == from && stage == 0, stage, step, kicks);
+            evaluate(member, at, step, kicks);
+        }
     }
-    kick(grains_, kicks, share_[member], share_[member + 1]);
+    end_run(member, step, kicks);
 }
 
-// Lists that no longer reach far enough at step n are made again.
-void StepLoop::renew_contacts(int member, std::int64_t n, const Pose& now, const KickInput& kicks) {
+StepLoop::Evaluation StepLoop::evaluation(std::int64_t n, std::size_t stage, double step) const {
+    double share = 0, all = 0, before = 0;
+    for (std::size_t s = 0; s < scheme_.stages.size(); ++s) {
+        if (s < stage) before += scheme_.stages[s].drift;
+        if (s <= stage) share += scheme_.stages[s].drift;
+        all += scheme_.stages[s].drift;
+    }
+    Evaluation at;
+    at.time = static_cast<double>(n) + share;
+    at.acts = step * scheme_.acts(stage);
+    at.now = around_.motion.at(n, share);
+    const bool goes_on = stage == 0 && n != first_step_;  // the last forces were those of another step
+    at.before = goes_on ? around_.motion.at(n - 1, all) : around_.motion.at(n, before);
+    at.since = step * (scheme_.stages[stage].drift + (goes_on ? scheme_.closing_drift : 0));
+    return at;
+}
+
+// From the last forces to where the next are wanted. What the last run left done is not done again.
+void StepLoop::move(int member, bool first, std::size_t stage, double step, KickInput& kicks) {
     Member& mine = members_[member];
-    const Vec3 drift = drift_since_listing(n, kicks.step);
-    if (!contacts_expired(mine, now, drift, kicks.step)) return;
-    set_reach(mine, now, drift, kicks.frame, kicks.step);
+    const std::int32_t begin = share_[member], end = share_[member + 1];
+    const std::size_t last = stage == 0 ? scheme_.stages.size() - 1 : stage - 1;
+    kicks.end_kick = step * scheme_.stages[last].kick;
+    kicks.begin_kick = stage == 0 ? step * scheme_.opening_kick : 0;
+    kicks.drift = step * scheme_.stages[stage].drift;
+    if (scheme_.corrects) {
+        if (!first) correct(grains_, kicks, begin, end);
+        mine.fastest = predict(grains_, kicks, begin, end);
+        return;
+    }
+    if (stage == 0 && !first) kicks.drift += step * scheme_.closing_drift;
+    mine.fastest =
+        first ? kick_and_drift(grains_, kicks, begin, end) : kick_and_go_on(grains_, kicks, begin, end);
+}
+
+void StepLoop::evaluate(int member, const Evaluation& at, double step, const KickInput& kicks) {
+    Member& mine = members_[member];
+    mine.walls.set(around_.faces, at.before, at.now, at.since);
+    team_.barrier();
+    renew_contacts(member, at, step, kicks);
+    mine.contacts.compute(rules_, grains_, mine.walls, {at.since, scheme_.ahead, at.acts});
+    team_.barrier();
+}
+
+void StepLoop::end_run(int member, double step, KickInput& kicks) {
+    const std::int32_t begin = share_[member], end = share_[member + 1];
+    kicks.drift = step;
+    if (scheme_.corrects) return correct(grains_, kicks, begin, end);
+    kicks.end_kick = step * scheme_.stages.back().kick;
+    kick(grains_, kicks, begin, end);
+    kicks.drift = step * scheme_.closing_drift;
+    if (kicks.drift > 0) drift(grains_, kicks, begin, end);
+}
+
+// Lists that no longer reach far enough are made again.
+void StepLoop::renew_contacts(int member, const Evaluation& at, double step, const KickInput& kicks) {
+    Member& mine = members_[member];
+    const Vec3 drift = drift_since_listing(at.time, step);
+    if (!contacts_expired(mine, at.now, drift, std::abs(kicks.drift))) return;
+    set_reach(mine, at.now, drift, kicks.frame, step);
     mine.farthest = farthest_of(share_[member], share_[member + 1], drift);
     team_.barrier();
-    if (lists_expired(mine, now, drift)) {
-        rebuild(member, now);
-        if (member == 0) listed_step_ = n;
+    if (lists_expired(mine, at.now, drift)) {
+        rebuild(member, at.now);
+        if (member == 0) listed_step_ = at.time;
         mine.reach.drift.setZero();
     } else {
         refresh(member, true);
@@ -82,9 +137,9 @@ void StepLoop::renew_contacts(int member, std::int64_t n, const Pose& now, const
 // How far the bed as a whole has flown since the lists were made, were it in free flight. Displacements
 // count against this: it takes nothing from the safety of the lists, whatever the bed does, because two
 // grains come closer by at most the sum of what each moves against any common frame.
-Vec3 StepLoop::drift_since_listing(std::int64_t n, double step) const {
-    const double time = static_cast<double>(n - listed_step_) * step;
-    return time * (listed_velocity_ + 0.5 * time * around_.gravity);
+Vec3 StepLoop::drift_since_listing(double time, double step) const {
+    const double passed = (time - listed_step_) * step;
+    return passed * (listed_velocity_ + 0.5 * passed * around_.gravity);
 }
 
 namespace {
@@ -102,12 +157,12 @@ double farthest_face(const std::vector<Face>& faces, const Pose& before, const P
 }  // namespace
 
 // All threads come to the same answer: they add up the same numbers.
-bool StepLoop::contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double step) const {
+bool StepLoop::contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double passed) const {
     Reach& reach = mine.reach;
     Vec3 largest(0, 0, 0);  // the diagonal is the same however the grains are shared out
     for (const Member& m : members_) largest = largest.cwiseMax(m.fastest);
     reach.fastest = largest.norm();
-    reach.moved += reach.fastest * step;
+    reach.moved += reach.fastest * passed;
     const Vec3 flown = drift - reach.drift;
     return 2 * reach.moved > reach.skin ||
            reach.moved + farthest_face(around_.faces, reach.pose, now, flown) > reach.skin;

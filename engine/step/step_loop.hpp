@@ -1,4 +1,4 @@
-// The step loop: neighbours -> contacts -> walls -> integrate, by velocity Verlet, on a team of threads.
+// The step loop: neighbours -> contacts -> walls -> integrate, on a team of threads.
 //
 // Why the bits do not depend on the number of threads: grains are in one spatial order whatever the team,
 // every thread computes all contacts of its own grains, and every grain sums its contacts in one order: as
@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <limits>
 #include <vector>
 
 #include "engine/scene/plan.hpp"
@@ -18,6 +19,7 @@
 #include "engine/step/contact_pass.hpp"
 #include "engine/step/integrate.hpp"
 #include "engine/step/neighbours.hpp"
+#include "engine/step/scheme.hpp"
 #include "engine/step/team.hpp"
 
 namespace grainreel {
@@ -88,11 +90,22 @@ class StepLoop {
         double farthest = 0;    // m, from where they were listed
     };
 
-    void run_member(int member, std::int64_t from, std::int64_t to, KickInput kicks);
-    void renew_contacts(int member, std::int64_t n, const Pose& now, const KickInput& kicks);
+    // The forces of a stage: when (in steps), where the walls are then, and what went before.
+    struct Evaluation {
+        double time;   // steps
+        double since;  // s, since the last forces
+        double acts;   // s, that these will act
+        Pose before, now;
+    };
+    Evaluation evaluation(std::int64_t n, std::size_t stage, double step) const;
+    void run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks);
+    void move(int member, bool first, std::size_t stage, double step, KickInput& kicks);
+    void evaluate(int member, const Evaluation& at, double step, const KickInput& kicks);
+    void end_run(int member, double step, KickInput& kicks);
+    void renew_contacts(int member, const Evaluation& at, double step, const KickInput& kicks);
 
-    Vec3 drift_since_listing(std::int64_t n, double step) const;
-    bool contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double step) const;
+    Vec3 drift_since_listing(double time, double step) const;
+    bool contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double passed) const;
     bool lists_expired(const Member& mine, const Pose& now, const Vec3& drift) const;
     double farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const;
     void set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame, double step) const;
@@ -110,6 +123,7 @@ class StepLoop {
     Grains& grains_;
     Team& team_;
     const ContactRules rules_;
+    const Scheme scheme_;
     Cells cells_;
     NeighbourLists lists_;
     std::vector<Member> members_;
@@ -120,8 +134,10 @@ class StepLoop {
     std::vector<Vec3> listed_at_;
     Vec3 listed_velocity_{0, 0, 0};
     Pose listed_pose_;
-    std::int64_t listed_step_ = 0;
-    bool fresh_ = true;  // restarted: the next run() says at which step the lists were made
+    double listed_step_ = 0;             // steps
+    bool fresh_ = true;                  // restarted: the next run() says at which step the lists were made
+    std::int64_t first_step_ = kGoesOn;  // of the first run after a restart: nothing moved before it
+    static constexpr std::int64_t kGoesOn = std::numeric_limits<std::int64_t>::min();
     std::int64_t rebuilds_ = 0, refreshes_ = 0;
 };
 

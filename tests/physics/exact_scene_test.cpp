@@ -35,8 +35,9 @@ TEST(ExactScene, TwoCollisionsAsOnPaper) {
 }
 
 TEST(ExactScene, GrainsKeepTheirNumbersAndSizes) {
-    const std::string text = with(with(exact_text, "diameter = \"4 mm\"", "diameter = { min = 0.003, max = 0.005 }"),
-                                  "species = \"ball\"", "diameter = 0.0031");
+    const std::string text =
+        with(with(exact_text, "diameter = \"4 mm\"", "diameter = { min = 0.003, max = 0.005 }"),
+             "species = \"ball\"", "diameter = 0.0031");
     const Frame start = [&] {
         const Scene scene = scene_of(text);
         const Plan plan = make_plan(scene);
@@ -62,9 +63,10 @@ std::string complaint(const std::string& text) {
 }
 
 TEST(ExactScene, GrainsInEachOtherOrBehindAPlaneAreMistakes) {
-    EXPECT_EQ(complaint(with(exact_text, "[0, \"1 cm\", 0]", "[0, \"3 mm\", 0]")),
-              "test.toml:15:3: the list has grains 0 and 1 overlapping by 0.50 of the smaller radius; move one "
-              "of them");
+    EXPECT_EQ(
+        complaint(with(exact_text, "[0, \"1 cm\", 0]", "[0, \"3 mm\", 0]")),
+        "test.toml:15:3: the list has grains 0 and 1 overlapping by 0.50 of the smaller radius; move one "
+        "of them");
     EXPECT_EQ(complaint(with(exact_text, "[0, \"1 cm\", 0]", "[0, \"1 cm\", \"-4 mm\"]")),
               "test.toml:19:1: the grain lies beyond the wall 1; move one of the two");
 }

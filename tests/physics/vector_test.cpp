@@ -13,6 +13,7 @@
 #include "engine/laws/mindlin-inl.hpp"
 #include "engine/laws/spring_dashpot-inl.hpp"
 #include "engine/laws/walton_braun-inl.hpp"
+#include "engine/laws/walton_braun_corrected-inl.hpp"
 #include "engine/laws/walton_braun_speed-inl.hpp"
 #include "engine/laws/walton_braun_table-inl.hpp"
 #include "engine/step/contact_list.hpp"
@@ -95,7 +96,7 @@ void compare(NormalForce normal, TangentialLaw tangential, const std::vector<Pai
                 touch.velocity[a][c] = one(random);
             }
         }
-        kernel.step({kChunk, &touch, mass[0].value, radius[0].value, kind, &parameters, step,
+        kernel.step({kChunk, &touch, mass[0].value, radius[0].value, kind, &parameters, step, 0.5,
                      kernel.history_size, nullptr},
                     history[0].value, force);
         for (int c = 0; c < kChunk; ++c) {
@@ -110,7 +111,7 @@ void compare(NormalForce normal, TangentialLaw tangential, const std::vector<Pai
             if (t.overlap > 0) {
                 const Triple<double> velocity{touch.velocity[0][c], touch.velocity[1][c],
                                               touch.velocity[2][c]};
-                f = Law::force(Law::from(kinds[kind[c]]), h, t, velocity, step);
+                f = Law::force(Law::from(kinds[kind[c]]), h, t, velocity, step, 0.5);
             } else {
                 h = {};
             }
@@ -148,6 +149,10 @@ TEST(VectorLaws, AreTheScalarLawsToTheLastBitAtEveryWidth) {
             compare<WS, IncrementalSlip>(ws, TangentialLaw::incremental_slip, kinds);
             compare<WS, LinearSpring>(ws, TangentialLaw::linear_spring, kinds);
             compare<WS, Frictionless>(ws, TangentialLaw::none, kinds);
+            using WC = WaltonBraunCorrected;
+            constexpr auto wc = NormalForce::walton_braun_corrected;
+            compare<WC, IncrementalSlip>(wc, TangentialLaw::incremental_slip, kinds);
+            compare<WC, Frictionless>(wc, TangentialLaw::none, kinds);
             using WT = WaltonBraunTable;
             constexpr auto wt = NormalForce::walton_braun_table;
             compare<WT, IncrementalSlip>(wt, TangentialLaw::incremental_slip, kinds);

@@ -1,0 +1,102 @@
+// Normal force: Walton and Braun's latching spring, with what a step leaves out at its kinks put back. Four
+// corrections, which help only together (each alone can make things worse, for the errors partly cancel):
+//
+//   onset   the first force acts for the time s = a / v the grains have touched, not for half a step
+//   peak    the largest overlap is that of the harmonic motion, sqrt(a^2 + m v^2 / K1), not of a sample
+//   exit    the last force leaves the speed of the harmonic exit, sqrt(v^2 + K2 (a - a0)^2 / m)
+//   K2      1/K2' = e^2/K1 + (1 - e^2) dt^2 / (4 m), which takes back what the step does to the loop's area
+//
+// They take the contact for the only one its grains have, and are right to second order where it is not. For
+// velocity Verlet, whose v is that of the middle of the step.
+#if defined(GRAINREEL_LAWS_WALTON_BRAUN_CORRECTED_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_WALTON_BRAUN_CORRECTED_INL
+#undef GRAINREEL_LAWS_WALTON_BRAUN_CORRECTED_INL
+#else
+#define GRAINREEL_LAWS_WALTON_BRAUN_CORRECTED_INL
+#endif
+
+#include "engine/laws/touch-inl.hpp"
+#include "engine/scene/plan.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+struct WaltonBraunCorrected {
+    static constexpr bool has_dashpot = false, uses_velocity = true, uses_mass = true, uses_radius = false;
+
+    template <class R>
+    struct Parameters {
+        R loading;          // N/m, K1
+        R give_back;        // m/N, e^2 / K1
+        R loss_share;       // (1 - e^2) / 4
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(loading), visit(give_back), visit(loss_share);
+        }
+    };
+    static Parameters<double> from(const PairPlan& plan) {
+        const double lost = 1 - plan.loading_stiffness / plan.unloading_stiffness;
+        return {plan.loading_stiffness, 1 / plan.unloading_stiffness, 0.25 * lost};
+    }
+
+    template <class R>
+    struct History {
+        R largest_overlap;  // m, a_max since the spheres met
+        R peak;             // m, that the harmonic motion will reach
+        R softness;         // m/N, 1/K2'
+
+        template <class Each>
+        HWY_INLINE void each(const Each& visit) {
+            visit(largest_overlap), visit(peak), visit(softness);
+        }
+    };
+
+    // N, >= 0: over the step about the time of this overlap.
+    template <class R>
+    static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
+        const R m = touch.effective_mass, dt = touch.step, v = touch.closing_speed, a = touch.overlap;
+        const auto fresh = h.largest_overlap == R(0);
+        const auto loads = a > h.largest_overlap;
+        h.softness = p.give_back + p.loss_share * dt * dt / m;
+        h.largest_overlap = select(loads, a, larger(h.largest_overlap, h.peak));
+
+        const R spring = now(p, h, touch);
+        const R touched = select(v > R(0), smaller(dt, a / v), dt);  // s, since the grains met
+        const R before = R(0.5) * spring * select(fresh, touched, dt);  // N s, up to now
+        const R speed = v - before / m;                                 // m/s, now
+        h.peak = select(loads, root(a * a + m * speed * speed / p.loading), h.peak);
+
+        const R whole = before + R(0.5) * spring * dt;  // N s, of the step
+        const R rest = a - residual(p, h);              // m, to the end of the force
+        const R exit = root(speed * speed + spring * spring * h.softness / m);
+        const auto leaves = rest + dt * (v - whole / m) < R(0);
+        const R impulse = select(leaves, m * (v + exit), whole);
+        const R over_the_step = select(dt > R(0), larger(R(0), impulse) / dt, spring);
+        return select(spring > R(0), over_the_step, R(0));
+    }
+    template <class R>
+    static HWY_INLINE R now(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch) {
+        const R down = (touch.overlap - residual(p, h)) / larger(h.softness, p.give_back);
+        return larger(R(0), smaller(p.loading * touch.overlap, down));
+    }
+
+    // J, what unloading from here gives back: N^2 / (2 K2).
+    template <class R>
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&,
+                                      R normal_force) {
+        return R(0.5) * normal_force * normal_force * larger(h.softness, p.give_back);
+    }
+
+  private:
+    // m: a0 = a_max (1 - K1 / K2').
+    template <class R>
+    static HWY_INLINE R residual(const Parameters<R>& p, const History<R>& h) {
+        return h.largest_overlap * (R(1) - p.loading * larger(h.softness, p.give_back));
+    }
+};
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,57 @@
+// How a step is put together from kicks (velocities by forces) and drifts (positions by velocities).
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// One force evaluation: a drift before it and a kick after it, in steps.
+struct Stage {
+    double drift, kick;
+};
+
+struct Scheme {
+    double opening_kick;  // by the forces at the start of the step
+    std::vector<Stage> stages;
+    double closing_drift;
+    double ahead;         // from the velocity between two forces to that at the second, in steps
+    bool corrects = false;  // Gear: positions and velocities are predicted, then corrected
+
+    // Of the forces of a stage: how long they act, for the work that walls do.
+    double acts(std::size_t stage) const {
+        return stages[stage].kick + (stage + 1 == stages.size() ? opening_kick : 0);
+    }
+};
+
+// velocity_verlet: Swope et al. 1982, J. Chem. Phys. 76, 637; everything at the same time after each step.
+// leapfrog: as the original program has it, velocities half a step behind the positions.
+// position_verlet: Tuckerman et al. 1992, J. Chem. Phys. 97, 1990; forces at the middle of the step.
+// forest_ruth: of fourth order for smooth forces, the optimised form of Omelyan, Mryglod & Folk 2002, Comput.
+//   Phys. Commun. 146, 188 (PEFRL, position form); four forces a step, some drifts backwards.
+// gear: four-value predictor-corrector (Gear 1971; Allen & Tildesley, Computer Simulation of Liquids, app. E).
+inline Scheme scheme_of(Integrator integrator) {
+    constexpr double xi = 0.1786178958448091, lambda = -0.2123418310626054, chi = -0.06626458266981849;
+    switch (integrator) {
+        case Integrator::velocity_verlet:
+            break;
+        case Integrator::leapfrog:
+            return {1, {{1, 0}}, 0, 0};
+        case Integrator::position_verlet:
+            return {0, {{0.5, 1}}, 0.5, 0.5};
+        case Integrator::forest_ruth:
+            return {0,
+                    {{xi, 0.5 * (1 - 2 * lambda)},
+                     {chi, lambda},
+                     {1 - 2 * (chi + xi), lambda},
+                     {chi, 0.5 * (1 - 2 * lambda)}},
+                    xi,
+                    0};
+        case Integrator::gear:
+            return {0, {{1, 1}}, 0, 0, true};
+    }
+    return {0.5, {{1, 0.5}}, 0, 0.5};
+}
+
+}  // namespace grainreel
