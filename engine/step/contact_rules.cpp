@@ -5,15 +5,26 @@
 namespace grainreel {
 namespace {
 
-// Kinds that do not differ are one: no lookup.
-LawParameters one_if_equal(LawParameters p) {
-    std::vector<double> first;
+bool all_kinds_equal(const LawParameters& p) {
     for (std::size_t row = 0; row < p.values.size(); row += p.kinds) {
         const auto begin = p.values.begin() + row;
-        if (std::any_of(begin, begin + p.kinds, [&](double v) { return v != *begin; })) return p;
-        first.push_back(*begin);
+        if (std::any_of(begin, begin + p.kinds, [&](double v) { return v != *begin; })) return false;
     }
-    return {first, 1};
+    return true;
+}
+
+LawParameters of_first_kind(const LawParameters& p) {
+    LawParameters first{{}, 1};
+    for (std::size_t row = 0; row < p.values.size(); row += p.kinds) first.values.push_back(p.values[row]);
+    return first;
+}
+
+// Kinds that do not differ are one: no lookup.
+void merge_equal_kinds(ContactGroup& group) {
+    if (!all_kinds_equal(group.parameters) || !all_kinds_equal(group.rolling_parameters)) return;
+    group.parameters = of_first_kind(group.parameters);
+    group.rolling_parameters = of_first_kind(group.rolling_parameters);
+    std::fill(group.row.begin(), group.row.end(), 0);
 }
 
 // Adds the groups of all pairs, or of all walls, and says which kind is in which.
@@ -42,9 +53,9 @@ std::vector<std::int32_t> add_groups(const std::vector<PairPlan>& kinds, bool of
     }
     for (std::size_t g = begin; g < groups.size(); ++g) {
         ContactGroup& group = groups[g];
-        group.parameters = one_if_equal(group.law->parameters(members[g - begin]));
-        if (group.rolling)
-            group.rolling_parameters = one_if_equal(group.rolling->parameters(members[g - begin]));
+        group.parameters = group.law->parameters(members[g - begin]);
+        if (group.rolling) group.rolling_parameters = group.rolling->parameters(members[g - begin]);
+        merge_equal_kinds(group);
     }
     return group_of;
 }

@@ -6,6 +6,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/plan.hpp"
 #include "engine/scene/reader.hpp"
+#include "render/cli/chart.hpp"
 #include "render/cli/check.hpp"
 #include "render/cli/movie.hpp"
 #include "render/cli/options.hpp"
@@ -25,8 +26,15 @@ int check(const grainreel::Options& options) {
 
 int run(const grainreel::Options& options, grainreel::Reporter& reporter) {
     try {
-        const bool movie = options.verb == grainreel::Options::Verb::movie;
-        return movie ? grainreel::make_movie(options, reporter) : check(options);
+        switch (options.verb) {
+            case grainreel::Options::Verb::movie:
+                return grainreel::make_movie(options, reporter);
+            case grainreel::Options::Verb::chart:
+                return grainreel::make_chart(options, reporter);
+            case grainreel::Options::Verb::check:
+                break;
+        }
+        return check(options);
     } catch (const grainreel::UserError& mistake) {
         reporter.error(mistake.what());
         return user_mistake;

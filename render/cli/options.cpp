@@ -8,6 +8,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
 #include "render/cli/version.hpp"
@@ -111,6 +112,24 @@ void add_check(CLI::App& app, Options& options) {
     check.callback([&options] { options.verb = Options::Verb::check; });
 }
 
+void add_chart(CLI::App& app, Options& options) {
+    CLI::App& chart = *app.add_subcommand("chart", "Measure the methods themselves: error against cost");
+    chart.add_option("CHART", options.chart, "accuracy")
+        ->required()
+        ->check(CLI::IsMember({"accuracy"}))
+        ->type_name("WHICH");
+    chart
+        .add_option_function<std::string>(
+            "--out", [&options](const std::string& folder) { options.out = folder; },
+            "Folder of the tables and pictures; a chart that was stopped there goes on [output/accuracy]")
+        ->type_name("DIR");
+    chart.add_flag("--quick", options.quick, "Coarser, in a few minutes");
+    add_reporting(chart, options);
+    chart.footer("Tables (CSV) and the pictures that gnuplot makes of them (SVG, PNG). Ctrl-C stops; the same\n"
+                 "command goes on.");
+    chart.callback([&options] { options.verb = Options::Verb::chart; });
+}
+
 }  // namespace
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {
@@ -128,6 +147,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
         "More about a verb:  grainreel movie --help");
     add_movie(app, options);
     add_check(app, options);
+    add_chart(app, options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

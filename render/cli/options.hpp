@@ -11,7 +11,7 @@
 namespace grainreel {
 
 struct Options {
-    enum class Verb { movie, check };
+    enum class Verb { movie, check, chart };
     Verb verb = Verb::movie;
     std::filesystem::path scene;
     // What --set, then --size, --fps, --duration, --threads and --seed say, as assignments for the scene's
@@ -23,6 +23,8 @@ struct Options {
     bool force = false;
     bool film = true;
     bool frames = false;
+    std::string chart;   // which, with `chart`
+    bool quick = false;  // of charts
     ReporterOptions report;
 
     std::string command;  // as typed, for run.json

@@ -14,6 +14,8 @@ std::string to_string(Progress::Stage stage) {
             return "growing";
         case Progress::Stage::settling:
             return "settling";
+        case Progress::Stage::charting:
+            return "charting";
         case Progress::Stage::vibrating:
             break;
     }
@@ -35,6 +37,7 @@ std::string progress_line(const Progress& p, int width) {
     } else {
         parts.push_back(fmt::format("{:<9} {:3.0f} %", to_string(p.stage), 100 * p.done));
     }
+    if (!p.what.empty()) parts.push_back(p.what);
     if (p.particle_steps_per_second > 0) {
         parts.push_back(fmt::format("{:.1f} M particle-steps/s", p.particle_steps_per_second * 1e-6));
     }
@@ -56,6 +59,7 @@ std::string progress_json(const Progress& p) {
         object["time_s"] = p.time;
         object["end_s"] = p.end;
     }
+    if (!p.what.empty()) object["what"] = p.what;
     if (p.particle_steps_per_second > 0) object["particle_steps_per_second"] = p.particle_steps_per_second;
     if (p.frames_planned > 0) {
         object["frames"] = p.frames;

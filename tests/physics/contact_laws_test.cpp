@@ -228,6 +228,19 @@ TEST(KindsOfContact, EachHasItsLawAndItsNumbers) {
     EXPECT_NEAR(w.velocity(8).z() / v, 0.4, 2e-3);
 }
 
+// Species whose contacts do not differ share one row of parameters; observers must read that one too.
+TEST(KindsOfContact, EqualOnesAreOneForObserversToo) {
+    PairPlan pair = walton_braun_pair(1, 0);
+    World w = make_world(pair, 1e-9, NormalForce::spring_dashpot, TangentialLaw::none);
+    w.plan.grain.assign(4, w.plan.grain[0]);
+    w.plan.wall.assign(2, w.plan.wall[0]);
+    const double overlap = 1e-5;
+    w.grains.add(0, 1, Vec3(0, 0, 0), kRadius, kDensity);
+    w.grains.add(1, 1, Vec3(2 * kRadius - overlap, 0, 0), kRadius, kDensity);
+    w.start();
+    EXPECT_NEAR(w.energy(), 0.5 * kStiffness * overlap * overlap, 1e-9 * kStiffness * overlap * overlap);
+}
+
 // Rolling without slip against M = mu_r R N: m a = -F and I a / r = F r - M give a = -(5/7) mu_r g.
 TEST(Rolling, SlowsABallDown) {
     const double rolling = 0.02, gravity = 9.81, u = 0.2;

@@ -1,0 +1,199 @@
+#include "engine/chart/single_contact.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "engine/measure/energy.hpp"
+#include "engine/scene/damping.hpp"
+#include "engine/step/scheme.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double radius = 0.002, density = 2500, stiffness = 1e5;  // m, kg/m3, N/m
+constexpr double speed = 0.3;                                      // m/s, of impacts
+constexpr double friction = 0.3;
+
+double mass() {
+    return density * 4 / 3 * pi * radius * radius * radius;
+}
+
+// One species whose contacts follow the method; `effective_mass` of those that matter.
+PairPlan pair_of(const Method& method, double restitution, double effective_mass) {
+    PairPlan pair;
+    pair.model = {method.normal, method.tangential, false};
+    pair.restitution = restitution;
+    pair.loading_stiffness = stiffness;
+    pair.unloading_stiffness = stiffness / (restitution * restitution);
+    pair.tangential_ratio = method.normal == NormalForce::hertz ? 2 * 0.7 / 1.7 : 0.8;
+    pair.tangential_stiffness = pair.tangential_ratio * stiffness;
+    pair.gamma = 1.0 / 3;
+    pair.friction = method.tangential == TangentialLaw::none ? 0 : friction;
+    const double natural = std::sqrt(stiffness / effective_mass);
+    if (method.normal == NormalForce::spring_dashpot)
+        pair.normal_damping = 2 * natural * linear_damping(restitution, false);
+    pair.tangential_damping = pair.normal_damping / 2;
+    pair.modulus = 2e8;
+    if (method.normal == NormalForce::hertz) pair.hertz_damping = hertz_damping(restitution, false);
+    return pair;
+}
+
+// s: how long a free impact lasts.
+double contact_time(const Method& method, double restitution, double effective_mass, double effective_radius) {
+    const double natural = std::sqrt(stiffness / effective_mass);
+    if (method.normal == NormalForce::spring_dashpot) {
+        const double beta = linear_damping(restitution, true);
+        return pi / (natural * std::sqrt(1 - beta * beta));
+    }
+    if (method.normal == NormalForce::hertz) {
+        const double k = 4.0 / 3 * 2e8 * std::sqrt(effective_radius);
+        return 2.9432 * std::pow(1.25 * effective_mass / k, 0.4) * std::pow(speed, -0.2);
+    }
+    return pi / 2 * (1 + restitution) / natural;
+}
+
+// A few grains, faces and a loop over them, on one thread.
+struct Bench {
+    Plan plan;
+    Surroundings around;
+    Grains grains;
+    Team team{1};
+    std::unique_ptr<StepLoop> loop;
+    std::int64_t step = 0;
+
+    Bench(const Method& method, const PairPlan& pair, double step_length) {
+        plan.integrator = method.integrator;
+        plan.grain = plan.wall = {pair};
+        plan.clock.step = step_length;
+        around.skin = 0.2 * radius;
+    }
+    void add_floor() {
+        Face floor;
+        floor.name = "floor";
+        around.faces = {floor};
+    }
+    void add(const Vec3& position, const Vec3& velocity) {
+        grains.add(static_cast<std::int32_t>(grains.size()), 0, position, radius, density);
+        grains.motion.back().velocity = velocity;
+    }
+    void start() {
+        loop = std::make_unique<StepLoop>(plan, around, grains, team);
+        loop->restart();
+    }
+    void run(std::int64_t count) {
+        loop->run(step, count, plan.clock.step, 0);
+        step += count;
+    }
+};
+
+}  // namespace
+
+int Method::forces_a_step() const {
+    return static_cast<int>(scheme_of(integrator).stages.size());
+}
+
+NormalErrors normal_errors(const Method& method, double restitution, double steps, int phases) {
+    Method smooth = method;
+    smooth.tangential = TangentialLaw::none;
+    const double effective = mass() / 2;
+    const double time = contact_time(smooth, restitution, effective, radius / 2), length = time / steps;
+    NormalErrors errors;
+    for (int phase = 0; phase < phases; ++phase) {
+        Bench bench(smooth, pair_of(smooth, restitution, effective), length);
+        const double apart = radius + 0.5 * (phase + 0.5) / phases * speed * length;
+        bench.add(Vec3(-apart, 0, 0), Vec3(speed / 2, 0, 0));
+        bench.add(Vec3(apart, 0, 0), Vec3(-speed / 2, 0, 0));
+        bench.start();
+        double pushed = 0;
+        const std::int64_t most = static_cast<std::int64_t>(std::ceil(3 * steps)) + 5;
+        for (std::int64_t n = 0; n < most; ++n) {
+            bench.run(1);
+            pushed += bench.grains.load[0].force.squaredNorm() > 0;
+        }
+        const double e = (bench.grains.motion[1].velocity - bench.grains.motion[0].velocity).x() / speed;
+        // The grains come back in spatial order, which for two on a line is that of their places.
+        errors.restitution = std::max(errors.restitution, std::abs(std::abs(e) - restitution));
+        errors.contact_time = std::max(errors.contact_time, std::abs(pushed / steps - 1));
+    }
+    return errors;
+}
+
+namespace {
+
+struct Rebound {
+    double velocity, spin;  // over the speed
+};
+
+Rebound oblique(const Method& method, double restitution, double steps, double angle) {
+    const double time = contact_time(method, restitution, mass(), radius), length = time / steps;
+    Bench bench(method, pair_of(method, restitution, mass()), length);
+    bench.add_floor();
+    const double down = speed * std::cos(angle);
+    bench.add(Vec3(0, 0, radius + 0.5 * down * length), Vec3(speed * std::sin(angle), 0, -down));
+    bench.start();
+    // A grazing impact of a Hertz contact lasts longer, by the fifth root of its slowness.
+    bench.run(static_cast<std::int64_t>(std::ceil(4 * steps)) + 5);
+    return {bench.grains.motion[0].velocity.x() / speed, radius * bench.grains.spin[0].rate.y() / speed};
+}
+
+}  // namespace
+
+ObliqueErrors oblique_errors(const Method& method, double restitution, double steps) {
+    Method reference = method;
+    reference.integrator = Integrator::velocity_verlet;
+    if (reference.normal == NormalForce::walton_braun_corrected) reference.normal = NormalForce::walton_braun;
+    ObliqueErrors errors;
+    for (int degrees = 0; degrees <= 85; degrees += 5) {
+        const double angle = degrees * pi / 180;
+        const Rebound is = oblique(method, restitution, steps, angle);
+        const Rebound should = oblique(reference, restitution, 4000, angle);
+        errors.velocity = std::max(errors.velocity, std::abs(is.velocity - should.velocity));
+        errors.spin = std::max(errors.spin, std::abs(is.spin - should.spin));
+    }
+    return errors;
+}
+
+double bounce_drift(const Method& method, double steps, int bounces) {
+    Method smooth = method;
+    smooth.tangential = TangentialLaw::none;
+    const double touch = contact_time(smooth, 1, mass(), radius), length = touch / steps;
+    const double gravity = 2 * speed / (20 * touch), height = 0.5 * speed * speed / gravity;
+    Bench bench(smooth, pair_of(smooth, 1, mass()), length);
+    bench.add_floor();
+    bench.around.gravity = {0, 0, -gravity};
+    bench.add(Vec3(0, 0, radius + height), Vec3(0, 0, 0));
+    bench.start();
+    bench.run(static_cast<std::int64_t>(bounces * 21 * steps));
+    const double start = mass() * gravity * height;
+    const double end = kinetic_energy(bench.grains).translation +
+                       mass() * gravity * (bench.grains.place[0].position.z() - radius) +
+                       summarise_contacts(*bench.loop, bench.step).stored;
+    return end / start - 1;
+}
+
+double cost_of_a_contact(const Method& method) {
+    constexpr int side = 20, steps = 60;
+    Bench bench(method, pair_of(method, 0.9, mass() / 2), 1e-9);
+    const double apart = 2 * radius * (1 - 1e-4);
+    for (int x = 0; x < side; ++x)
+        for (int y = 0; y < side; ++y)
+            for (int z = 0; z < side; ++z) bench.add(apart * Vec3(x, y, z), Vec3(1e-4 * (x % 2), 0, 0));
+    bench.start();
+    const double contacts = 3.0 * side * side * (side - 1) * steps * method.forces_a_step();
+    double best = 1e9;
+    for (int attempt = 0; attempt < 5; ++attempt) {
+        const auto begin = std::chrono::steady_clock::now();
+        bench.run(steps);
+        const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
+        best = std::min(best, taken.count() / contacts);
+    }
+    return best;
+}
+
+}  // namespace grainreel

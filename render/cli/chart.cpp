@@ -1,0 +1,69 @@
+#include "render/cli/chart.hpp"
+
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/chart/accuracy.hpp"
+#include "render/cli/stop_signal.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int signal_base = 128;
+
+// Runs gnuplot on a file of commands in its folder. False when there is none, or it failed.
+bool draw(const std::filesystem::path& folder, const char* commands) {
+    posix_spawn_file_actions_t there;
+    posix_spawn_file_actions_init(&there);
+    posix_spawn_file_actions_addchdir_np(&there, folder.c_str());
+    char name[] = "gnuplot";
+    std::string file = commands;
+    char* words[] = {name, file.data(), nullptr};
+    pid_t child = 0;
+    const bool started = posix_spawnp(&child, name, &there, nullptr, words, environ) == 0;
+    posix_spawn_file_actions_destroy(&there);
+    int status = 1;
+    return started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+int make_chart(const Options& options, Reporter& reporter) {
+    AccuracyRequest request;
+    request.folder = options.out.value_or(options.base / (options.quick ? "accuracy-quick" : "accuracy"));
+    request.quick = options.quick;
+    if (std::error_code failure; !std::filesystem::create_directories(request.folder, failure) && failure)
+        throw UserError(fmt::format("{}: cannot be made ({}); give another --out", request.folder.string(),
+                                    failure.message()));
+    const auto begin = std::chrono::steady_clock::now();
+    const bool whole = run_accuracy(request, [&](const std::string& what, double done) {
+        Progress progress;
+        progress.stage = Progress::Stage::charting;
+        progress.what = what;
+        progress.done = done;
+        progress.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        if (done > 0.02) progress.remaining = progress.elapsed * (1 - done) / done;
+        reporter.progress(progress);
+        return stop_signal() == 0;
+    });
+    reporter.clear();
+    if (!whole) {
+        reporter.info("stopped; the same command goes on");
+        return signal_base + stop_signal();
+    }
+    replace_file(request.folder / "accuracy.gp", accuracy_drawing());
+    if (!draw(request.folder, "accuracy.gp"))
+        reporter.warning("gnuplot is missing or failed, so there are tables but no pictures; install "
+                         "gnuplot-nox and run it on accuracy.gp in the folder");
+    std::cout << request.folder.string() << std::endl;
+    return 0;
+}
+
+}  // namespace grainreel
