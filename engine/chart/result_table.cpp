@@ -48,8 +48,8 @@ std::vector<std::string> with_header(const std::filesystem::path& path, const st
     std::vector<std::string> lines = lines_of(path);
     if (lines.empty()) lines.push_back(header);
     if (lines[0] != header)
-        throw UserError(
-            fmt::format("{}:1: is not a table of this chart; move it away, or give another --out", path.string()));
+        throw UserError(fmt::format("{}:1: is not a table of this chart; move it away, or give another --out",
+                                    path.string()));
     return lines;
 }
 

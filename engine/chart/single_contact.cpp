@@ -45,7 +45,8 @@ PairPlan pair_of(const Method& method, double restitution, double effective_mass
 }
 
 // s: how long a free impact lasts.
-double contact_time(const Method& method, double restitution, double effective_mass, double effective_radius) {
+double contact_time(const Method& method, double restitution, double effective_mass,
+                    double effective_radius) {
     const double natural = std::sqrt(stiffness / effective_mass);
     if (method.normal == NormalForce::spring_dashpot) {
         const double beta = linear_damping(restitution, true);

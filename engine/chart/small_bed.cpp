@@ -41,6 +41,10 @@ trajectory = false
 )";
 }
 
+double default_bed_step() {
+    return make_plan(read_scene_text(bed_scene(), "small_bed.toml")).clock.step;
+}
+
 BedResult run_bed(const BedSetting& setting, std::uint64_t seed, double duration) {
     std::vector<std::string> sets = setting.sets;
     sets.push_back(fmt::format("run.seed={}", seed));
@@ -105,8 +109,10 @@ std::vector<BedDifference> bed_differences(const std::vector<BedRow>& rows) {
     for (const BedRow& row : rows) {
         const auto same = [&](const BedDifference& d) { return d.setting == row.setting; };
         const auto found = std::find_if(differences.begin(), differences.end(), same);
-        if (found == differences.end()) differences.push_back({row.setting, 1});
-        else ++found->seeds;
+        if (found == differences.end())
+            differences.push_back({row.setting, 1});
+        else
+            ++found->seeds;
     }
     for (BedDifference& d : differences) {
         const auto compare = [&](double BedResult::*quantity, double& difference, double& error) {

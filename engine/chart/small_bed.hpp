@@ -41,6 +41,9 @@ struct BedRow {
 // In the order of the rows; `reference` is the first row's setting.
 std::vector<BedDifference> bed_differences(const std::vector<BedRow>& rows);
 
+// s, that the plan chooses for it.
+double default_bed_step();
+
 // The scene it is, for the reader of the chart.
 const char* bed_scene();
 

@@ -26,9 +26,9 @@ struct WaltonBraunCorrected {
 
     template <class R>
     struct Parameters {
-        R loading;          // N/m, K1
-        R give_back;        // m/N, e^2 / K1
-        R loss_share;       // (1 - e^2) / 4
+        R loading;     // N/m, K1
+        R give_back;   // m/N, e^2 / K1
+        R loss_share;  // (1 - e^2) / 4
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
@@ -62,7 +62,7 @@ struct WaltonBraunCorrected {
         h.largest_overlap = select(loads, a, larger(h.largest_overlap, h.peak));
 
         const R spring = now(p, h, touch);
-        const R touched = select(v > R(0), smaller(dt, a / v), dt);  // s, since the grains met
+        const R touched = select(v > R(0), smaller(dt, a / v), dt);     // s, since the grains met
         const R before = R(0.5) * spring * select(fresh, touched, dt);  // N s, up to now
         const R speed = v - before / m;                                 // m/s, now
         h.peak = select(loads, root(a * a + m * speed * speed / p.loading), h.peak);

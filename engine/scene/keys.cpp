@@ -234,9 +234,14 @@ void add_run(Keys& keys) {
                             "Of vibration; without a drive, of simulated time."));
     keys.push_back(integer("run.seed", 0, 9007199254740992.0, literal("1"), "Of every random choice."));
     keys.push_back(integer("run.threads", 0, 1024, literal("0"), "0: as many as the machine gives."));
+    keys.push_back(
+        choice("run.accuracy", {"draft", "standard", "reference"}, literal("\"standard\""),
+               "Defaults of overlap and steps a contact: 2 % and 0.7 times, 1 % and once, 0.3 % and "
+               "4 times; docs/accuracy.md has the errors."));
     keys.push_back(quantity("run.step", Dimension::time, positive, note("chosen by the plan"),
                             "With a drive shortened so that a multiple of 8 steps makes a period."));
-    keys.push_back(quantity("run.overlap", Dimension::number, {0, 0.1, true, false}, literal("0.01"),
+    keys.push_back(quantity("run.overlap", Dimension::number, {0, 0.1, true, false},
+                            note("0.01; by `accuracy`"),
                             "Wanted largest overlap over the smaller diameter; sets the stiffness."));
     keys.push_back(
         choice("run.integrator", {"velocity-verlet", "leapfrog", "position-verlet", "forest-ruth", "gear"},
@@ -245,7 +250,7 @@ void add_run(Keys& keys) {
         entry("run.contact_corrections", KeyKind::flag, literal("false"),
               "walton-braun with velocity-verlet: corrects onset, peak and exit of each contact."));
     keys.push_back(integer("run.steps_per_contact", 4, 1000000,
-                           note("12 or more by restitution; 40 for spring-dashpot"),
+                           note("12 or more by restitution; 40 with a dashpot; by `accuracy`"),
                            "Steps in one free impact."));
     keys.push_back(entry("output.trajectory", KeyKind::flag, literal("true"), "Keep trajectory.nc."));
     keys.push_back(quantity("output.trajectory_interval", Dimension::time, positive,

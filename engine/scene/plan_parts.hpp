@@ -47,8 +47,9 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const Species& a,
                         const Species* b);
 
-// Steps in a free impact: enough that plain velocity Verlet keeps the restitution within 0.005.
-int steps_per_contact(NormalForce law, double restitution);
+// Steps in a free impact: at standard accuracy enough that plain velocity Verlet keeps the restitution within
+// 0.005.
+int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy = Accuracy::standard);
 
 struct StepChoice {
     double step = 0;    // s

@@ -54,9 +54,11 @@ double bed_frequency(const Plan& plan, std::size_t species, double mass) {
 // restitution below 0.005 for e >= 0.08 (0.0020 at e = 0.9; tests/scene integrates it). The
 // spring-dashpot's force jumps when the grains meet, which leaves an error of first order: 40 steps, as is
 // usual, leave 0.0045 at e = 0.9 and 0.018 at worst.
-int steps_per_contact(NormalForce law, double restitution) {
-    if (law == NormalForce::spring_dashpot || law == NormalForce::hertz) return 40;
-    return std::max(12, static_cast<int>(std::ceil(9.5 - 8 * std::log(restitution))));
+int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy) {
+    const double more = accuracy == Accuracy::draft ? 0.7 : accuracy == Accuracy::reference ? 4 : 1;
+    const bool dashpot = law == NormalForce::spring_dashpot || law == NormalForce::hertz;
+    const double standard = dashpot ? 40 : std::max(12.0, std::ceil(9.5 - 8 * std::log(restitution)));
+    return static_cast<int>(std::ceil(more * standard));
 }
 
 StepChoice plan_step(const Scene& scene, const Plan& plan) {
@@ -73,8 +75,8 @@ StepChoice plan_step(const Scene& scene, const Plan& plan) {
         for (std::size_t b = a; b <= count; ++b) {
             const PairPlan& pair = pair_of(plan, a, b);
             const std::string name = pair_name(scene, a, b);
-            const int steps =
-                scene.run.steps_per_contact.value_or(steps_per_contact(pair.model.normal, pair.restitution));
+            const int steps = scene.run.steps_per_contact.value_or(
+                steps_per_contact(pair.model.normal, pair.restitution, scene.run.accuracy));
             demand(pair.contact_time / steps, fmt::format("{} steps in a contact {}", steps, name));
             const double unloading = std::sqrt(pair.unloading_stiffness / pair.effective_mass);
             const double sideways = std::sqrt(3.5 * tangential_stiffness(pair) / pair.effective_mass);

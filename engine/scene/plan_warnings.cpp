@@ -117,7 +117,7 @@ void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, cons
     if (!scene.run.step && !scene.run.steps_per_contact) return;
     for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall}) {
         for (const PairPlan& pair : *pairs) {
-            const int wanted = steps_per_contact(pair.model.normal, pair.restitution);
+            const int wanted = steps_per_contact(pair.model.normal, pair.restitution, scene.run.accuracy);
             const double actual = pair.contact_time / plan.clock.step;
             if (actual > wanted * (1 - 1e-9)) continue;
             warnings.add(

@@ -54,6 +54,12 @@ void read_run(Document& document, Scene& scene) {
     run.seed = static_cast<std::uint64_t>(document.integer("run.seed").value_or(1));
     run.threads = static_cast<int>(document.integer("run.threads").value_or(run.threads));
     run.step = document.quantity("run.step");
+    run.accuracy = chosen<Accuracy>(
+        document, "run.accuracy",
+        {{"draft", Accuracy::draft}, {"standard", Accuracy::standard}, {"reference", Accuracy::reference}},
+        Accuracy::standard);
+    if (run.accuracy == Accuracy::draft) run.overlap = 0.02;
+    if (run.accuracy == Accuracy::reference) run.overlap = 0.003;
     run.overlap = document.quantity("run.overlap").value_or(run.overlap);
     if (const auto steps = document.integer("run.steps_per_contact"))
         run.steps_per_contact = static_cast<int>(*steps);

@@ -152,12 +152,16 @@ struct Start {
 // How the step is made; see engine/step/scheme.hpp.
 enum class Integrator { velocity_verlet, leapfrog, position_verlet, forest_ruth, gear };
 
+// What stiffness, step and corrections are by default; docs/accuracy.md has what each costs.
+enum class Accuracy { draft, standard, reference };
+
 struct Run {
     double duration = 10;  // s, of vibration (or of simulated time without a drive)
     std::uint64_t seed = 1;
     int threads = 0;             // 0: as many as the machine gives
     std::optional<double> step;  // s; the plan chooses it when empty
-    double overlap = 0.01;       // wanted largest overlap over the smaller diameter
+    Accuracy accuracy = Accuracy::standard;
+    double overlap = 0.01;  // wanted largest overlap over the smaller diameter
     Integrator integrator = Integrator::velocity_verlet;
     bool contact_corrections = false;      // of onset, peak and exit (Walton-Braun)
     std::optional<int> steps_per_contact;  // the plan chooses by restitution when empty

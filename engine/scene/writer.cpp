@@ -213,6 +213,18 @@ void write_drive(SceneText& out, const Scene& scene) {
     out.words("moves", drive.moves == Drive::Moves::container ? "container" : "floor");
 }
 
+const char* accuracy_name(Accuracy accuracy) {
+    switch (accuracy) {
+        case Accuracy::draft:
+            return "draft";
+        case Accuracy::standard:
+            return "standard";
+        case Accuracy::reference:
+            return "reference";
+    }
+    return "";
+}
+
 const char* integrator_name(Integrator integrator) {
     switch (integrator) {
         case Integrator::velocity_verlet:
@@ -250,6 +262,7 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     out.whole("threads", run.threads);
     if (!run.step) out.comment(fmt::format("chosen for: {}", plan.step_reason));
     out.put("step", plan.clock.step);
+    out.words("accuracy", accuracy_name(run.accuracy));
     out.put("overlap", run.overlap);
     out.words("integrator", integrator_name(run.integrator));
     out.flag("contact_corrections", run.contact_corrections);

@@ -16,7 +16,7 @@ struct Scheme {
     double opening_kick;  // by the forces at the start of the step
     std::vector<Stage> stages;
     double closing_drift;
-    double ahead;         // from the velocity between two forces to that at the second, in steps
+    double ahead;           // from the velocity between two forces to that at the second, in steps
     bool corrects = false;  // Gear: positions and velocities are predicted, then corrected
 
     // Of the forces of a stage: how long they act, for the work that walls do.
@@ -30,7 +30,8 @@ struct Scheme {
 // position_verlet: Tuckerman et al. 1992, J. Chem. Phys. 97, 1990; forces at the middle of the step.
 // forest_ruth: of fourth order for smooth forces, the optimised form of Omelyan, Mryglod & Folk 2002, Comput.
 //   Phys. Commun. 146, 188 (PEFRL, position form); four forces a step, some drifts backwards.
-// gear: four-value predictor-corrector (Gear 1971; Allen & Tildesley, Computer Simulation of Liquids, app. E).
+// gear: four-value predictor-corrector (Gear 1971; Allen & Tildesley, Computer Simulation of Liquids, app.
+// E).
 inline Scheme scheme_of(Integrator integrator) {
     constexpr double xi = 0.1786178958448091, lambda = -0.2123418310626054, chi = -0.06626458266981849;
     switch (integrator) {

@@ -60,8 +60,9 @@ int make_chart(const Options& options, Reporter& reporter) {
     }
     replace_file(request.folder / "accuracy.gp", accuracy_drawing());
     if (!draw(request.folder, "accuracy.gp"))
-        reporter.warning("gnuplot is missing or failed, so there are tables but no pictures; install "
-                         "gnuplot-nox and run it on accuracy.gp in the folder");
+        reporter.warning(
+            "gnuplot is missing or failed, so there are tables but no pictures; install "
+            "gnuplot-nox and run it on accuracy.gp in the folder");
     std::cout << request.folder.string() << std::endl;
     return 0;
 }

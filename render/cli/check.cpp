@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/chart/single_contact.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/step/team.hpp"
 #include "render/cli/thread_plan.hpp"
@@ -184,15 +185,27 @@ std::string stiffness_text(const PairPlan& pair) {
                             : fmt::format("{:.3g} N/m", pair.loading_stiffness);
 }
 
+// How far the restitution of a free impact is off at worst, found by making the impact.
+std::string restitution_error(const Plan& plan, const PairPlan& pair) {
+    NormalForce law = pair.model.normal;
+    if (law == NormalForce::walton_braun_speed || law == NormalForce::walton_braun_table)
+        law = NormalForce::walton_braun;
+    const Method method{"", plan.integrator, law, TangentialLaw::none};
+    const double steps = pair.contact_time / plan.clock.step;
+    if (steps < 2) return "-";
+    return fmt::format("{:.1g}", normal_errors(method, pair.restitution, steps, 50).restitution);
+}
+
 void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
     std::size_t widest = 8;
     for (const Species& s : scene.species) widest = std::max(widest, 2 * s.name.size() + 3);
-    fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6}{:>10}{:>12}{:>11}\n", "contacts", "", widest,
-               "stiffness", "chosen for", "e", "friction", "duration", "steps");
+    fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6}{:>8}{:>10}{:>12}{:>9}\n", "contacts", "", widest,
+               "stiffness", "chosen for", "e", "error", "friction", "duration", "steps");
     const auto row = [&](const std::string& name, const PairPlan& pair) {
-        fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6.3g}{:>10.3g}{:>12}{:>11.1f}\n", "", name, widest,
-                   stiffness_text(pair), pair.stiffness_reason, pair.restitution, pair.friction,
-                   span(pair.contact_time), pair.contact_time / plan.clock.step);
+        fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6.3g}{:>8}{:>10.3g}{:>12}{:>9.1f}\n", "", name, widest,
+                   stiffness_text(pair), pair.stiffness_reason, pair.restitution,
+                   restitution_error(plan, pair), pair.friction, span(pair.contact_time),
+                   pair.contact_time / plan.clock.step);
     };
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         for (std::size_t b = a; b < scene.species.size(); ++b)

@@ -125,8 +125,9 @@ void add_chart(CLI::App& app, Options& options) {
         ->type_name("DIR");
     chart.add_flag("--quick", options.quick, "Coarser, in a few minutes");
     add_reporting(chart, options);
-    chart.footer("Tables (CSV) and the pictures that gnuplot makes of them (SVG, PNG). Ctrl-C stops; the same\n"
-                 "command goes on.");
+    chart.footer(
+        "Tables (CSV) and the pictures that gnuplot makes of them (SVG, PNG). Ctrl-C stops; the same\n"
+        "command goes on.");
     chart.callback([&options] { options.verb = Options::Verb::chart; });
 }
 

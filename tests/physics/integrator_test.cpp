@@ -66,7 +66,8 @@ TEST(Integrators, GoOnWhereTheyStopped) {
             w.grains.spin[0].rate = Vec3(30, 0, 10);
             w.start();
             for (int k = 0; k < pieces; ++k) w.run(3000 / pieces);
-            return std::vector<double>{w.position(0).x(), w.position(1).y(), w.velocity(1).z(), w.spin(0).x()};
+            return std::vector<double>{w.position(0).x(), w.position(1).y(), w.velocity(1).z(),
+                                       w.spin(0).x()};
         };
         const std::vector<double> whole = end(1), cut = end(60);
         for (std::size_t k = 0; k < whole.size(); ++k)
@@ -74,8 +75,8 @@ TEST(Integrators, GoOnWhereTheyStopped) {
     }
 }
 
-// All come to the same collision as the step shrinks, but for the one that drifts backwards at times: friction
-// with a memory takes that for a turn of the slip, however short the step. The plan warns of it.
+// All come to the same collision as the step shrinks, but for the one that drifts backwards at times:
+// friction with a memory takes that for a turn of the slip, however short the step. The plan warns of it.
 TEST(Integrators, AgreeOnAnObliqueImpact) {
     std::vector<Vec3> velocities;
     for (const Integrator integrator : kAll) {

@@ -1,0 +1,82 @@
+// What the charts are made with.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "engine/base/error.hpp"
+#include "engine/chart/result_table.hpp"
+#include "engine/chart/single_contact.hpp"
+#include "engine/chart/small_bed.hpp"
+
+namespace grainreel {
+namespace {
+
+class ResultTableTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        path = std::filesystem::temp_directory_path() /
+               ("grainreel-table-" + std::to_string(::getpid()) + ".csv");
+        std::filesystem::remove(path);
+    }
+    void TearDown() override { std::filesystem::remove(path); }
+    std::string text() const {
+        std::ifstream in(path);
+        std::ostringstream whole;
+        whole << in.rdbuf();
+        return whole.str();
+    }
+    std::filesystem::path path;
+};
+
+TEST_F(ResultTableTest, GoesOnWhereItStopped) {
+    {
+        ResultTable table(path, "name,seed,value", 2);
+        EXPECT_FALSE(table.has({"a", "1"}));
+        table.add({"a", "1", "3.5"});
+    }
+    std::ofstream(path, std::ios::app) << "a,2,7";  // cut short by a kill: no end of line
+    ResultTable table(path, "name,seed,value", 2);
+    EXPECT_TRUE(table.has({"a", "1"}));
+    EXPECT_FALSE(table.has({"a", "2"}));
+    table.add({"a", "2", "4"});
+    EXPECT_EQ(text(), "name,seed,value\na,1,3.5\na,2,4\n");
+    ASSERT_EQ(table.rows().size(), 2u);
+    EXPECT_EQ(table.rows()[0][2], "3.5");
+}
+
+TEST_F(ResultTableTest, LeavesAnotherTableAlone) {
+    std::ofstream(path) << "something else\n1\n";
+    EXPECT_THROW(ResultTable(path, "name,seed,value", 2), UserError);
+    EXPECT_EQ(text(), "something else\n1\n");
+}
+
+// The table of physics.md section 6 (derived): plain Verlet at 12 steps a contact.
+TEST(Charts, NormalErrorsAreThoseOfSectionSix) {
+    const Method verlet{"verlet", Integrator::velocity_verlet, NormalForce::walton_braun,
+                        TangentialLaw::incremental_slip};
+    EXPECT_NEAR(normal_errors(verlet, 0.9, 12, 200).restitution, 0.0018, 0.00015);
+    EXPECT_NEAR(normal_errors(verlet, 0.3, 12, 200).restitution, 0.0082, 0.0007);
+    EXPECT_LT(oblique_errors(verlet, 0.9, 400).velocity, oblique_errors(verlet, 0.9, 20).velocity / 10);
+    EXPECT_LT(std::abs(bounce_drift(verlet, 40, 100)), 1e-3);
+    EXPECT_EQ((Method{"", Integrator::forest_ruth}).forces_a_step(), 4);
+}
+
+TEST(Charts, DifferencesAreOverTheSeedsScatter) {
+    const auto row = [](const char* setting, double height, double cost) {
+        return BedRow{setting, {height, 1, 1, 1, cost}};
+    };
+    const auto d =
+        bed_differences({row("reference", 1.0, 8), row("other", 1.3, 2), row("reference", 1.2, 8), row("other", 1.5, 2)});
+    ASSERT_EQ(d.size(), 2u);
+    EXPECT_EQ(d[1].setting, "other");
+    EXPECT_EQ(d[1].seeds, 2);
+    EXPECT_NEAR(d[1].height, 100 * (1.4 / 1.1 - 1), 1e-9);
+    // Standard error of each mean: 0.2 / sqrt 2 / sqrt 2 = 0.1.
+    EXPECT_NEAR(d[1].height_error, 100 * std::hypot(0.1, 0.1) / 1.1, 1e-6);
+    EXPECT_NEAR(d[1].cost, 0.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace grainreel
