@@ -33,8 +33,9 @@ struct ObliqueErrors {
 };
 ObliqueErrors oblique_errors(const Method& method, double restitution, double steps);
 
-// A ball that bounces `bounces` times on an elastic floor, under a gravity that makes each flight last twenty
-// contacts: its energy at the end over that at the start, less one.
+// A ball that bounces `bounces` times on an elastic floor, under a gravity that makes each flight last about
+// twenty contacts: the largest change of its energy, over the energy, from eight heights. (What one bounce
+// gains or loses depends on the phase of the touch, so one height alone says little.)
 double bounce_drift(const Method& method, double steps, int bounces);
 
 // ns of one thread that a touching contact costs a force evaluation: 8,000 spheres in a cubic lattice, each

@@ -246,9 +246,10 @@ void add_run(Keys& keys) {
     keys.push_back(
         choice("run.integrator", {"velocity-verlet", "leapfrog", "position-verlet", "forest-ruth", "gear"},
                literal("\"velocity-verlet\""), "How a step is made; the others are for comparison."));
-    keys.push_back(
-        entry("run.contact_corrections", KeyKind::flag, literal("false"),
-              "walton-braun with velocity-verlet: corrects onset, peak and exit of each contact."));
+    keys.push_back(entry("run.contact_corrections", KeyKind::flag,
+                         note("true where possible; false with draft"),
+                         "walton-braun of constant restitution, with velocity-verlet: corrects onset, peak "
+                         "and exit of each contact."));
     keys.push_back(integer("run.steps_per_contact", 4, 1000000,
                            note("12 or more by restitution; 40 with a dashpot; by `accuracy`"),
                            "Steps in one free impact."));

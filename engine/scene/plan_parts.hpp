@@ -47,8 +47,8 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const Species& a,
                         const Species* b);
 
-// Steps in a free impact: at standard accuracy enough that plain velocity Verlet keeps the restitution within
-// 0.005.
+// Steps in a free impact: at standard accuracy enough that velocity Verlet keeps the restitution within
+// 0.005, plain when the number is whole, with the contact corrections whatever it is.
 int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy = Accuracy::standard);
 
 struct StepChoice {

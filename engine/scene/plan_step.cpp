@@ -51,7 +51,8 @@ double bed_frequency(const Plan& plan, std::size_t species, double mass) {
 }  // namespace
 
 // Walton-Braun: measured over e and 200 onset phases, n = 9.5 - 8 ln e, at least 12, keeps the error of the
-// restitution below 0.005 for e >= 0.08 (0.0020 at e = 0.9; tests/scene integrates it). The
+// restitution below 0.005 for e >= 0.08 (0.0020 at e = 0.9; tests/scene integrates it). Without corrections
+// that holds for whole n only: onset and exit errors then cancel, at n = 12.5 they leave 0.008. The
 // spring-dashpot's force jumps when the grains meet, which leaves an error of first order: 40 steps, as is
 // usual, leave 0.0045 at e = 0.9 and 0.018 at worst.
 int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy) {

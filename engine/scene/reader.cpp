@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -34,18 +35,15 @@ void read_gravity(Document& document, Scene& scene) {
     }
 }
 
-// Corrections need a spring of constant slopes.
-void check_correctable(const Document& document, const Contact& contact) {
-    const auto check = [&](const PairContact& pair) {
-        if (pair.normal == NormalLaw::walton_braun && !pair.restitution_speed &&
-            pair.restitution_table.empty())
-            return;
-        document.fail("run.contact_corrections",
-                      "is made for the law walton-braun with a restitution that is "
-                      "the same at any speed; remove it");
+// Corrections need a spring of constant slopes, and the velocities of velocity Verlet.
+bool correctable(const Contact& contact, Integrator integrator) {
+    const auto constant = [](const PairContact& pair) {
+        return pair.normal == NormalLaw::walton_braun && !pair.restitution_speed &&
+               pair.restitution_table.empty();
     };
-    for (const PairContact& pair : contact.grain) check(pair);
-    for (const PairContact& pair : contact.wall) check(pair);
+    return integrator == Integrator::velocity_verlet &&
+           (std::any_of(contact.grain.begin(), contact.grain.end(), constant) ||
+            std::any_of(contact.wall.begin(), contact.wall.end(), constant));
 }
 
 void read_run(Document& document, Scene& scene) {
@@ -70,10 +68,14 @@ void read_run(Document& document, Scene& scene) {
                                          {"forest-ruth", Integrator::forest_ruth},
                                          {"gear", Integrator::gear}},
                                         Integrator::velocity_verlet);
-    run.contact_corrections = document.flag("run.contact_corrections").value_or(run.contact_corrections);
-    if (run.contact_corrections && run.integrator != Integrator::velocity_verlet)
-        document.fail("run.contact_corrections", "is made for velocity-verlet; remove it or the integrator");
-    if (run.contact_corrections) check_correctable(document, scene.contact);
+    const auto corrections = document.flag("run.contact_corrections");
+    const bool possible = correctable(scene.contact, run.integrator);
+    if (corrections.value_or(false) && !possible)
+        document.fail(
+            "run.contact_corrections",
+            "is made for velocity-verlet and the law walton-braun with a restitution that is the same at "
+            "any speed; remove it");
+    run.contact_corrections = corrections.value_or(possible && run.accuracy != Accuracy::draft);
     if (run.step) document.refuse("run.steps_per_contact", "'step' is given");
 }
 

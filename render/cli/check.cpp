@@ -161,7 +161,10 @@ void print_model(const Scene& scene, const Plan& plan, Listing& list) {
         return any([&](const ContactModel& m) { return m.tangential == law; });
     };
     const bool by_speed = normal(NormalForce::walton_braun_speed) || normal(NormalForce::walton_braun_table);
-    note(normal(NormalForce::walton_braun) || by_speed, "normal force: Walton-Braun latching spring");
+    const bool corrected = normal(NormalForce::walton_braun_corrected);
+    note(normal(NormalForce::walton_braun) || corrected || by_speed,
+         "normal force: Walton-Braun latching spring");
+    note(corrected, "corrections of onset, peak and exit");
     note(by_speed, "restitution that depends on speed");
     note(normal(NormalForce::spring_dashpot), "normal force: linear spring and dashpot");
     note(normal(NormalForce::hertz), "normal force: Hertz with dashpot");
@@ -175,7 +178,7 @@ void print_model(const Scene& scene, const Plan& plan, Listing& list) {
     (scene.gravity.norm() > 0 ? in : out).push_back("gravity");
     (plan.moving_walls ? in : out).push_back("moving walls");
     for (const char* absent : {"air", "cohesion", "wear and breakage"}) out.push_back(absent);
-    if (normal(NormalForce::walton_braun)) out.push_back("restitution that depends on speed");
+    if (normal(NormalForce::walton_braun) || corrected) out.push_back("restitution that depends on speed");
     list.line("modelled", fmt::format("{}", fmt::join(in, ", ")));
     list.line("left out", fmt::format("{}", fmt::join(out, ", ")));
 }

@@ -59,16 +59,33 @@ TEST(Charts, NormalErrorsAreThoseOfSectionSix) {
     EXPECT_NEAR(normal_errors(verlet, 0.9, 12, 200).restitution, 0.0018, 0.00015);
     EXPECT_NEAR(normal_errors(verlet, 0.3, 12, 200).restitution, 0.0082, 0.0007);
     EXPECT_LT(oblique_errors(verlet, 0.9, 400).velocity, oblique_errors(verlet, 0.9, 20).velocity / 10);
-    EXPECT_LT(std::abs(bounce_drift(verlet, 40, 100)), 1e-3);
+    EXPECT_LT(bounce_drift(verlet, 400, 100), 0.01);
+    EXPECT_GT(bounce_drift(verlet, 6, 100), bounce_drift(verlet, 400, 100));
     EXPECT_EQ((Method{"", Integrator::forest_ruth}).forces_a_step(), 4);
+}
+
+// The standard setting: with corrections the restitution is kept for any number of steps, whole or not; plain
+// Verlet keeps it for whole numbers only.
+TEST(Charts, CorrectionsKeepTheRestitutionAtFractionsOfAStepToo) {
+    const Method corrected{"corrected", Integrator::velocity_verlet, NormalForce::walton_braun_corrected,
+                           TangentialLaw::none};
+    for (const double e : {0.1, 0.3, 0.5, 0.7, 0.9, 0.98}) {
+        const double steps = std::max(12.0, 9.5 - 8 * std::log(e));
+        for (const double more : {0.0, 0.25, 0.5, 0.75}) {
+            const double error = normal_errors(corrected, e, steps + more, 50).restitution;
+            EXPECT_LT(error, e >= 0.7 ? 0.002 : 0.005) << "e = " << e << ", " << steps + more << " steps";
+        }
+    }
+    const Method plain{"plain", Integrator::velocity_verlet, NormalForce::walton_braun, TangentialLaw::none};
+    EXPECT_GT(normal_errors(plain, 0.9, 12.5, 50).restitution, 0.005);
 }
 
 TEST(Charts, DifferencesAreOverTheSeedsScatter) {
     const auto row = [](const char* setting, double height, double cost) {
         return BedRow{setting, {height, 1, 1, 1, cost}};
     };
-    const auto d =
-        bed_differences({row("reference", 1.0, 8), row("other", 1.3, 2), row("reference", 1.2, 8), row("other", 1.5, 2)});
+    const auto d = bed_differences(
+        {row("reference", 1.0, 8), row("other", 1.3, 2), row("reference", 1.2, 8), row("other", 1.5, 2)});
     ASSERT_EQ(d.size(), 2u);
     EXPECT_EQ(d[1].setting, "other");
     EXPECT_EQ(d[1].seeds, 2);

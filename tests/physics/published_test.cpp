@@ -40,8 +40,8 @@ TEST(Published, AluminaOnGlassSlidesAsKharazFound) {
 }
 
 // Foerster, Louge, Chang & Allia (1994, Phys. Fluids 6, 1108), binary impacts: glass e = 0.97, mu = 0.092,
-// beta0 = 0.44; cellulose acetate 0.87, 0.25, 0.43. Their plot: with Psi the slip over the normal speed before,
-// Psi2 = Psi1 - 3.5 (1 + e) mu where it slides, -beta0 Psi1 where it sticks.
+// beta0 = 0.44; cellulose acetate 0.87, 0.25, 0.43. Their plot: with Psi the slip over the normal speed
+// before, Psi2 = Psi1 - 3.5 (1 + e) mu where it slides, -beta0 Psi1 where it sticks.
 TEST(Published, GlassAndAcetateReboundAsFoersterFound) {
     struct Material {
         double e, mu, beta0, uncertainty;

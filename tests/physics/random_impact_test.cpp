@@ -11,9 +11,9 @@ namespace {
 using std::numbers::pi;
 
 struct Outcome {
-    double gained;     // of kinetic energy, over what the contact point brought in
-    double linear;     // change of momentum, over what there was
-    double angular;    // of angular momentum, likewise
+    double gained;   // of kinetic energy, over what the contact point brought in
+    double linear;   // change of momentum, over what there was
+    double angular;  // of angular momentum, likewise
     bool met;
 };
 
@@ -102,7 +102,8 @@ TEST(RandomImpacts, MakeNoEnergyWithALinearSpring) {
 }
 
 TEST(RandomImpacts, MakeNoEnergyWithCorrections) {
-    expect_none_makes_energy(NormalForce::walton_braun_corrected, TangentialLaw::incremental_slip, 2000, 0.01);
+    expect_none_makes_energy(NormalForce::walton_braun_corrected, TangentialLaw::incremental_slip, 2000,
+                             0.01);
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ TEST(PlanContact, HardeningFollowsFromTheRestitutionAtOneSpeed) {
     EXPECT_DOUBLE_EQ(pair.restitution, std::sqrt(natural / (natural + pair.hardening * plan.impact_speed)));
     EXPECT_LT(pair.restitution, 0.8) << "v* is above 0.2 m/s";
     EXPECT_DOUBLE_EQ(pair.unloading_stiffness, 1e4 / (pair.restitution * pair.restitution));
-    EXPECT_EQ(make_plan(read_text(wedge_text)).grain[0].model.normal, NormalForce::walton_braun);
+    EXPECT_EQ(make_plan(read_text(wedge_text)).grain[0].model.normal, NormalForce::walton_braun_corrected);
 }
 
 // ---- the spring-dashpot ----
