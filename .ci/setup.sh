@@ -27,6 +27,7 @@ libgl-dev            GL/glcorearb.h
 libavformat-dev      libavformat
 libavcodec-dev       libavcodec, with libx264
 libswscale-dev       libswscale
+gnuplot-nox          gnuplot, for grainreel chart
 "
 test_packages="
 libgtest-dev         gtest
