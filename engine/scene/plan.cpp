@@ -91,7 +91,9 @@ Plan make_plan(const Scene& scene) {
     Plan plan;
     plan.arms = scene.contact.arms;
     plan.integrator = scene.run.integrator;
-    plan.moving_walls = scene.drive.present && scene.drive.amplitude > 0;
+    plan.moving_walls = (scene.drive.present && scene.drive.amplitude > 0) ||
+                        std::any_of(scene.walls.begin(), scene.walls.end(),
+                                    [](const FreeWall& wall) { return !wall.velocity.isZero(0); });
 
     const BedPlan bed = plan_bed(scene);
     plan.bed_height = bed.height;
