@@ -203,6 +203,7 @@ do for [form in "svg png"] {
     set output 'bed.'.form
     unset logscale
     set format y '%g'
+    set offsets 0.5, 0.5, 0, 0
     set multiplot layout 2,2 title 'A vibrated bed of 1,000 grains against its reference (an eighth of the default step)'
     unset key
     set xtics rotate by -45 font ',8'
@@ -212,6 +213,7 @@ do for [form in "svg png"] {
         plot 'differences.csv' every ::1 using 0:(column(2*k+1)):(column(2*k+2)):xtic(1) with yerrorbars pt 7 lw 2, 0 lc 'gray' notitle
     }
     unset multiplot
+    unset offsets
     set xtics norotate
     set xtics font ',14'
     set key outside right top

@@ -1,0 +1,49 @@
+# Draws contacts.csv and bed.csv: gnuplot accuracy.gp
+set datafile separator ','
+set style data linespoints
+set grid
+set key outside right top
+set logscale xy
+set format y "10^{%L}"
+methods = "'velocity Verlet' 'with corrections' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
+pick(method, error, e) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" && $3==%s {print $4\",\"$5\",\"$6}' contacts.csv", method, error, e)
+draw_restitution(e) = sprintf("plot for [m in methods] pick(m, 'restitution', '%s') using 2:3 title m lw 2, 0.005 lc 'gray' dt 2 title 'standard: 0.005'", e)
+
+do for [form in "svg png"] {
+    if (form eq "svg") { set terminal svg size 900,640 font 'DejaVu Sans,14' background 'white' } else { set terminal pngcairo size 1350,960 font 'DejaVu Sans,18' }
+    set output 'restitution.'.form
+    set multiplot layout 2,1
+    set xlabel 'cost of a contact, ns of one thread'
+    set ylabel 'largest error of e'
+    do for [e in "0.9 0.3"] { set title 'Restitution, e = '.e; eval draw_restitution(e) }
+    unset multiplot
+    set output 'oblique.'.form
+    set multiplot layout 2,1
+    set ylabel 'largest error / speed'
+    set title 'Tangential velocity after an impact at 0 to 85 degrees, e = 0.9'
+    plot for [m in methods] pick(m, 'velocity', '0.9') using 2:3 title m lw 2
+    set title 'Energy drift after 1,000 elastic bounces'
+    set ylabel '|dE| / E'
+    plot for [m in methods] pick(m, 'energy drift', '0.9') using 2:($3 > 1e-15 ? $3 : 1e-15) title m lw 2
+    unset multiplot
+    unset title
+    set output 'bed.'.form
+    unset logscale
+    set format y '%g'
+    set offsets 0.5, 0.5, 0, 0
+    set multiplot layout 2,2 title 'A vibrated bed of 1,000 grains against its reference (an eighth of the default step)'
+    unset key
+    set xtics rotate by -45 font ',8'
+    unset xlabel
+    do for [k=1:4] {
+        set ylabel word('height temperature contacts mixing', k).', %'
+        plot 'differences.csv' every ::1 using 0:(column(2*k+1)):(column(2*k+2)):xtic(1) with yerrorbars pt 7 lw 2, 0 lc 'gray' notitle
+    }
+    unset multiplot
+    unset offsets
+    set xtics norotate
+    set xtics font ',14'
+    set key outside right top
+    set logscale xy
+    set format y "10^{%L}"
+}
