@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/scene/words.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -137,12 +139,12 @@ void add_pair_keys(Keys& keys, const std::string& table, const char* inherited) 
     keys.push_back(
         of_choices(entry(table + ".law", KeyKind::choice, fallback(literal("\"walton-braun\"")),
                          "Normal force: latching spring; linear spring with a dashpot; Hertz with one."),
-                   {"walton-braun", "spring-dashpot", "hertz"}));
+                   all_of(normal_law_words)));
     keys.push_back(of_choices(
         entry(table + ".friction_law", KeyKind::choice,
               fallback(note("incremental-slip; linear-spring for spring-dashpot, mindlin for hertz")),
               "Tangential force; none leaves out friction, spin and torque."),
-        {"incremental-slip", "linear-spring", "mindlin", "none"}));
+        all_of(tangential_law_words)));
 }
 
 void add_contact(Keys& keys) {
@@ -235,7 +237,7 @@ void add_run(Keys& keys) {
     keys.push_back(integer("run.seed", 0, 9007199254740992.0, literal("1"), "Of every random choice."));
     keys.push_back(integer("run.threads", 0, 1024, literal("0"), "0: as many as the machine gives."));
     keys.push_back(
-        choice("run.accuracy", {"draft", "standard", "reference"}, literal("\"standard\""),
+        choice("run.accuracy", all_of(accuracy_words), literal("\"standard\""),
                "Defaults of overlap and steps a contact: 2 % and 0.7 times, 1 % and once, 0.3 % and "
                "4 times; docs/accuracy.md has the errors."));
     keys.push_back(quantity("run.step", Dimension::time, positive, note("chosen by the plan"),
@@ -243,9 +245,8 @@ void add_run(Keys& keys) {
     keys.push_back(quantity("run.overlap", Dimension::number, {0, 0.1, true, false},
                             note("0.01; by `accuracy`"),
                             "Wanted largest overlap over the smaller diameter; sets the stiffness."));
-    keys.push_back(
-        choice("run.integrator", {"velocity-verlet", "leapfrog", "position-verlet", "forest-ruth", "gear"},
-               literal("\"velocity-verlet\""), "How a step is made; the others are for comparison."));
+    keys.push_back(choice("run.integrator", all_of(integrator_words), literal("\"velocity-verlet\""),
+                          "How a step is made; the others are for comparison."));
     keys.push_back(entry("run.contact_corrections", KeyKind::flag,
                          note("true where possible; false with draft"),
                          "walton-braun of constant restitution, with velocity-verlet: corrects onset, peak "

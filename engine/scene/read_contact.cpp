@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/scene/reader_parts.hpp"
+#include "engine/scene/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -105,19 +106,11 @@ void read_pair(Document& document, const std::string& table, PairText& pair) {
     if (document.has(at("law"))) {
         // Another normal law comes with the friction law that suits it, unless there is to be none.
         if (pair.tangential != TangentialLaw::none) pair.tangential.reset();
-        pair.normal = chosen<NormalLaw>(document, at("law"),
-                                        {{"walton-braun", NormalLaw::walton_braun},
-                                         {"spring-dashpot", NormalLaw::spring_dashpot},
-                                         {"hertz", NormalLaw::hertz}},
-                                        NormalLaw::walton_braun);
+        pair.normal = chosen<NormalLaw>(document, at("law"), normal_law_words, NormalLaw::walton_braun);
     }
     if (document.has(at("friction_law")))
-        pair.tangential = chosen<TangentialLaw>(document, at("friction_law"),
-                                                {{"incremental-slip", TangentialLaw::incremental_slip},
-                                                 {"linear-spring", TangentialLaw::linear_spring},
-                                                 {"mindlin", TangentialLaw::mindlin},
-                                                 {"none", TangentialLaw::none}},
-                                                TangentialLaw::none);
+        pair.tangential =
+            chosen<TangentialLaw>(document, at("friction_law"), tangential_law_words, TangentialLaw::none);
     check_laws(document, pair, table);
     refuse_unused(document, pair, table);
 

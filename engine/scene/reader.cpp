@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/reader_parts.hpp"
+#include "engine/scene/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -61,13 +62,8 @@ void read_run(Document& document, Scene& scene) {
     run.overlap = document.quantity("run.overlap").value_or(run.overlap);
     if (const auto steps = document.integer("run.steps_per_contact"))
         run.steps_per_contact = static_cast<int>(*steps);
-    run.integrator = chosen<Integrator>(document, "run.integrator",
-                                        {{"velocity-verlet", Integrator::velocity_verlet},
-                                         {"leapfrog", Integrator::leapfrog},
-                                         {"position-verlet", Integrator::position_verlet},
-                                         {"forest-ruth", Integrator::forest_ruth},
-                                         {"gear", Integrator::gear}},
-                                        Integrator::velocity_verlet);
+    run.integrator =
+        chosen<Integrator>(document, "run.integrator", integrator_words, Integrator::velocity_verlet);
     const auto corrections = document.flag("run.contact_corrections");
     const bool possible = correctable(scene.contact, run.integrator);
     if (corrections.value_or(false) && !possible)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/scene/colours.hpp"
+#include "engine/scene/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -61,32 +62,6 @@ class SceneText {
     std::string text_;
 };
 
-const char* law_name(NormalLaw law) {
-    switch (law) {
-        case NormalLaw::walton_braun:
-            return "walton-braun";
-        case NormalLaw::spring_dashpot:
-            return "spring-dashpot";
-        case NormalLaw::hertz:
-            return "hertz";
-    }
-    return "";
-}
-
-const char* law_name(TangentialLaw law) {
-    switch (law) {
-        case TangentialLaw::incremental_slip:
-            return "incremental-slip";
-        case TangentialLaw::linear_spring:
-            return "linear-spring";
-        case TangentialLaw::mindlin:
-            return "mindlin";
-        case TangentialLaw::none:
-            return "none";
-    }
-    return "";
-}
-
 void write_species(SceneText& out, const Species& species, bool listed) {
     out.element("species");
     out.words("name", species.name);
@@ -114,8 +89,8 @@ void write_pair(SceneText& out, const PairContact& pair, const PairPlan& plan, c
     out.element("contact.pair");
     out.put("between", fmt::format("[{}, {}]", quoted(species.name), quoted(other)));
     const bool hertz = pair.normal == NormalLaw::hertz;
-    out.words("law", law_name(pair.normal));
-    out.words("friction_law", law_name(pair.tangential));
+    out.words("law", word_of(pair.normal, normal_law_words));
+    out.words("friction_law", word_of(pair.tangential, tangential_law_words));
     if (pair.normal != NormalLaw::walton_braun) out.flag("attraction", pair.attraction);
     if (pair.normal_damping) {
         out.put("normal_damping", pair.normal_damping);
@@ -213,34 +188,6 @@ void write_drive(SceneText& out, const Scene& scene) {
     out.words("moves", drive.moves == Drive::Moves::container ? "container" : "floor");
 }
 
-const char* accuracy_name(Accuracy accuracy) {
-    switch (accuracy) {
-        case Accuracy::draft:
-            return "draft";
-        case Accuracy::standard:
-            return "standard";
-        case Accuracy::reference:
-            return "reference";
-    }
-    return "";
-}
-
-const char* integrator_name(Integrator integrator) {
-    switch (integrator) {
-        case Integrator::velocity_verlet:
-            return "velocity-verlet";
-        case Integrator::leapfrog:
-            return "leapfrog";
-        case Integrator::position_verlet:
-            return "position-verlet";
-        case Integrator::forest_ruth:
-            return "forest-ruth";
-        case Integrator::gear:
-            return "gear";
-    }
-    return "";
-}
-
 void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     const Start& start = scene.start;
     out.table("start");
@@ -262,9 +209,9 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     out.whole("threads", run.threads);
     if (!run.step) out.comment(fmt::format("chosen for: {}", plan.step_reason));
     out.put("step", plan.clock.step);
-    out.words("accuracy", accuracy_name(run.accuracy));
+    out.words("accuracy", word_of(run.accuracy, accuracy_words));
     out.put("overlap", run.overlap);
-    out.words("integrator", integrator_name(run.integrator));
+    out.words("integrator", word_of(run.integrator, integrator_words));
     out.flag("contact_corrections", run.contact_corrections);
 
     const Output& output = scene.output;

@@ -1,0 +1,45 @@
+// The words that scenes use for choices, once for the reader, the writer and the list of keys.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+template <class T>
+using Words = std::vector<std::pair<std::string, T>>;
+
+inline const Words<NormalLaw> normal_law_words{{"walton-braun", NormalLaw::walton_braun},
+                                               {"spring-dashpot", NormalLaw::spring_dashpot},
+                                               {"hertz", NormalLaw::hertz}};
+inline const Words<TangentialLaw> tangential_law_words{{"incremental-slip", TangentialLaw::incremental_slip},
+                                                       {"linear-spring", TangentialLaw::linear_spring},
+                                                       {"mindlin", TangentialLaw::mindlin},
+                                                       {"none", TangentialLaw::none}};
+inline const Words<Integrator> integrator_words{{"velocity-verlet", Integrator::velocity_verlet},
+                                                {"leapfrog", Integrator::leapfrog},
+                                                {"position-verlet", Integrator::position_verlet},
+                                                {"forest-ruth", Integrator::forest_ruth},
+                                                {"gear", Integrator::gear}};
+inline const Words<Accuracy> accuracy_words{{"draft", Accuracy::draft},
+                                            {"standard", Accuracy::standard},
+                                            {"reference", Accuracy::reference}};
+
+template <class T>
+const std::string& word_of(T value, const Words<T>& words) {
+    std::size_t k = 0;
+    while (words[k].second != value) ++k;
+    return words[k].first;
+}
+
+template <class T>
+std::vector<std::string> all_of(const Words<T>& words) {
+    std::vector<std::string> all;
+    for (const auto& word : words) all.push_back(word.first);
+    return all;
+}
+
+}  // namespace grainreel
