@@ -54,7 +54,7 @@ double contact_time(const Method& method, double restitution, double effective_m
     }
     if (method.normal == NormalForce::hertz) {
         const double k = 4.0 / 3 * 2e8 * std::sqrt(effective_radius);
-        return 2.9432 * std::pow(1.25 * effective_mass / k, 0.4) * std::pow(speed, -0.2);
+        return hertz_contact_time(effective_mass, k, speed);
     }
     return pi / 2 * (1 + restitution) / natural;
 }

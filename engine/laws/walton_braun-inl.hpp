@@ -67,6 +67,29 @@ struct WaltonBraun {
     }
 };
 
+// What the laws share whose unloading slope depends on the largest overlap: Law::unloading says how.
+template <class Law>
+struct HardeningSpring {
+    // N, >= 0.
+    template <class P, class H, class R>
+    static HWY_INLINE R force(const P& p, H& h, const Touch<R>& touch) {
+        h.largest_overlap = larger(h.largest_overlap, touch.overlap);
+        return now(p, h, touch);
+    }
+    template <class P, class H, class R>
+    static HWY_INLINE R now(const P& p, const H& h, const Touch<R>& touch) {
+        // K2 (a - a0) with a0 = a_max (1 - K1/K2), without a division.
+        const R down =
+            Law::unloading(p, h, touch) * (touch.overlap - h.largest_overlap) + p.loading * h.largest_overlap;
+        return larger(R(0), smaller(p.loading * touch.overlap, down));
+    }
+    // J, what unloading from here gives back: N^2 / (2 K2).
+    template <class P, class H, class R>
+    static HWY_INLINE R stored_energy(const P& p, const H& h, const Touch<R>& touch, R normal_force) {
+        return normal_force * normal_force / (R(2) * Law::unloading(p, h, touch));
+    }
+};
+
 }  // namespace grainreel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

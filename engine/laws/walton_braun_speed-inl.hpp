@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-struct WaltonBraunSpeed {
+struct WaltonBraunSpeed : HardeningSpring<WaltonBraunSpeed> {
     static constexpr bool has_dashpot = false, uses_velocity = false, uses_mass = false, uses_radius = false;
 
     template <class R>
@@ -39,29 +39,9 @@ struct WaltonBraunSpeed {
     template <class R>
     using History = WaltonBraun::History<R>;
 
-    // N, >= 0.
+    // N/m, K2.
     template <class R>
-    static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
-        h.largest_overlap = larger(h.largest_overlap, touch.overlap);
-        return now(p, h, touch);
-    }
-    template <class R>
-    static HWY_INLINE R now(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch) {
-        // K2 (a - a0) with a0 = a_max (1 - K1/K2), without a division.
-        const R down = unloading(p, h) * (touch.overlap - h.largest_overlap) + p.loading * h.largest_overlap;
-        return larger(R(0), smaller(p.loading * touch.overlap, down));
-    }
-
-    // J, what unloading from here gives back: N^2 / (2 K2).
-    template <class R>
-    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&,
-                                      R normal_force) {
-        return normal_force * normal_force / (R(2) * unloading(p, h));
-    }
-
-  private:
-    template <class R>
-    static HWY_INLINE R unloading(const Parameters<R>& p, const History<R>& h) {
+    static HWY_INLINE R unloading(const Parameters<R>& p, const History<R>& h, const Touch<R>&) {
         return p.unloading + p.hardening * h.largest_overlap;
     }
 };

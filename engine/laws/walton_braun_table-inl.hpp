@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-struct WaltonBraunTable {
+struct WaltonBraunTable : HardeningSpring<WaltonBraunTable> {
     static constexpr bool has_dashpot = false, uses_velocity = false, uses_mass = true, uses_radius = false;
     static constexpr int kPieces = static_cast<int>(kTablePoints) - 1;
 
@@ -49,27 +49,7 @@ struct WaltonBraunTable {
     template <class R>
     using History = WaltonBraun::History<R>;
 
-    // N, >= 0.
-    template <class R>
-    static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
-        h.largest_overlap = larger(h.largest_overlap, touch.overlap);
-        return now(p, h, touch);
-    }
-    template <class R>
-    static HWY_INLINE R now(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch) {
-        const R down =
-            unloading(p, h, touch) * (touch.overlap - h.largest_overlap) + p.loading * h.largest_overlap;
-        return larger(R(0), smaller(p.loading * touch.overlap, down));
-    }
-
-    // J, what unloading from here gives back: N^2 / (2 K2).
-    template <class R>
-    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch,
-                                      R normal_force) {
-        return normal_force * normal_force / (R(2) * unloading(p, h, touch));
-    }
-
-  private:
+    // N/m, K2.
     template <class R>
     static HWY_INLINE R unloading(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch) {
         const R speed = h.largest_overlap * root(p.loading / touch.effective_mass);

@@ -66,6 +66,11 @@ double hertz_restitution(double damping, bool attraction) {
     return v < 0 ? -v : 0;
 }
 
+double hertz_contact_time(double mass, double k, double speed) {
+    constexpr double duration = 2.9432;
+    return duration * std::pow(1.25 * mass / k, 0.4) * std::pow(speed, -0.2);
+}
+
 double hertz_damping(double restitution, bool attraction) {
     if (restitution == 1) return 0;
     if (attraction) return std::sqrt(5) * logarithmic(restitution);

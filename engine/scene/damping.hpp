@@ -15,4 +15,8 @@ double linear_damping(double restitution, bool attraction);
 double hertz_restitution(double damping, bool attraction);
 double hertz_damping(double restitution, bool attraction);
 
+// s: of a free elastic impact with N = k a^(3/2), k in N/m^1.5: 2.943 a_max / v, with a_max = (5 m v^2 /
+// 4k)^(2/5) (Timoshenko & Goodier, Theory of Elasticity, art. 142).
+double hertz_contact_time(double mass, double k, double speed);
+
 }  // namespace grainreel

@@ -52,13 +52,6 @@ double contact_time_factor(const PairContact& contact) {
     return std::sqrt(pi * pi + logarithm * logarithm);  // pi / sqrt(1 - beta^2)
 }
 
-// Of Hertz' N = k a^(3/2), k = 4/3 E* sqrt(R): the duration of a free impact is 2.943 a_max / v, with
-// a_max = (5 m v^2 / 4k)^(2/5) (Timoshenko & Goodier, Theory of Elasticity, art. 142).
-constexpr double hertz_duration = 2.9432;
-double hertz_contact_time(double mass, double k, double speed) {
-    return hertz_duration * std::pow(1.25 * mass / k, 0.4) * std::pow(speed, -0.2);
-}
-
 // The weight that rests on one grain, over its diameter: K1 >= load / eps.
 double static_load(const BedPlan& bed, double diameter) {
     return 3 * (1 + bed.g_level) * settled_solid_fraction * bed.largest_density * bed.gravity *

@@ -24,9 +24,8 @@ inline const Words<Integrator> integrator_words{{"velocity-verlet", Integrator::
                                                 {"position-verlet", Integrator::position_verlet},
                                                 {"forest-ruth", Integrator::forest_ruth},
                                                 {"gear", Integrator::gear}};
-inline const Words<Accuracy> accuracy_words{{"draft", Accuracy::draft},
-                                            {"standard", Accuracy::standard},
-                                            {"reference", Accuracy::reference}};
+inline const Words<Accuracy> accuracy_words{
+    {"draft", Accuracy::draft}, {"standard", Accuracy::standard}, {"reference", Accuracy::reference}};
 
 template <class T>
 const std::string& word_of(T value, const Words<T>& words) {
