@@ -60,22 +60,6 @@ std::vector<BedSetting> bed_settings(bool quick) {
     return all;
 }
 
-std::string number(double value) {
-    return fmt::format("{:.6g}", value);
-}
-
-// Counts the pieces of work and asks the watcher between them.
-class Work {
-  public:
-    Work(const ChartWatcher& watcher, std::size_t pieces)
-        : watcher_(watcher), pieces_(static_cast<double>(pieces)) {}
-    bool next(const std::string& what) { return watcher_(what, done_++ / pieces_); }
-
-  private:
-    const ChartWatcher& watcher_;
-    double pieces_, done_ = 0;
-};
-
 // What of one point of the chart is still missing.
 void add_contact_rows(const Method& method, double e, double forces, bool quick, double cost,
                       ResultTable& table) {
@@ -105,7 +89,7 @@ bool all_there(const Method& method, double e, double forces, const ResultTable&
            (e != 0.9 || table.has({method.name, "energy drift", number(e), number(forces)}));
 }
 
-bool run_contacts(bool quick, ResultTable& table, Work& work) {
+bool run_contacts(bool quick, ResultTable& table, ChartWork& work) {
     for (const Method& method : methods()) {
         double cost = 0;
         for (const double e : restitutions(quick)) {
@@ -121,7 +105,7 @@ bool run_contacts(bool quick, ResultTable& table, Work& work) {
     return true;
 }
 
-bool run_beds(bool quick, ResultTable& table, Work& work) {
+bool run_beds(bool quick, ResultTable& table, ChartWork& work) {
     for (int seed = 1; seed <= (quick ? 2 : 5); ++seed) {
         for (const BedSetting& setting : bed_settings(quick)) {
             if (!work.next(fmt::format("bed, {}, seed {}", setting.name, seed))) return false;
@@ -156,7 +140,7 @@ std::string differences_table(const ResultTable& beds) {
 
 }  // namespace
 
-bool run_accuracy(const AccuracyRequest& request, const ChartWatcher& watcher) {
+bool run_accuracy(const ChartRequest& request, const ChartWatcher& watcher) {
     std::filesystem::create_directories(request.folder);
     ResultTable contacts(request.folder / "contacts.csv", "method,error,e,forces,ns,value", 4);
     ResultTable beds(request.folder / "bed.csv",
@@ -164,7 +148,7 @@ bool run_accuracy(const AccuracyRequest& request, const ChartWatcher& watcher) {
     const std::size_t pieces =
         methods().size() * restitutions(request.quick).size() * force_counts(request.quick).size() +
         bed_settings(request.quick).size() * (request.quick ? 2 : 5);
-    Work work(watcher, pieces);
+    ChartWork work(watcher, pieces);
     if (!run_contacts(request.quick, contacts, work) || !run_beds(request.quick, beds, work)) return false;
     replace_file(request.folder / "differences.csv", differences_table(beds));
     return true;

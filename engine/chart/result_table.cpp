@@ -25,6 +25,10 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::string number(double value) {
+    return fmt::format("{:.6g}", value);
+}
+
 std::string ResultTable::join(const std::vector<std::string>& cells) {
     return fmt::format("{}", fmt::join(cells, ","));
 }

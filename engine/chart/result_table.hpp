@@ -10,6 +10,9 @@
 
 namespace grainreel {
 
+// As a cell: six digits.
+std::string number(double value);
+
 class ResultTable {
   public:
     // Opens `path`, or makes it with this header. The first `keys` columns tell the rows apart. Throws

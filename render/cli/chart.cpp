@@ -3,6 +3,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 
@@ -10,7 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
-#include "engine/chart/accuracy.hpp"
+#include "engine/chart/chart.hpp"
 #include "render/cli/stop_signal.hpp"
 
 namespace grainreel {
@@ -19,13 +20,12 @@ namespace {
 constexpr int signal_base = 128;
 
 // Runs gnuplot on a file of commands in its folder. False when there is none, or it failed.
-bool draw(const std::filesystem::path& folder, const char* commands) {
+bool draw(const std::filesystem::path& folder, std::string commands) {
     posix_spawn_file_actions_t there;
     posix_spawn_file_actions_init(&there);
     posix_spawn_file_actions_addchdir_np(&there, folder.c_str());
     char name[] = "gnuplot";
-    std::string file = commands;
-    char* words[] = {name, file.data(), nullptr};
+    char* words[] = {name, commands.data(), nullptr};
     pid_t child = 0;
     const bool started = posix_spawnp(&child, name, &there, nullptr, words, environ) == 0;
     posix_spawn_file_actions_destroy(&there);
@@ -36,14 +36,17 @@ bool draw(const std::filesystem::path& folder, const char* commands) {
 }  // namespace
 
 int make_chart(const Options& options, Reporter& reporter) {
-    AccuracyRequest request;
-    request.folder = options.out.value_or(options.base / (options.quick ? "accuracy-quick" : "accuracy"));
+    const auto chart = std::find_if(charts().begin(), charts().end(),
+                                    [&](const Chart& c) { return c.name == options.chart; });
+    GRAINREEL_CHECK(chart != charts().end());
+    ChartRequest request;
+    request.folder = options.out.value_or(options.base / (chart->name + (options.quick ? "-quick" : "")));
     request.quick = options.quick;
     if (std::error_code failure; !std::filesystem::create_directories(request.folder, failure) && failure)
         throw UserError(fmt::format("{}: cannot be made ({}); give another --out", request.folder.string(),
                                     failure.message()));
     const auto begin = std::chrono::steady_clock::now();
-    const bool whole = run_accuracy(request, [&](const std::string& what, double done) {
+    const bool whole = chart->run(request, [&](const std::string& what, double done) {
         Progress progress;
         progress.stage = Progress::Stage::charting;
         progress.what = what;
@@ -58,11 +61,13 @@ int make_chart(const Options& options, Reporter& reporter) {
         reporter.info("stopped; the same command goes on");
         return signal_base + stop_signal();
     }
-    replace_file(request.folder / "accuracy.gp", accuracy_drawing());
-    if (!draw(request.folder, "accuracy.gp"))
+    const std::string commands = chart->name + ".gp";
+    replace_file(request.folder / commands, chart->drawing());
+    if (!draw(request.folder, commands))
         reporter.warning(
-            "gnuplot is missing or failed, so there are tables but no pictures; install "
-            "gnuplot-nox and run it on accuracy.gp in the folder");
+            fmt::format("gnuplot is missing or failed, so there are tables but no pictures; install "
+                        "gnuplot-nox and run it on {} in the folder",
+                        commands));
     std::cout << request.folder.string() << std::endl;
     return 0;
 }

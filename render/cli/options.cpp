@@ -11,6 +11,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/chart/chart.hpp"
 #include "render/cli/version.hpp"
 
 namespace grainreel {
@@ -113,22 +114,27 @@ void add_check(CLI::App& app, Options& options) {
 }
 
 void add_chart(CLI::App& app, Options& options) {
-    CLI::App& chart = *app.add_subcommand("chart", "Measure the methods themselves: error against cost");
-    chart.add_option("CHART", options.chart, "accuracy")
+    CLI::App& verb = *app.add_subcommand("chart", "Measure the methods themselves: errors, costs, limits");
+    std::string about;
+    std::vector<std::string> names;
+    for (const Chart& chart : charts()) {
+        names.push_back(chart.name);
+        about += fmt::format("{}{} ({})", about.empty() ? "" : "; ", chart.name, chart.about);
+    }
+    verb.add_option("CHART", options.chart, about)
         ->required()
-        ->check(CLI::IsMember({"accuracy"}))
+        ->check(CLI::IsMember(names))
         ->type_name("WHICH");
-    chart
-        .add_option_function<std::string>(
+    verb.add_option_function<std::string>(
             "--out", [&options](const std::string& folder) { options.out = folder; },
-            "Folder of the tables and pictures; a chart that was stopped there goes on [output/accuracy]")
+            "Folder of the tables and pictures; a chart that was stopped there goes on [output/WHICH]")
         ->type_name("DIR");
-    chart.add_flag("--quick", options.quick, "Coarser, in a few minutes");
-    add_reporting(chart, options);
-    chart.footer(
+    verb.add_flag("--quick", options.quick, "Coarser, in a few minutes");
+    add_reporting(verb, options);
+    verb.footer(
         "Tables (CSV) and the pictures that gnuplot makes of them (SVG, PNG). Ctrl-C stops; the same\n"
         "command goes on.");
-    chart.callback([&options] { options.verb = Options::Verb::chart; });
+    verb.callback([&options] { options.verb = Options::Verb::chart; });
 }
 
 }  // namespace

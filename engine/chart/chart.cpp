@@ -1,0 +1,15 @@
+#include "engine/chart/chart.hpp"
+
+#include "engine/chart/accuracy.hpp"
+
+namespace grainreel {
+
+const std::vector<Chart>& charts() {
+    static const std::vector<Chart> all = {
+        {"accuracy", "error against cost: restitution, rebound, energy, a small bed", run_accuracy,
+         accuracy_drawing},
+    };
+    return all;
+}
+
+}  // namespace grainreel
