@@ -17,14 +17,16 @@ namespace {
 std::vector<Method> methods() {
     using I = Integrator;
     const auto slip = TangentialLaw::incremental_slip;
-    return {{"velocity Verlet", I::velocity_verlet, NormalForce::walton_braun, slip},
-            {"with corrections", I::velocity_verlet, NormalForce::walton_braun_corrected, slip},
-            {"leapfrog", I::leapfrog, NormalForce::walton_braun, slip},
-            {"position Verlet", I::position_verlet, NormalForce::walton_braun, slip},
-            {"Forest-Ruth", I::forest_ruth, NormalForce::walton_braun, slip},
-            {"Gear", I::gear, NormalForce::walton_braun, slip},
-            {"spring-dashpot", I::velocity_verlet, NormalForce::spring_dashpot, TangentialLaw::linear_spring},
-            {"Hertz-Mindlin", I::velocity_verlet, NormalForce::hertz, TangentialLaw::mindlin}};
+    return {
+        {"velocity Verlet", I::velocity_verlet, NormalForce::walton_braun, slip},
+        {"with corrections", I::velocity_verlet, NormalForce::walton_braun_corrected, slip},
+        {"mixed precision", I::velocity_verlet, NormalForce::walton_braun_corrected, slip, Precision::mixed},
+        {"leapfrog", I::leapfrog, NormalForce::walton_braun, slip},
+        {"position Verlet", I::position_verlet, NormalForce::walton_braun, slip},
+        {"Forest-Ruth", I::forest_ruth, NormalForce::walton_braun, slip},
+        {"Gear", I::gear, NormalForce::walton_braun, slip},
+        {"spring-dashpot", I::velocity_verlet, NormalForce::spring_dashpot, TangentialLaw::linear_spring},
+        {"Hertz-Mindlin", I::velocity_verlet, NormalForce::hertz, TangentialLaw::mindlin}};
 }
 
 // Steps a contact such that every method makes the same number of force evaluations.
@@ -50,6 +52,7 @@ std::vector<BedSetting> bed_settings(bool quick) {
     for (const BedSetting& more : std::vector<BedSetting>{{"step x 0.5", {step(0.5)}},
                                                           {"step x 2", {step(2)}},
                                                           {"leapfrog", {"run.integrator=leapfrog"}},
+                                                          {"mixed precision", {"run.precision=mixed"}},
                                                           {"overlap 0.2 %", {"run.overlap=0.002"}},
                                                           {"overlap 2 %", {"run.overlap=0.02"}},
                                                           {"overlap 5 %", {"run.overlap=0.05"}},
@@ -162,7 +165,7 @@ set grid
 set key outside right top
 set logscale xy
 set format y "10^{%L}"
-methods = "'velocity Verlet' 'with corrections' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
+methods = "'velocity Verlet' 'with corrections' 'mixed precision' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
 pick(method, error, e) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" && $3==%s {print $4\",\"$5\",\"$6}' contacts.csv", method, error, e)
 draw_restitution(e) = sprintf("plot for [m in methods] pick(m, 'restitution', '%s') using 2:3 title m lw 2, 0.005 lc 'gray' dt 2 title 'standard: 0.005'", e)
 

@@ -27,7 +27,7 @@ double mass() {
 // One species whose contacts follow the method; `effective_mass` of those that matter.
 PairPlan pair_of(const Method& method, double restitution, double effective_mass) {
     PairPlan pair;
-    pair.model = {method.normal, method.tangential, false};
+    pair.model = {method.normal, method.tangential, false, method.precision};
     pair.restitution = restitution;
     pair.loading_stiffness = stiffness;
     pair.unloading_stiffness = stiffness / (restitution * restitution);

@@ -13,6 +13,7 @@ struct Method {
     Integrator integrator = Integrator::velocity_verlet;
     NormalForce normal = NormalForce::walton_braun;
     TangentialLaw tangential = TangentialLaw::incremental_slip;
+    Precision precision = Precision::full;
 
     int forces_a_step() const;
 };

@@ -23,37 +23,46 @@ struct Visitor {
     }
 };
 
-struct LoadHistory : Visitor<LoadHistory> {
-    mutable const double* at;
-    explicit LoadHistory(const double* from) : at(from) {}
-    HWY_INLINE void operator()(Lanes& x) const { x = load(at), at += kBlock; }
+template <class L>
+struct LoadHistory : Visitor<LoadHistory<L>> {
+    mutable const NumberOf<L>* at;
+    explicit LoadHistory(const NumberOf<L>* from) : at(from) {}
+    HWY_INLINE void operator()(L& x) const { x = load<L>(at), at += kBlock; }
 };
 
-struct StoreHistory : Visitor<StoreHistory> {
-    LanesMask kept;
-    mutable double* at;
-    StoreHistory(LanesMask which, double* to) : kept(which), at(to) {}
-    HWY_INLINE void operator()(Lanes& x) const { store(select(kept, x, Lanes(0.0)), at), at += kBlock; }
+template <class L>
+struct StoreHistory : Visitor<StoreHistory<L>> {
+    typename L::Mask kept;
+    mutable NumberOf<L>* at;
+    StoreHistory(typename L::Mask which, NumberOf<L>* to) : kept(which), at(to) {}
+    HWY_INLINE void operator()(L& x) const { store(select(kept, x, L(0.0)), at), at += kBlock; }
 };
 
-struct SameParameters : Visitor<SameParameters> {
-    mutable const double* at;
-    explicit SameParameters(const double* from) : at(from) {}
-    HWY_INLINE void operator()(Lanes& x) const { x = Lanes(*at++); }
+template <class L>
+struct SameParameters : Visitor<SameParameters<L>> {
+    mutable const NumberOf<L>* at;
+    explicit SameParameters(const LawParameters& p) : at(p.numbers<NumberOf<L>>()) {}
+    HWY_INLINE void operator()(L& x) const { x = hn::Set(typename L::Tag(), *at++); }
 };
 
-struct ParametersOfKind : Visitor<ParametersOfKind> {
-    using Indices = hn::RebindToSigned<Doubles>;
+template <class L>
+struct ParametersOfKind : Visitor<ParametersOfKind<L>> {
+    using Tag = typename L::Tag;
+    using Indices = hn::RebindToSigned<Tag>;
     hn::Vec<Indices> kind;
     std::ptrdiff_t kinds;
-    mutable const double* at;
+    mutable const NumberOf<L>* at;
     ParametersOfKind(const LawParameters& p, const std::int32_t* kind_of)
-        : kind(hn::PromoteTo(Indices(), hn::LoadU(hn::Rebind<std::int32_t, Doubles>(), kind_of))),
-          kinds(p.kinds),
-          at(p.values.data()) {}
-    HWY_INLINE void operator()(Lanes& x) const {
-        x = Lanes(hn::GatherIndex(Doubles(), at, kind));
+        : kind(indices(kind_of)), kinds(p.kinds), at(p.numbers<NumberOf<L>>()) {}
+    HWY_INLINE void operator()(L& x) const {
+        x = L(hn::GatherIndex(Tag(), at, kind));
         at += kinds;
+    }
+    static HWY_INLINE hn::Vec<Indices> indices(const std::int32_t* kind_of) {
+        if constexpr (sizeof(NumberOf<L>) == sizeof(std::int32_t))
+            return hn::LoadU(Indices(), kind_of);
+        else
+            return hn::PromoteTo(Indices(), hn::LoadU(hn::Rebind<std::int32_t, Tag>(), kind_of));
     }
 };
 
@@ -68,101 +77,119 @@ struct AppendNumbers {
     void operator()(double& x) const { values.push_back(x); }
 };
 
-template <class Law>
-HWY_INLINE typename Law::template Parameters<Lanes> parameters_at(const LawInput& in, int c) {
-    typename Law::template Parameters<Lanes> p;
-    p.each(ParametersOfKind(*in.parameters, in.kind + c));
+template <class Law, class L>
+HWY_INLINE typename Law::template Parameters<L> parameters_at(const LawInput& in, int c) {
+    typename Law::template Parameters<L> p;
+    p.each(ParametersOfKind<L>(*in.parameters, in.kind + c));
     return p;
 }
 
-template <class Law>
-HWY_INLINE Touch<Lanes> touch_at(const LawInput& in, int c) {
+template <class L>
+HWY_INLINE Triple<L> triple_at(const double (*from)[kChunk], int c) {
+    return {load_as<L>(from[0] + c), load_as<L>(from[1] + c), load_as<L>(from[2] + c)};
+}
+
+template <class L>
+HWY_INLINE void put_where(typename L::Mask which, const Triple<L>& t, double (*to)[kChunk], int c) {
+    store_as(select(which, t.x, L(0.0)), to[0] + c);
+    store_as(select(which, t.y, L(0.0)), to[1] + c);
+    store_as(select(which, t.z, L(0.0)), to[2] + c);
+}
+
+template <class L>
+HWY_INLINE typename L::Mask touching_at(const LawInput& in, int c) {
+    return load_as<L>(in.touch->overlap + c) > L(0.0);
+}
+
+template <class Law, class L>
+HWY_INLINE Touch<L> touch_at(const LawInput& in, int c) {
     const TouchChunk& chunk = *in.touch;
-    Touch<Lanes> t;
-    t.normal = {load(chunk.normal[0] + c), load(chunk.normal[1] + c), load(chunk.normal[2] + c)};
-    t.overlap = load(chunk.overlap + c);
-    t.twist = Lanes(0.0);
-    if constexpr (Law::rubs) t.twist = load(chunk.twist + c);
-    t.effective_mass = t.effective_radius = Lanes(0.0);
-    if constexpr (Law::uses_mass) t.effective_mass = load(in.effective_mass + c);
-    if constexpr (Law::uses_radius) t.effective_radius = load(in.effective_radius + c);
-    t.closing_speed = t.step = Lanes(0.0);
-    t.slip = t.slip_velocity = {Lanes(0.0), Lanes(0.0), Lanes(0.0)};
+    Touch<L> t;
+    t.normal = triple_at<L>(chunk.normal, c);
+    t.overlap = load_as<L>(chunk.overlap + c);
+    t.twist = L(0.0);
+    if constexpr (Law::rubs) t.twist = load_as<L>(chunk.twist + c);
+    t.effective_mass = t.effective_radius = L(0.0);
+    if constexpr (Law::uses_mass) t.effective_mass = load_as<L>(in.effective_mass + c);
+    if constexpr (Law::uses_radius) t.effective_radius = load_as<L>(in.effective_radius + c);
+    t.closing_speed = t.step = L(0.0);
+    t.slip = t.slip_velocity = {L(0.0), L(0.0), L(0.0)};
     return t;
 }
 
-template <class Law>
-HWY_INLINE Triple<Lanes> velocity_at(const LawInput& in, int c) {
+template <class Law, class L>
+HWY_INLINE Triple<L> velocity_at(const LawInput& in, int c) {
     if constexpr (Law::rubs || Law::uses_velocity) {
-        const auto& v = in.touch->velocity;
-        return {load(v[0] + c), load(v[1] + c), load(v[2] + c)};
+        return triple_at<L>(in.touch->velocity, c);
     } else {
-        return {Lanes(0.0), Lanes(0.0), Lanes(0.0)};
+        return {L(0.0), L(0.0), L(0.0)};
     }
 }
 
-template <class Law, class Force>
-HWY_INLINE void put_force(LanesMask touching, const Force& f, int c, ForceChunk& out) {
-    store(select(touching, f.normal, Lanes(0.0)), out.normal + c);
-    if constexpr (Law::rubs) {
-        store(select(touching, f.tangential.x, Lanes(0.0)), out.tangential[0] + c);
-        store(select(touching, f.tangential.y, Lanes(0.0)), out.tangential[1] + c);
-        store(select(touching, f.tangential.z, Lanes(0.0)), out.tangential[2] + c);
-    }
+template <class Law, class L, class Force>
+HWY_INLINE void put_force(typename L::Mask touching, const Force& f, int c, ForceChunk& out) {
+    store_as(select(touching, f.normal, L(0.0)), out.normal + c);
+    if constexpr (Law::rubs) put_where(touching, f.tangential, out.tangential, c);
 }
 
-template <class Law>
+template <class Law, class L>
 HWY_INLINE void put_nothing(int c, ForceChunk& out) {
-    store(Lanes(0.0), out.normal + c);
+    store_as(L(0.0), out.normal + c);
     if constexpr (Law::rubs) {
-        for (auto& axis : out.tangential) store(Lanes(0.0), axis + c);
+        for (auto& axis : out.tangential) store_as(L(0.0), axis + c);
     }
 }
 
-template <class Law>
+// Where the first number of contact c stands in a history of `stride` numbers a contact.
+HWY_INLINE std::size_t place_in_history(int c, std::size_t stride) {
+    return (c / kBlock) * (stride * kBlock) + c % kBlock;
+}
+
+template <class Law, class L>
 const LawKernel& kernel_of();
 
-template <class Law, bool one_kind>
-void step_chunk(const LawInput& in, double* history, ForceChunk& out) {
-    const std::size_t size = kernel_of<Law>().history_size, stride = in.history_stride;
-    typename Law::template Parameters<Lanes> p;
-    if constexpr (one_kind) p.each(SameParameters(in.parameters->values.data()));
-    const Lanes step(in.step), ahead(in.ahead);
-    for (int c = 0; c < in.count; c += kLanes) {
-        double* kept = history + (c / kBlock) * (stride * kBlock) + c % kBlock;
-        if (!in.touch->any_touching(c, kLanes)) {
-            put_nothing<Law>(c, out);
-            for (std::size_t k = 0; k < size; ++k) store(Lanes(0.0), kept + k * kBlock);
+template <class Law, class L, bool one_kind>
+void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
+    const std::size_t size = kernel_of<Law, L>().history_size;
+    typename Law::template Parameters<L> p;
+    if constexpr (one_kind) p.each(SameParameters<L>(*in.parameters));
+    const L step(in.step), ahead(in.ahead);
+    for (int c = 0; c < in.count; c += L::count) {
+        NumberOf<L>* kept = history + place_in_history(c, in.history_stride);
+        if (!in.touch->any_touching(c, L::count)) {
+            put_nothing<Law, L>(c, out);
+            for (std::size_t k = 0; k < size; ++k) store(L(0.0), kept + k * kBlock);
             continue;
         }
-        const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
-        if constexpr (!one_kind) p = parameters_at<Law>(in, c);
-        typename Law::template History<Lanes> h;
-        h.each(LoadHistory(kept));
-        const auto force = Law::force(p, h, touch_at<Law>(in, c), velocity_at<Law>(in, c), step, ahead);
-        h.each(StoreHistory(touching, kept));
-        put_force<Law>(touching, force, c, out);
+        const auto touching = touching_at<L>(in, c);
+        if constexpr (!one_kind) p = parameters_at<Law, L>(in, c);
+        typename Law::template History<L> h;
+        h.each(LoadHistory<L>(kept));
+        const auto force = Law::force(p, h, touch_at<Law, L>(in, c), velocity_at<Law, L>(in, c), step, ahead);
+        h.each(StoreHistory<L>(touching, kept));
+        put_force<Law, L>(touching, force, c, out);
     }
 }
 
-template <class Law>
-void step_any(const LawInput& in, double* history, ForceChunk& out) {
-    in.parameters->kinds == 1 ? step_chunk<Law, true>(in, history, out)
-                              : step_chunk<Law, false>(in, history, out);
+template <class Law, class L>
+void step_any(const LawInput& in, void* history, ForceChunk& out) {
+    auto* numbers = static_cast<NumberOf<L>*>(history);
+    in.parameters->kinds == 1 ? step_chunk<Law, L, true>(in, numbers, out)
+                              : step_chunk<Law, L, false>(in, numbers, out);
 }
 
-template <class Law>
-void observe_chunk(const LawInput& in, const double* history, ForceChunk& out) {
-    const std::size_t stride = in.history_stride;
-    for (int c = 0; c < in.count; c += kLanes) {
-        const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
-        typename Law::template History<Lanes> h;
-        h.each(LoadHistory(history + (c / kBlock) * (stride * kBlock) + c % kBlock));
-        Lanes stored(0.0);
-        const auto force =
-            Law::now(parameters_at<Law>(in, c), h, touch_at<Law>(in, c), velocity_at<Law>(in, c), stored);
-        put_force<Law>(touching, force, c, out);
-        store(select(touching, stored, Lanes(0.0)), out.stored + c);
+template <class Law, class L>
+void observe_chunk(const LawInput& in, const void* history, ForceChunk& out) {
+    const auto* numbers = static_cast<const NumberOf<L>*>(history);
+    for (int c = 0; c < in.count; c += L::count) {
+        const auto touching = touching_at<L>(in, c);
+        typename Law::template History<L> h;
+        h.each(LoadHistory<L>(numbers + place_in_history(c, in.history_stride)));
+        L stored(0.0);
+        const auto force = Law::now(parameters_at<Law, L>(in, c), h, touch_at<Law, L>(in, c),
+                                    velocity_at<Law, L>(in, c), stored);
+        put_force<Law, L>(touching, force, c, out);
+        store_as(select(touching, stored, L(0.0)), out.stored + c);
     }
 }
 
@@ -177,26 +204,27 @@ LawParameters parameters_of(const std::vector<PairPlan>& plans) {
     table.kinds = static_cast<int>(plans.size());
     const std::size_t numbers = by_kind.size() / plans.size();
     for (std::size_t p = 0; p < numbers; ++p) {
-        for (std::size_t k = 0; k < plans.size(); ++k) table.values.push_back(by_kind[k * numbers + p]);
+        for (std::size_t k = 0; k < plans.size(); ++k) table.add(by_kind[k * numbers + p]);
     }
     return table;
 }
 
-template <class Law>
+template <class Law, class L>
 const LawKernel& kernel_of() {
     static const LawKernel kernel = [] {
         LawKernel k;
         typename Law::template History<double> history{};
         history.each(CountNumbers{k.turns});
         k.history_size = static_cast<int>(k.turns.size());
+        k.number_size = sizeof(NumberOf<L>);
         k.rubs = Law::rubs;
         k.rolls = false;
         k.uses_velocity = Law::uses_velocity;
         k.uses_mass = Law::uses_mass;
         k.uses_radius = Law::uses_radius;
         k.parameters = parameters_of<Law>;
-        k.step = step_any<Law>;
-        k.observe = observe_chunk<Law>;
+        k.step = step_any<Law, L>;
+        k.observe = observe_chunk<Law, L>;
         return k;
     }();
     return kernel;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "engine/laws/touch_chunk.hpp"
@@ -14,7 +15,17 @@ namespace grainreel {
 // Parameters of all kinds of contact: of kind k, number p is values[p * kinds + k].
 struct LawParameters {
     std::vector<double> values;
+    std::vector<float> rounded;  // the same, held within what floats can multiply
     int kinds = 0;
+
+    void add(double value);
+    template <class Number>
+    const Number* numbers() const {
+        if constexpr (std::is_same_v<Number, float>)
+            return rounded.data();
+        else
+            return values.data();
+    }
 };
 
 struct LawInput {
@@ -31,7 +42,8 @@ struct LawInput {
 };
 
 struct LawKernel {
-    int history_size;         // doubles a contact, all zero for a new one
+    int history_size;         // numbers a contact, all zero for a new one
+    std::size_t number_size;  // bytes of each: 8, or 4 with mixed precision
     std::vector<bool> turns;  // of each: changes sign when the bodies change places
     bool rubs;                // asks for spin, twist and arms
     bool rolls;               // asks for the rolling motion
@@ -40,15 +52,15 @@ struct LawKernel {
     LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
 
     // `history`: in blocks of kBlock contacts, within a block number by number. Zeroed where nothing touches.
-    void (*step)(const LawInput& in, double* history, ForceChunk& out);
+    void (*step)(const LawInput& in, void* history, ForceChunk& out);
     // Forces as they stand, without a step; velocities are those of now.
-    void (*observe)(const LawInput& in, const double* history, ForceChunk& out);
+    void (*observe)(const LawInput& in, const void* history, ForceChunk& out);
 };
 
 // The one place where laws are chosen at run time. `model` without its rolling, which comes on top.
 const LawKernel& law_kernel(const ContactModel& model);
 // Resistance to rolling: runs after the law, on the normal force that this has put into `out`.
-const LawKernel& rolling_kernel();
+const LawKernel& rolling_kernel(Precision precision);
 
 // "AVX-512", "AVX2", ...: what the kernels chosen on this machine are compiled for.
 std::string vector_instructions();

@@ -14,38 +14,52 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
+// What makes the bits of x, shifted to a third, those of about x^(-1/3).
+HWY_INLINE std::uint64_t inverse_cube_root_bits(double) {
+    return 0x553ee0ff289dd796;
+}
+HWY_INLINE std::uint32_t inverse_cube_root_bits(float) {
+    return 0x54a21d2a;
+}
+
 // Bits of x shifted right: an integer a third as large, near enough for a first guess.
-HWY_INLINE Lanes guess_inverse_cube_root(Lanes x) {
-    const hn::RebindToUnsigned<Doubles> bits;
+template <class D>
+HWY_INLINE LanesOf<D> guess_inverse_cube_root(LanesOf<D> x) {
+    const hn::RebindToUnsigned<D> bits;
     const auto b = hn::BitCast(bits, x.value);
     auto third = hn::ShiftRight<2>(b);
     third = hn::Add(third, hn::ShiftRight<2>(third));
     third = hn::Add(third, hn::ShiftRight<4>(third));
     third = hn::Add(third, hn::ShiftRight<8>(third));
-    return hn::BitCast(Doubles(), hn::Sub(hn::Set(bits, 0x553ee0ff289dd796ULL), third));
+    return hn::BitCast(D(), hn::Sub(hn::Set(bits, inverse_cube_root_bits(hn::TFromD<D>())), third));
 }
-HWY_INLINE double guess_inverse_cube_root(double x) {
-    std::uint64_t third = std::bit_cast<std::uint64_t>(x) >> 2;
+template <std::floating_point T>
+HWY_INLINE T guess_inverse_cube_root(T x) {
+    const auto of_one_third = inverse_cube_root_bits(T());
+    auto third = std::bit_cast<std::remove_const_t<decltype(of_one_third)>>(x) >> 2;
     third += third >> 2;
     third += third >> 4;
     third += third >> 8;
-    return std::bit_cast<double>(0x553ee0ff289dd796ULL - third);
+    return std::bit_cast<T>(of_one_third - third);
 }
 
-// x^(1/3) for x in [0, 1e100], to about 1e-15 of itself; 0 below 1e-100. Newton's method for the inverse
-// root has no division.
+// x^(1/3) for x in [0, 1], to the last digits; 0 below 1e-30. Newton's method for the inverse root has no
+// division.
 template <class R>
 HWY_INLINE R cube_root(R x) {
+    constexpr int rounds = sizeof(NumberOf<R>) == sizeof(double) ? 4 : 3;
     R r = guess_inverse_cube_root(x);
-    for (int k = 0; k < 4; ++k) r *= R(4.0 / 3.0) - x * (r * r * r) * R(1.0 / 3.0);
+    for (int k = 0; k < rounds; ++k) r *= R(4.0 / 3.0) - x * (r * r * r) * R(1.0 / 3.0);
     const R y = x * r * r;
-    return select(x > R(1e-100), y, R(0));
+    return select(x > R(1e-30), y, R(0));
 }
 
-HWY_INLINE double any_power(double base, double exponent) {
+template <std::floating_point T>
+HWY_INLINE T any_power(T base, T exponent) {
     return std::pow(base, exponent);
 }
-HWY_INLINE Lanes any_power(Lanes base, Lanes exponent);
+template <class D>
+HWY_INLINE LanesOf<D> any_power(LanesOf<D> base, LanesOf<D> exponent);
 
 template <class R>
 HWY_INLINE R power(R base, R exponent) {
@@ -56,11 +70,12 @@ HWY_INLINE R power(R base, R exponent) {
 }
 
 // Lane by lane, each as if it were alone: slow, and the same at every width.
-HWY_INLINE Lanes any_power(Lanes base, Lanes exponent) {
-    HWY_ALIGN double b[kLanes], e[kLanes];
+template <class D>
+HWY_INLINE LanesOf<D> any_power(LanesOf<D> base, LanesOf<D> exponent) {
+    HWY_ALIGN hn::TFromD<D> b[LanesOf<D>::count], e[LanesOf<D>::count];
     store(base, b), store(exponent, e);
-    for (int k = 0; k < kLanes; ++k) b[k] = power(b[k], e[k]);
-    return load(b);
+    for (int k = 0; k < LanesOf<D>::count; ++k) b[k] = power(b[k], e[k]);
+    return load<LanesOf<D>>(b);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -13,53 +13,49 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-HWY_INLINE Triple<Lanes> triple_at(const double (*from)[kChunk], int c) {
-    return {load(from[0] + c), load(from[1] + c), load(from[2] + c)};
-}
-
-HWY_INLINE void put_rolling(LanesMask touching, const Triple<Lanes>& torque, int c, RollingChunk& out) {
-    store(select(touching, torque.x, Lanes(0.0)), out.torque[0] + c);
-    store(select(touching, torque.y, Lanes(0.0)), out.torque[1] + c);
-    store(select(touching, torque.z, Lanes(0.0)), out.torque[2] + c);
-}
-
-inline void step_rolling(const LawInput& in, double* history, ForceChunk& out) {
-    for (int c = 0; c < in.count; c += kLanes) {
-        double* kept = history + (c / kBlock) * (in.history_stride * kBlock) + c % kBlock;
-        const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
-        RollingSpring::History<Lanes> h;
-        h.each(LoadHistory(kept));
-        const Triple<Lanes> angle = triple_at(in.rolling->rate, c) * Lanes(in.step);
-        const Triple<Lanes> torque = RollingSpring::torque(
-            parameters_at<RollingSpring>(in, c), h, triple_at(in.touch->normal, c), load(in.touch->twist + c),
-            angle, load(in.effective_radius + c), load(out.normal + c));
-        h.each(StoreHistory(touching, kept));
-        put_rolling(touching, torque, c, *in.rolling);
+template <class L>
+void step_rolling(const LawInput& in, void* history, ForceChunk& out) {
+    for (int c = 0; c < in.count; c += L::count) {
+        NumberOf<L>* kept = static_cast<NumberOf<L>*>(history) + place_in_history(c, in.history_stride);
+        const auto touching = touching_at<L>(in, c);
+        RollingSpring::History<L> h;
+        h.each(LoadHistory<L>(kept));
+        const Triple<L> angle = triple_at<L>(in.rolling->rate, c) * L(in.step);
+        const Triple<L> torque =
+            RollingSpring::torque(parameters_at<RollingSpring, L>(in, c), h,
+                                  triple_at<L>(in.touch->normal, c), load_as<L>(in.touch->twist + c), angle,
+                                  load_as<L>(in.effective_radius + c), load_as<L>(out.normal + c));
+        h.each(StoreHistory<L>(touching, kept));
+        put_where(touching, torque, in.rolling->torque, c);
     }
 }
 
-inline void observe_rolling(const LawInput& in, const double* history, ForceChunk& out) {
-    for (int c = 0; c < in.count; c += kLanes) {
-        const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
-        RollingSpring::History<Lanes> h;
-        h.each(LoadHistory(history + (c / kBlock) * (in.history_stride * kBlock) + c % kBlock));
-        const Lanes stored = RollingSpring::stored_energy(parameters_at<RollingSpring>(in, c), h,
-                                                          load(in.effective_radius + c));
-        put_rolling(touching, h.torque, c, *in.rolling);
-        store(load(out.stored + c) + select(touching, stored, Lanes(0.0)), out.stored + c);
+template <class L>
+void observe_rolling(const LawInput& in, const void* history, ForceChunk& out) {
+    const auto* numbers = static_cast<const NumberOf<L>*>(history);
+    for (int c = 0; c < in.count; c += L::count) {
+        const auto touching = touching_at<L>(in, c);
+        RollingSpring::History<L> h;
+        h.each(LoadHistory<L>(numbers + place_in_history(c, in.history_stride)));
+        const L stored = RollingSpring::stored_energy(parameters_at<RollingSpring, L>(in, c), h,
+                                                      load_as<L>(in.effective_radius + c));
+        put_where(touching, h.torque, in.rolling->torque, c);
+        store_as(load_as<L>(out.stored + c) + select(touching, stored, L(0.0)), out.stored + c);
     }
 }
 
-inline const LawKernel& kernel_of_rolling() {
+template <class L>
+const LawKernel& kernel_of_rolling() {
     static const LawKernel kernel = [] {
         LawKernel k{};
         RollingSpring::History<double> history{};
         history.each(CountNumbers{k.turns});
         k.history_size = static_cast<int>(k.turns.size());
+        k.number_size = sizeof(NumberOf<L>);
         k.rubs = k.rolls = k.uses_radius = true;
         k.parameters = parameters_of<RollingSpring>;
-        k.step = step_rolling;
-        k.observe = observe_rolling;
+        k.step = step_rolling<L>;
+        k.observe = observe_rolling<L>;
         return k;
     }();
     return kernel;

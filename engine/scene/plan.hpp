@@ -19,10 +19,14 @@ enum class NormalForce {
     spring_dashpot,
     hertz
 };
+struct LawKernel;
+
 struct ContactModel {
     NormalForce normal = NormalForce::walton_braun;
     TangentialLaw tangential = TangentialLaw::incremental_slip;  // `none` when nothing rubs
     bool rolls = false;                                          // resists rolling; only where it rubs
+    Precision precision = Precision::full;
+    const LawKernel* own = nullptr;  // a caller's law in place of these; scenes have none
     bool operator==(const ContactModel&) const = default;
 };
 

@@ -166,8 +166,9 @@ double restitution_at(const std::vector<RestitutionPoint>& table, double speed) 
     return e;
 }
 
-ContactModel contact_model(const PairContact& contact, bool corrected) {
+ContactModel contact_model(const PairContact& contact, bool corrected, Precision precision) {
     ContactModel model;
+    model.precision = precision;
     model.tangential = contact.tangential;
     model.rolls = contact.rolling_friction > 0;
     if (corrected) model.normal = NormalForce::walton_braun_corrected;
@@ -272,7 +273,7 @@ BedPlan plan_bed(const Scene& scene) {
 PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Species& a,
                    const Species* b) {
     PairPlan pair;
-    pair.model = contact_model(contact, scene.run.contact_corrections);
+    pair.model = contact_model(contact, scene.run.contact_corrections, scene.run.precision);
     const Stiffness stiffness = choose_stiffness(scene, bed, contact, a, b);
     pair.loading_stiffness = stiffness.value;
     pair.stiffness_reason = stiffness.reason;

@@ -53,10 +53,7 @@ void read_run(Document& document, Scene& scene) {
     run.seed = static_cast<std::uint64_t>(document.integer("run.seed").value_or(1));
     run.threads = static_cast<int>(document.integer("run.threads").value_or(run.threads));
     run.step = document.quantity("run.step");
-    run.accuracy = chosen<Accuracy>(
-        document, "run.accuracy",
-        {{"draft", Accuracy::draft}, {"standard", Accuracy::standard}, {"reference", Accuracy::reference}},
-        Accuracy::standard);
+    run.accuracy = chosen<Accuracy>(document, "run.accuracy", accuracy_words, Accuracy::standard);
     if (run.accuracy == Accuracy::draft) run.overlap = 0.02;
     if (run.accuracy == Accuracy::reference) run.overlap = 0.003;
     run.overlap = document.quantity("run.overlap").value_or(run.overlap);
@@ -64,6 +61,7 @@ void read_run(Document& document, Scene& scene) {
         run.steps_per_contact = static_cast<int>(*steps);
     run.integrator =
         chosen<Integrator>(document, "run.integrator", integrator_words, Integrator::velocity_verlet);
+    run.precision = chosen<Precision>(document, "run.precision", precision_words, Precision::full);
     const auto corrections = document.flag("run.contact_corrections");
     const bool possible = correctable(scene.contact, run.integrator);
     if (corrections.value_or(false) && !possible)

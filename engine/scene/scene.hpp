@@ -155,6 +155,9 @@ enum class Integrator { velocity_verlet, leapfrog, position_verlet, forest_ruth,
 // What stiffness, step and corrections are by default; docs/accuracy.md has what each costs.
 enum class Accuracy { draft, standard, reference };
 
+// Mixed: contact laws and their histories in single precision, all else in double.
+enum class Precision { full, mixed };
+
 struct Run {
     double duration = 10;  // s, of vibration (or of simulated time without a drive)
     std::uint64_t seed = 1;
@@ -163,6 +166,7 @@ struct Run {
     Accuracy accuracy = Accuracy::standard;
     double overlap = 0.01;  // wanted largest overlap over the smaller diameter
     Integrator integrator = Integrator::velocity_verlet;
+    Precision precision = Precision::full;
     bool contact_corrections = false;      // of onset, peak and exit (Walton-Braun)
     std::optional<int> steps_per_contact;  // the plan chooses by restitution when empty
     bool operator==(const Run&) const = default;

@@ -24,6 +24,7 @@ inline const Words<Integrator> integrator_words{{"velocity-verlet", Integrator::
                                                 {"position-verlet", Integrator::position_verlet},
                                                 {"forest-ruth", Integrator::forest_ruth},
                                                 {"gear", Integrator::gear}};
+inline const Words<Precision> precision_words{{"double", Precision::full}, {"mixed", Precision::mixed}};
 inline const Words<Accuracy> accuracy_words{
     {"draft", Accuracy::draft}, {"standard", Accuracy::standard}, {"reference", Accuracy::reference}};
 

@@ -212,6 +212,7 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     out.words("accuracy", word_of(run.accuracy, accuracy_words));
     out.put("overlap", run.overlap);
     out.words("integrator", word_of(run.integrator, integrator_words));
+    out.words("precision", word_of(run.precision, precision_words));
     out.flag("contact_corrections", run.contact_corrections);
 
     const Output& output = scene.output;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/laws/law_kernel.hpp"
+#include "engine/step/histories.hpp"
 
 namespace grainreel {
 
@@ -33,12 +33,8 @@ class ContactList {
     std::int32_t filled() const { return static_cast<std::int32_t>(first.size()); }  // with it
 
     // Of the block of contacts that starts with `contact`, laid out as LawKernel and LawInput have it.
-    double* history_of_block(std::int32_t contact) {
-        return history_.data()[contact / kBlock * history_size_].value;
-    }
-    const double* history_of_block(std::int32_t contact) const {
-        return history_.data()[contact / kBlock * history_size_].value;
-    }
+    void* history_of_block(std::int32_t contact) { return history_.of_block(contact); }
+    const void* history_of_block(std::int32_t contact) const { return history_.of_block(contact); }
     const double* mass_of_block(std::int32_t contact) const { return mass_[contact / kBlock].value; }
     const double* radius_of_block(std::int32_t contact) const { return radius_[contact / kBlock].value; }
     void set_effective(std::int32_t contact, double mass, double radius) {
@@ -48,13 +44,11 @@ class ContactList {
 
     // A new list: begin(), then add() by rising slot, then end(). A slot is the contact's place in the
     // neighbour list; where that is the same as at the last refresh, histories follow their slot.
-    void begin(int history_size);
+    void begin();
     void add(std::int32_t slot, std::int32_t i, std::int32_t j) {
         slot_.push_back(slot), first.push_back(i), second.push_back(j);
     }
-    void end(bool carry_histories);
-
-    int history_size() const { return history_size_; }
+    void end(bool carry_histories, int history_size, std::size_t number_size);
 
     // Appends the contacts that have a history and whose first grain is no lower than `begin`.
     void keep(KeptContacts& kept, std::int32_t begin) const;
@@ -62,18 +56,11 @@ class ContactList {
     bool restore(std::int32_t i, std::int32_t j, const double* numbers);
 
   private:
-    double& number(std::int32_t contact, int k) {
-        return history_[contact / kBlock * history_size_ + k].value[contact % kBlock];
-    }
-    double number(std::int32_t contact, int k) const {
-        return history_[contact / kBlock * history_size_ + k].value[contact % kBlock];
-    }
     void fill_up();
 
     std::int32_t size_ = 0;
-    int history_size_ = 0;
     std::vector<std::int32_t> slot_, old_slot_;
-    std::vector<Block> history_, old_history_;
+    Histories history_, old_history_;
     std::vector<Block> mass_, radius_;  // kg, m: effective ones
     std::int32_t old_size_ = 0;
     std::int32_t found_ = 0;  // where restore() looks first: contacts come back in nearly their old order

@@ -1,6 +1,8 @@
 #include "engine/step/contact_pass.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include "engine/step/loads.hpp"
@@ -82,11 +84,11 @@ void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const
                           const std::vector<Face>& faces, const Pose& pose, double skin,
                           bool carry_histories) {
     lists_.resize(rules.groups.size());
-    for (std::size_t g = 0; g < lists_.size(); ++g) lists_[g].begin(rules.groups[g].history_size());
+    for (ContactList& list : lists_) list.begin();
     add_pairs_within(rules, grains, lists.pairs, skin);
     add_near_walls(rules, lists_, grains, lists.walls, faces, pose, skin, begin_, end_);
     for (std::size_t g = 0; g < lists_.size(); ++g) {
-        lists_[g].end(carry_histories);
+        lists_[g].end(carry_histories, rules.groups[g].history_size(), rules.groups[g].number_size());
         note_kinds(lists_[g], grains, rules.groups[g], rules.species);
     }
 }
@@ -146,8 +148,10 @@ LawInput for_rolling(const ContactGroup& group, LawInput in) {
     in.parameters = &group.rolling_parameters;
     return in;
 }
-std::ptrdiff_t behind_law(const ContactGroup& group) {
-    return std::ptrdiff_t{kBlock} * group.law->history_size;
+template <class History>
+History* behind_law(const ContactGroup& group, History* history) {
+    using Bytes = std::conditional_t<std::is_const_v<History>, const std::byte, std::byte>;
+    return static_cast<Bytes*>(history) + kBlock * group.number_size() * group.law->history_size;
 }
 
 }  // namespace
@@ -158,10 +162,10 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
         const ContactGroup& group = rules.groups[g];
         ContactList& list = lists_[g];
         each_chunk(rules, g, grains, state, times, [&](const LawInput& in, std::int32_t c) {
-            double* history = list.history_of_block(c);
+            void* history = list.history_of_block(c);
             group.law->step(in, history, force_);
             if (group.rolling)
-                group.rolling->step(for_rolling(group, in), history + behind_law(group), force_);
+                group.rolling->step(for_rolling(group, in), behind_law(group, history), force_);
             const ChunkOfContacts chunk{list.first.data() + c,
                                         list.second.data() + c,
                                         in.count,
@@ -180,9 +184,9 @@ void ContactPass::observe(const ContactRules& rules, std::size_t group, const Gr
     const ContactGroup& of = rules.groups[group];
     const ContactList& list = lists_[group];
     each_chunk(rules, group, grains, state, {0, 0, 0}, [&](const LawInput& in, std::int32_t c) {
-        const double* history = list.history_of_block(c);
+        const void* history = list.history_of_block(c);
         of.law->observe(in, history, force_);
-        if (of.rolling) of.rolling->observe(for_rolling(of, in), history + behind_law(of), force_);
+        if (of.rolling) of.rolling->observe(for_rolling(of, in), behind_law(of, history), force_);
         for (int k = 0; k < in.count; ++k) {
             if ((touch_.touching >> k & 1) && list.first[c + k] >= begin_)
                 seen(list.first[c + k], list.second[c + k], k, touch_, force_);

@@ -14,8 +14,9 @@ bool all_kinds_equal(const LawParameters& p) {
 }
 
 LawParameters of_first_kind(const LawParameters& p) {
-    LawParameters first{{}, 1};
-    for (std::size_t row = 0; row < p.values.size(); row += p.kinds) first.values.push_back(p.values[row]);
+    LawParameters first;
+    first.kinds = 1;
+    for (std::size_t row = 0; row < p.values.size(); row += p.kinds) first.add(p.values[row]);
     return first;
 }
 
@@ -41,7 +42,7 @@ std::vector<std::int32_t> add_groups(const std::vector<PairPlan>& kinds, bool of
             ContactGroup group{};
             group.model = model;
             group.law = &law_kernel(model);
-            group.rolling = model.rolls ? &rolling_kernel() : nullptr;
+            group.rolling = model.rolls ? &rolling_kernel(model.precision) : nullptr;
             group.of_pairs = of_pairs;
             group.row.assign(kinds.size(), 0);
             groups.push_back(group);

@@ -19,6 +19,7 @@ struct ContactGroup {
     LawParameters parameters, rolling_parameters;
     std::vector<std::int32_t> row;  // of each kind in the parameters
 
+    std::size_t number_size() const { return law->number_size; }
     int history_size() const { return law->history_size + (rolling ? rolling->history_size : 0); }
     bool turns(int number) const;  // of the history: changes sign when the bodies change places
     bool needs_rows() const { return parameters.kinds > 1; }

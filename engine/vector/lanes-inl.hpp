@@ -1,5 +1,6 @@
-// A register of doubles that reads like one number, so that a law is written once for all widths and for a
-// plain double. Compiled anew for each instruction set: see Highway's foreach_target.h for the guard below.
+// A register of doubles or floats that reads like one number, so that a law is written once for all widths
+// and for a plain double. Compiled anew for each instruction set: see Highway's foreach_target.h for the
+// guard below.
 //
 // No fused multiply-add: each operation rounds as it does on a double, so every width gives the same bits.
 #if defined(GRAINREEL_VECTOR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
@@ -12,7 +13,9 @@
 #include <hwy/highway.h>
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -20,92 +23,80 @@ namespace grainreel::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Doubles = hn::CappedTag<double, 8>;  // as many as the machine has, at most a block of contacts
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(Doubles()));
+using Floats = hn::CappedTag<float, 8>;
 
-struct LanesMask {
-    hn::Mask<Doubles> bits;
+template <class D>
+struct MaskOf {
+    hn::Mask<D> bits;
+
+    friend HWY_INLINE MaskOf operator&(MaskOf a, MaskOf b) { return {hn::And(a.bits, b.bits)}; }
+    friend HWY_INLINE bool none(MaskOf m) { return hn::AllFalse(D(), m.bits); }
+    friend HWY_INLINE bool all(MaskOf m) { return hn::AllTrue(D(), m.bits); }
+    friend HWY_INLINE std::uint64_t bits(MaskOf m) {  // the first lane is the lowest
+        std::uint8_t byte[8] = {};
+        hn::StoreMaskBits(D(), m.bits, byte);
+        return byte[0];
+    }
 };
 
-struct Lanes {
-    hn::Vec<Doubles> value;
+template <class D>
+struct LanesOf {
+    using Tag = D;
+    using Number = hn::TFromD<D>;
+    using Mask = MaskOf<D>;
+    static constexpr int count = static_cast<int>(hn::MaxLanes(D()));
 
-    Lanes() = default;
-    HWY_INLINE Lanes(hn::Vec<Doubles> v) : value(v) {}
-    HWY_INLINE Lanes(double x) : value(hn::Set(Doubles(), x)) {}
+    hn::Vec<D> value;
 
-    HWY_INLINE Lanes& operator+=(Lanes b) { return value = hn::Add(value, b.value), *this; }
-    HWY_INLINE Lanes& operator-=(Lanes b) { return value = hn::Sub(value, b.value), *this; }
-    HWY_INLINE Lanes& operator*=(Lanes b) { return value = hn::Mul(value, b.value), *this; }
+    LanesOf() = default;
+    HWY_INLINE LanesOf(hn::Vec<D> v) : value(v) {}
+    HWY_INLINE LanesOf(double x) : value(hn::Set(D(), static_cast<Number>(x))) {}
+
+    HWY_INLINE LanesOf& operator+=(LanesOf b) { return value = hn::Add(value, b.value), *this; }
+    HWY_INLINE LanesOf& operator-=(LanesOf b) { return value = hn::Sub(value, b.value), *this; }
+    HWY_INLINE LanesOf& operator*=(LanesOf b) { return value = hn::Mul(value, b.value), *this; }
+
+    friend HWY_INLINE LanesOf operator+(LanesOf a, LanesOf b) { return hn::Add(a.value, b.value); }
+    friend HWY_INLINE LanesOf operator-(LanesOf a, LanesOf b) { return hn::Sub(a.value, b.value); }
+    friend HWY_INLINE LanesOf operator-(LanesOf a) { return hn::Neg(a.value); }
+    friend HWY_INLINE LanesOf operator*(LanesOf a, LanesOf b) { return hn::Mul(a.value, b.value); }
+    friend HWY_INLINE LanesOf operator/(LanesOf a, LanesOf b) { return hn::Div(a.value, b.value); }
+    friend HWY_INLINE Mask operator<(LanesOf a, LanesOf b) { return {hn::Lt(a.value, b.value)}; }
+    friend HWY_INLINE Mask operator>(LanesOf a, LanesOf b) { return {hn::Gt(a.value, b.value)}; }
+    friend HWY_INLINE Mask operator==(LanesOf a, LanesOf b) { return {hn::Eq(a.value, b.value)}; }
+    friend HWY_INLINE LanesOf select(Mask which, LanesOf yes, LanesOf no) {
+        return hn::IfThenElse(which.bits, yes.value, no.value);
+    }
+    friend HWY_INLINE LanesOf root(LanesOf a) { return hn::Sqrt(a.value); }
+    friend HWY_INLINE LanesOf larger(LanesOf a, LanesOf b) { return hn::Max(a.value, b.value); }
+    friend HWY_INLINE LanesOf smaller(LanesOf a, LanesOf b) { return hn::Min(a.value, b.value); }
+    friend HWY_INLINE LanesOf size_of(LanesOf a) { return hn::Abs(a.value); }
 };
 
-HWY_INLINE Lanes operator+(Lanes a, Lanes b) {
-    return hn::Add(a.value, b.value);
-}
-HWY_INLINE Lanes operator-(Lanes a, Lanes b) {
-    return hn::Sub(a.value, b.value);
-}
-HWY_INLINE Lanes operator-(Lanes a) {
-    return hn::Neg(a.value);
-}
-HWY_INLINE Lanes operator*(Lanes a, Lanes b) {
-    return hn::Mul(a.value, b.value);
-}
-HWY_INLINE Lanes operator/(Lanes a, Lanes b) {
-    return hn::Div(a.value, b.value);
-}
-HWY_INLINE LanesMask operator<(Lanes a, Lanes b) {
-    return {hn::Lt(a.value, b.value)};
-}
-HWY_INLINE LanesMask operator>(Lanes a, Lanes b) {
-    return {hn::Gt(a.value, b.value)};
-}
-HWY_INLINE LanesMask operator==(Lanes a, Lanes b) {
-    return {hn::Eq(a.value, b.value)};
-}
-HWY_INLINE LanesMask operator&(LanesMask a, LanesMask b) {
-    return {hn::And(a.bits, b.bits)};
-}
-HWY_INLINE Lanes select(LanesMask which, Lanes yes, Lanes no) {
-    return hn::IfThenElse(which.bits, yes.value, no.value);
-}
-HWY_INLINE Lanes root(Lanes a) {
-    return hn::Sqrt(a.value);
-}
-HWY_INLINE Lanes larger(Lanes a, Lanes b) {
-    return hn::Max(a.value, b.value);
-}
-HWY_INLINE Lanes smaller(Lanes a, Lanes b) {
-    return hn::Min(a.value, b.value);
-}
-HWY_INLINE Lanes size_of(Lanes a) {
-    return hn::Abs(a.value);
-}
-HWY_INLINE bool none(LanesMask m) {
-    return hn::AllFalse(Doubles(), m.bits);
-}
-HWY_INLINE bool all(LanesMask m) {
-    return hn::AllTrue(Doubles(), m.bits);
-}
-HWY_INLINE std::uint64_t bits(LanesMask m) {  // the first lane is the lowest
-    std::uint8_t byte[8] = {};
-    hn::StoreMaskBits(Doubles(), m.bits, byte);
-    return byte[0];
-}
+using Lanes = LanesOf<Doubles>;
+using FloatLanes = LanesOf<Floats>;
+using LanesMask = Lanes::Mask;
+constexpr int kLanes = Lanes::count;
 
-// The same for one double.
-HWY_INLINE double select(bool which, double yes, double no) {
+// The same for one number.
+template <std::floating_point T>
+HWY_INLINE T select(bool which, T yes, T no) {
     return which ? yes : no;
 }
-HWY_INLINE double root(double a) {
+template <std::floating_point T>
+HWY_INLINE T root(T a) {
     return std::sqrt(a);
 }
-HWY_INLINE double larger(double a, double b) {
+template <std::floating_point T>
+HWY_INLINE T larger(T a, T b) {
     return a > b ? a : b;
 }
-HWY_INLINE double smaller(double a, double b) {
+template <std::floating_point T>
+HWY_INLINE T smaller(T a, T b) {
     return a < b ? a : b;
 }
-HWY_INLINE double size_of(double a) {
+template <std::floating_point T>
+HWY_INLINE T size_of(T a) {
     return a < 0 ? -a : a;
 }
 HWY_INLINE bool none(bool m) {
@@ -115,13 +106,64 @@ HWY_INLINE bool all(bool m) {
     return m;
 }
 
-// Memory is laid out in rows of 8 doubles, whatever the width; `from` is aligned to the register.
-HWY_INLINE Lanes load(const double* from) {
-    return hn::Load(Doubles(), from);
+// Memory is laid out in rows of 8 numbers, whatever the width; `at` is aligned to the register.
+template <class L = Lanes>
+HWY_INLINE L load(const typename L::Number* at) {
+    return hn::Load(typename L::Tag(), at);
 }
-HWY_INLINE void store(Lanes a, double* to) {
-    hn::Store(a.value, Doubles(), to);
+template <class D>
+HWY_INLINE void store(LanesOf<D> a, hn::TFromD<D>* at) {
+    hn::Store(a.value, D(), at);
 }
+
+// The same, where memory holds doubles and the register perhaps floats, as many or twice as many of them.
+template <class D>
+requires(LanesOf<D>::count == kLanes) HWY_INLINE hn::Vec<D> rounded(D d, const double* at) {
+    return hn::DemoteTo(d, hn::Load(Doubles(), at));
+}
+template <class D>
+requires(LanesOf<D>::count == kLanes) HWY_INLINE void widen(D, hn::Vec<D> a, double* at) {
+    hn::Store(hn::PromoteTo(Doubles(), a), Doubles(), at);
+}
+#if HWY_TARGET != HWY_SCALAR
+template <class D>
+requires(LanesOf<D>::count == 2 * kLanes) HWY_INLINE hn::Vec<D> rounded(D d, const double* at) {
+    const hn::Half<D> half;
+    return hn::Combine(d, rounded(half, at + kLanes), rounded(half, at));
+}
+template <class D>
+requires(LanesOf<D>::count == 2 * kLanes) HWY_INLINE void widen(D d, hn::Vec<D> a, double* at) {
+    const hn::Half<D> half;
+    widen(half, hn::LowerHalf(half, a), at);
+    widen(half, hn::UpperHalf(half, a), at + kLanes);
+}
+#endif
+template <class L>
+HWY_INLINE L load_as(const double* at) {
+    if constexpr (std::is_same_v<L, Lanes>)
+        return load(at);
+    else
+        return rounded(typename L::Tag(), at);
+}
+template <class D>
+HWY_INLINE void store_as(LanesOf<D> a, double* at) {
+    if constexpr (std::is_same_v<D, Doubles>)
+        store(a, at);
+    else
+        widen(D(), a.value, at);
+}
+
+// The number of a register, or of a number itself.
+template <class R>
+struct NumberIn {
+    using type = R;
+};
+template <class D>
+struct NumberIn<LanesOf<D>> {
+    using type = hn::TFromD<D>;
+};
+template <class R>
+using NumberOf = typename NumberIn<R>::type;
 
 // Three numbers along x, y, z.
 template <class R>

@@ -1,52 +1,21 @@
 // The peers' bed in this engine: 10,125 grains, spring-dashpot with friction history, in three phases.
-//   ninja -C build/release bed10k && build/release/tests/bed10k FILE [threads] [settle steps] [steps]
-// FILE is a LAMMPS data file (id type diameter density x y z); lengths in m. Prints particle-steps/s a phase.
+//   ninja -C build/release bed10k && build/release/tests/bed10k [threads] [settle steps] [steps] [mixed]
+// Prints particle-steps/s a phase.
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <memory>
 #include <string>
 
+#include "engine/bench/peers_bed.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/step/step_loop.hpp"
 
 using namespace grainreel;
 
 namespace {
-
-Grains read_bed(const char* path) {
-    std::ifstream in(path);
-    for (std::string word; in >> word && word != "Atoms";) {
-    }
-    Grains grains;
-    int id = 0, type = 0;
-    for (double d, density, x, y, z; in >> id >> type >> d >> density >> x >> y >> z;) {
-        grains.add(id - 1, type - 1, Vec3(x - 0.01, y - 0.01, z), d / 2, density);
-    }
-    return grains;
-}
-
-// kn 1000 N/m, kt 285.7 N/m, gamma_n 2634 1/s, gamma_t 1317 1/s, mu 0.5, walls the same; step 2e-6 s.
-Plan bed_plan() {
-    PairPlan pair;
-    pair.loading_stiffness = pair.unloading_stiffness = 1000;
-    pair.tangential_stiffness = 285.7;
-    pair.normal_damping = 2634;
-    pair.tangential_damping = 1317;
-    pair.friction = 0.5;
-    pair.attraction = true;
-    pair.model = {NormalForce::spring_dashpot, TangentialLaw::linear_spring, false};
-    Plan plan;
-    plan.grain.assign(4, pair);
-    plan.wall.assign(2, pair);
-    plan.clock.step = 2e-6;
-    plan.clock.steps_per_period = 20000;
-    plan.clock.initial_phase = 0.75;  // with no ramp: a (1 - cos wt), as LAMMPS wiggles
-    return plan;
-}
 
 double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -55,30 +24,17 @@ double seconds() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 2) return fmt::print(stderr, "usage: bed10k FILE [threads] [settle steps] [steps]\n"), 2;
-    const int threads = argc > 2 ? std::atoi(argv[2]) : 1;
-    const std::int64_t settle = argc > 3 ? std::atoll(argv[3]) : 60000,
-                       steps = argc > 4 ? std::atoll(argv[4]) : 20000;
-    Container box;
-    box.shape = Container::Shape::box;
-    box.half_width = 0.01;
-    box.depth = 0.02;
-    box.height = 0.2;
-    box.lid = false;
-    Drive drive;
-    drive.present = true;
-    drive.frequency = 25;
-    drive.amplitude = 1.19e-3;
-    drive.phase = 0.75;
-    drive.ramp = 0;
-    drive.moves = Drive::Moves::floor;
-    const Plan plan = bed_plan();
-    Surroundings around;
-    around.faces = container_faces(box, drive);
-    around.motion = WallMotion(drive, plan.clock);
-    around.gravity = {0, 0, -9.81};
-    around.skin = 0.0002;
-    Grains grains = read_bed(argv[1]);
+    const int threads = argc > 1 ? std::atoi(argv[1]) : 1;
+    const std::int64_t settle = argc > 2 ? std::atoll(argv[2]) : 60000,
+                       steps = argc > 3 ? std::atoll(argv[3]) : 20000;
+    Plan plan = peers_plan();
+    if (argc > 4 && std::string(argv[4]) == "mixed") {
+        for (PairPlan& pair : plan.grain) pair.model.precision = Precision::mixed;
+        for (PairPlan& pair : plan.wall) pair.model.precision = Precision::mixed;
+    }
+    const PeersBed bed = peers_bed();
+    const Surroundings around = peers_surroundings(bed, plan);
+    Grains grains = peers_grains(bed);
     Team team(threads);
     const auto loop = std::make_unique<StepLoop>(plan, around, grains, team);
     loop->restart();

@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"[run]\n", "[run]\nwhatever = 3\n",
              "27:1: unknown key 'whatever' in [run]; the keys there are duration, seed, threads, accuracy, "
              "step, overlap, "
-             "integrator, contact_corrections, steps_per_contact"},
+             "integrator, precision, contact_corrections, steps_per_contact"},
         Case{"[drive]\n", "[[drive]]\n", "23:3: 'drive' must be a table; write [drive] above its keys"},
         Case{"g_level = 3\n", "", "23:2: [drive] lacks 'g_level'; write for example g_level = 0.5"},
         Case{"count = 100\n", "", "3:1: [[species]] lacks 'count'; write for example count = 100"},

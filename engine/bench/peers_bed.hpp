@@ -1,0 +1,36 @@
+// The bed that other engines are measured on: 9,000 grains of 1 mm above 1,125 of 2 mm in a box of 20 mm,
+// spring-dashpot contacts with friction history, a floor that is shaken at 25 Hz.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/plan.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+struct PeersBed {
+    double side = 0.02;      // m
+    double cover = 0.1;      // m, height above which nothing starts
+    double density = 2500;   // kg/m3
+    std::vector<Vec3> small_ones, big_ones;  // m, centres; the box from 0 to `side`
+};
+
+// The lattices from which it falls, with random shifts (7 is the seed of the peers' own files), to the eight
+// digits that those have.
+PeersBed peers_bed(std::uint32_t seed = 7, int small_count = 9000, int big_count = 1125);
+
+// Their diameters in m.
+constexpr double kPeersSmall = 0.001, kPeersBig = 0.002;
+
+Grains peers_grains(const PeersBed& bed);
+
+// kn 1000 N/m, kt 285.7 N/m, gamma_n 2634 1/s, gamma_t 1317 1/s, mu 0.5, walls the same; step 2e-6 s.
+Plan peers_plan();
+
+// Walls and gravity; the floor moves as a (1 - cos wt) with a = 1.19 mm from step 0 on.
+Surroundings peers_surroundings(const PeersBed& bed, const Plan& plan);
+
+}  // namespace grainreel

@@ -1,0 +1,59 @@
+#include "engine/laws/law_kernel.hpp"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/laws/law_kernel.cpp"
+#include "engine/vector/targets.hpp"
+//
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+const char* instructions() {
+    return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+HWY_EXPORT(instructions);
+
+// double_kernels.cpp and mixed_kernels.cpp
+const LawKernel* double_kernel(const ContactModel& model);
+const LawKernel* double_rolling_kernel();
+const LawKernel* mixed_kernel(const ContactModel& model);
+const LawKernel* mixed_rolling_kernel();
+
+void LawParameters::add(double value) {
+    constexpr double bound = 1e30;  // infinite friction and the like
+    values.push_back(value);
+    rounded.push_back(static_cast<float>(std::clamp(value, -bound, bound)));
+}
+
+const LawKernel& law_kernel(const ContactModel& model) {
+    if (model.own) return *model.own;
+    const LawKernel* kernel =
+        model.precision == Precision::mixed ? mixed_kernel(model) : double_kernel(model);
+    GRAINREEL_CHECK(kernel != nullptr);
+    return *kernel;
+}
+
+const LawKernel& rolling_kernel(Precision precision) {
+    return precision == Precision::mixed ? *mixed_rolling_kernel() : *double_rolling_kernel();
+}
+
+std::string vector_instructions() {
+    const std::string name = HWY_DYNAMIC_DISPATCH(instructions)();
+    if (name == "AVX3") return "AVX-512";
+    return name == "Scalar" || name == "EMU128" ? "none (plain x86-64)" : name;
+}
+
+}  // namespace grainreel
+#endif

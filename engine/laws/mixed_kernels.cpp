@@ -1,0 +1,36 @@
+// Laws and histories in floats: twice as many to a register. Positions, overlaps and sums of forces stay doubles.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/laws/mixed_kernels.cpp"
+#include "engine/vector/targets.hpp"
+//
+#include "engine/laws/list-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+const LawKernel* find_mixed(const ContactModel& model) {
+    return kernel_at<FloatLanes>(model);
+}
+
+const LawKernel* find_mixed_rolling() {
+    return &kernel_of_rolling<FloatLanes>();
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grainreel {
+
+HWY_EXPORT(find_mixed);
+HWY_EXPORT(find_mixed_rolling);
+
+const LawKernel* mixed_kernel(const ContactModel& model) {
+    return HWY_DYNAMIC_DISPATCH(find_mixed)(model);
+}
+const LawKernel* mixed_rolling_kernel() {
+    return HWY_DYNAMIC_DISPATCH(find_mixed_rolling)();
+}
+
+}  // namespace grainreel
+#endif
