@@ -86,21 +86,31 @@ struct Material {
     double e, mu, beta0;
 };
 
-// Psi is the slip over the normal speed before. Theirs: the larger of sliding and sticking.
+// Slips are over the normal speed before. Theirs: the larger of sliding and sticking.
+std::string binary_rows(const Material& m, const NamedLaw& named, double step) {
+    std::string rows;
+    const double sliding = 3.5 * (1 + m.e) * m.mu;
+    for (double share = step; share < 3.05; share += step) {
+        const double before = share * sliding, angle = std::atan(before);
+        const Rebound after = rebound(named.law, angle * 180 / pi, Target::equal_sphere);
+        const double is = (after.tangential - after.spin) / std::cos(angle);
+        const double published = std::max(before - sliding, -m.beta0 * before);
+        rows += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{:+.4f}\n", m.name, named.name, before, is, published,
+                            is - published);
+    }
+    return rows;
+}
+
 void binary(const ChartRequest& request) {
-    std::string table = "material,slip_before,slip_after,published,difference\n";
+    std::string table = "material,law,slip_before,slip_after,published,difference\n";
     for (const Material& m : {Material{"glass", 0.97, 0.092, 0.44}, Material{"acetate", 0.87, 0.25, 0.43}}) {
-        const ImpactLaw law = {NormalForce::walton_braun, TangentialLaw::incremental_slip, m.e, m.mu,
-                               ratio_that_turns(m.e, m.beta0)};
-        const double sliding = 3.5 * (1 + m.e) * m.mu, step = request.quick ? 0.5 : 0.1;
-        for (double share = step; share < 3.05; share += step) {
-            const double psi = share * sliding, angle = std::atan(psi);
-            const Rebound after = rebound(law, angle * 180 / pi, Target::equal_sphere);
-            const double is = (after.tangential - after.spin) / std::cos(angle);
-            const double published = std::max(psi - sliding, -m.beta0 * psi);
-            table +=
-                fmt::format("{},{:.4f},{:.4f},{:.4f},{:+.4f}\n", m.name, psi, is, published, is - published);
-        }
+        const double ratio = ratio_that_turns(m.e, m.beta0);
+        for (const NamedLaw& named :
+             {NamedLaw{"incremental slip",
+                       {NormalForce::walton_braun, TangentialLaw::incremental_slip, m.e, m.mu, ratio}},
+              NamedLaw{"linear spring",
+                       {NormalForce::walton_braun, TangentialLaw::linear_spring, m.e, m.mu, ratio}}})
+            table += binary_rows(m, named, request.quick ? 0.5 : 0.1);
     }
     replace_file(request.folder / "binary.csv", table);
 }

@@ -38,18 +38,23 @@ do for [form in "svg png"] {
     set title 'Slip after a binary impact: Foerster, Louge, Chang and Allia 1994'
     set xlabel 'slip before over normal speed before'
     set ylabel 'slip after over normal speed before'
-    plot for [m in "glass acetate"] rows('binary.csv', 1, m) using 2:4 with lines dt 2 lw 2 title m.', their lines', \
-        for [m in "glass acetate"] rows('binary.csv', 1, m) using 2:3 with points pt 7 ps 0.6 title m.', ours'
+    material(k) = word('glass acetate', k)
+    slips(m, law) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\"' binary.csv", m, law)
+    plot for [k=1:2] slips(material(k), 'linear spring') using 3:5 with lines dt 2 lw 2 lc k title material(k).', their lines', \
+        for [k=1:2] slips(material(k), 'incremental slip') using 3:4 with points pt 7 ps 0.6 lc k title material(k).', incremental slip', \
+        for [k=1:2] slips(material(k), 'linear spring') using 3:4 with points pt 6 ps 0.8 lc k title material(k).', linear spring'
 
     set output 'haff.'.form
     set title "A gas that cools, e = 0.9, solid fraction 0.05: Haff 1983"
     set xlabel 'time over {/Symbol t}'
     set ylabel 'T / T_0'
     set logscale y
+    set xrange [0:5.2]
     plot 1 / (1 + x)**2 with lines lw 2 lc 'black' title 'Haff', \
         rows('haff.csv', 1, '10000') using 2:3:4 with yerrorbars pt 7 ps 0.7 title '10 kN/m', \
         rows('haff.csv', 1, '160000') using 2:3:4 with yerrorbars pt 6 ps 1.1 title '160 kN/m'
     unset logscale
+    set autoscale
 
     eval "set terminal ".size_2
     set output 'packing.'.form
@@ -80,13 +85,15 @@ do for [form in "svg png"] {
     set ylabel 'apparent mass, likewise'
     set xrange [0:*]
     set yrange [0:2.5]
-    fitted(what) = real(system(sprintf("awk -F, '$1==\"%s\" {print $2}' janssen_fit.csv", what)))
-    K = fitted('K fitted')
-    mu = fitted('wall friction')
+    K(mu) = real(system(sprintf("awk -F, '$1==\"%s\" {print $2}' janssen_fit.csv", mu)))
+    law(x, mu) = (1 - exp(-4*mu*x)) / (4*mu)
+    slide = 0.2 * K('0.2'); roll = 0.5 * K('0.5')
     plot x with lines dt 2 lc 'gray' title 'hydrostatic', \
-        (1 - exp(-4*mu*K*x)) / (4*mu*K) with lines lw 2 lc 'black' title sprintf('Janssen, K = %.2f fitted', K), \
-        'silo.csv' every ::1 using 3:4 with points pt 7 ps 0.7 title 'floor sinking', \
-        'silo.csv' every ::1 using 3:8 with points pt 6 ps 1 title 'before, at rest'
+        law(x, slide) with lines lw 2 lc 1 title sprintf('Janssen, K = %.2f', slide / 0.2), \
+        rows('silo.csv', 1, '0.2') using 4:5 with points pt 7 ps 0.7 lc 1 title 'wall friction 0.2', \
+        rows('silo.csv', 1, '0.2') using 4:9 with points pt 6 ps 0.8 lc 1 title '0.2, still at rest', \
+        law(x, roll) with lines lw 2 lc 2 title sprintf('Janssen, K = %.2f', roll / 0.5), \
+        rows('silo.csv', 1, '0.5') using 4:5 with points pt 5 ps 0.7 lc 2 title 'wall friction 0.5'
     set autoscale
     unset title
 }
