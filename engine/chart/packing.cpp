@@ -26,12 +26,6 @@ PairPlan spring(double friction) {
     return pair;
 }
 
-double solid_volume(const Grains& grains) {
-    double sum = 0;
-    for (const Place& p : grains.place) sum += sphere_volume(p.radius);
-    return sum;
-}
-
 // All grains, centres at random, between walls at +- edge/2 in y and z.
 struct Crowd {
     const JammedPacking& setting;
@@ -41,16 +35,12 @@ struct Crowd {
     explicit Crowd(const JammedPacking& packing)
         : setting(packing), bench(spring(packing.friction), 0.1 / natural_frequency()) {
         bench.plan.wall = {spring(0)};
-        Random sizes(setting.seed, Stream::diameters), centres(setting.seed, Stream::centres);
+        edge = std::cbrt(setting.grains * sphere_volume(diameter / 2) / setting.solid_fraction);
+        const double room = edge / 2 - diameter / 2;
+        Random centres(setting.seed, Stream::centres);
         for (int k = 0; k < setting.grains; ++k) {
-            const double d = diameter * sizes.between(1 - setting.spread, 1 + setting.spread);
-            bench.add(Vec3::Zero(), Vec3::Zero(), d / 2, density);
-        }
-        edge = std::cbrt(solid_volume(bench.grains) / setting.solid_fraction);
-        for (Place& p : bench.grains.place) {
-            const double room = edge / 2 - p.radius;
             const double x = centres.between(-edge / 2, edge / 2), y = centres.between(-room, room);
-            p.position = Vec3(x, y, centres.between(-room, room));
+            bench.add(Vec3(x, y, centres.between(-room, room)), Vec3::Zero(), diameter / 2, density);
         }
         for (const Vec3& normal : {Vec3::UnitY().eval(), Vec3::UnitZ().eval()}) {
             bench.add_plane(-edge / 2 * normal, normal);
@@ -161,10 +151,10 @@ std::vector<PackingState> decompress(const JammedPacking& packing, int states) {
     double excess = 0.02;  // of the solid fraction above jamming, unknown at first
     while (static_cast<int>(all.size()) < states) {
         const double now = all.back().solid_fraction;
-        crowd.shrink(std::cbrt(1 - 0.4 * excess / now));
+        crowd.shrink(std::cbrt(1 - packing.share * excess / now));
         rest(crowd, 0.05, 1e-3, 40000);
         const PackingState before = all.back(), after = state_of(crowd);
-        if (after.rattlers > 0.5 || after.pressure >= before.pressure) break;  // it came apart
+        if (after.unbalanced > 0.01 || after.rattlers > 0.5 || after.pressure >= before.pressure) break;
         all.push_back(after);
         excess = (before.solid_fraction - after.solid_fraction) * after.pressure /
                  (before.pressure - after.pressure);

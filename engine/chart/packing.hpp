@@ -15,24 +15,23 @@ namespace grainreel {
 
 struct JammedPacking {
     int grains = 4000;
-    double spread = 0;              // diameters are even within +- this share of their mean
     double friction = 0;            // among grains; the walls have none
     double solid_fraction = 0.645;  // of the whole box at first
     double margin = 3;              // diameters: what is nearer to a wall is left out of the measures
+    double share = 0.4;             // of the distance to jamming, that each decompression takes away
     std::uint64_t seed = 1;
 };
 
 // At one pressure, away from the walls.
 struct PackingState {
-    double pressure = 0;        // p d / K, d the mean diameter, K the stiffness
+    double pressure = 0;        // p d / K, d the diameter at first, K the stiffness
     double solid_fraction = 0;  // of the volume, rattlers and cut grains counted as far as they lie in it
     double contacts = 0;        // a grain that is no rattler, with others that are none
     double rattlers = 0;        // share of the grains
     double unbalanced = 0;      // rms net force on a grain, over the mean contact force
 };
 
-// At most `states` of them, of falling pressure: each has lost about 0.4 of the last one's distance to
-// jamming. Fewer when the packing comes apart.
+// At most `states` of them, of falling pressure; fewer when the packing comes apart.
 std::vector<PackingState> decompress(const JammedPacking& packing, int states);
 
 // Where straight lines through the states below p d / K = 0.003 (at least the last three) reach zero

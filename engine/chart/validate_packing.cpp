@@ -20,8 +20,13 @@ JammedPacking packing_of(double friction, int seed, bool quick) {
     packing.friction = friction;
     packing.grains = quick ? 1500 : friction > 0 ? 3000 : 6000;
     packing.margin = quick ? 2.5 : friction > 0 ? 3 : 4;
+    packing.share = friction > 0 ? 0.25 : 0.4;
     packing.seed = static_cast<std::uint64_t>(seed);
     return packing;
+}
+
+int states_of(double friction, bool quick) {
+    return quick ? 10 : friction > 0 ? 20 : 12;
 }
 
 std::vector<PackingState> states_in(const ResultTable& table, double friction, int seed) {
@@ -57,7 +62,8 @@ bool run(const ChartRequest& request, ChartWork& work) {
         for (int seed = 1; seed <= seeds(request.quick); ++seed) {
             if (!work.next(fmt::format("packing, friction {}, seed {}", friction, seed))) return false;
             if (table.has({number(friction), number(seed), "end"})) continue;
-            const auto states = decompress(packing_of(friction, seed, request.quick), request.quick ? 8 : 12);
+            const auto states =
+                decompress(packing_of(friction, seed, request.quick), states_of(friction, request.quick));
             for (std::size_t k = 0; k < states.size(); ++k) {
                 const PackingState& s = states[k];
                 const std::vector<std::string> key = {number(friction), number(seed),

@@ -61,15 +61,15 @@ do for [form in "svg png"] {
     set multiplot layout 2,1 title 'Jammed spheres, decompressed'
     unset title
     mus = "0 0.1 0.5 10"
-    set xrange [0:0.0032]
+    set xrange [0:0.0105]
     set xlabel 'pressure p d / K'
     set ylabel 'solid fraction'
-    set yrange [0.54:0.66]
+    set yrange [0.54:0.67]
     plot for [k=1:4] rows('packing.csv', 1, word(mus, k)) using 4:5 with points pt 7 ps 0.6 title 'friction '.word(mus, k), \
         0.639 with lines dt 2 lc 'black' title "O'Hern et al., 0.639", \
         0.555 with lines dt 3 lc 'black' title 'random loose, 0.555'
-    set xrange [0:0.057]
-    set yrange [3.8:7]
+    set xrange [0:0.103]
+    set yrange [3.8:7.4]
     set xlabel '(p d / K)^{1/2}'
     set ylabel 'contacts a grain'
     plot for [k=1:4] rows('packing.csv', 1, word(mus, k)) using (sqrt($4)):6 with points pt 7 ps 0.6 title 'friction '.word(mus, k), \
@@ -84,7 +84,7 @@ do for [form in "svg png"] {
     set xlabel 'filling: mass over that of a column one bore high'
     set ylabel 'apparent mass, likewise'
     set xrange [0:*]
-    set yrange [0:2.5]
+    set yrange [0:3.5]
     K(mu) = real(system(sprintf("awk -F, '$1==\"%s\" {print $2}' janssen_fit.csv", mu)))
     law(x, mu) = (1 - exp(-4*mu*x)) / (4*mu)
     slide = 0.2 * K('0.2'); roll = 0.5 * K('0.5')
