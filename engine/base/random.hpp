@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-enum class Stream : std::uint64_t { diameters = 1, centres = 2 };
+enum class Stream : std::uint64_t { diameters = 1, centres = 2, velocities = 3 };
 
 class Random {
   public:

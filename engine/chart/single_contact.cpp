@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
+#include "engine/chart/bench.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/scene/damping.hpp"
 #include "engine/step/scheme.hpp"
-#include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 namespace {
@@ -59,38 +58,13 @@ double contact_time(const Method& method, double restitution, double effective_m
     return pi / 2 * (1 + restitution) / natural;
 }
 
-// A few grains, faces and a loop over them, on one thread.
-struct Bench {
-    Plan plan;
-    Surroundings around;
-    Grains grains;
-    Team team{1};
-    std::unique_ptr<StepLoop> loop;
-    std::int64_t step = 0;
-
-    Bench(const Method& method, const PairPlan& pair, double step_length) {
+// Grains of the radius and density above, whose contacts follow the method.
+struct ContactBench : Bench {
+    ContactBench(const Method& method, const PairPlan& pair, double step_length) : Bench(pair, step_length) {
         plan.integrator = method.integrator;
-        plan.grain = plan.wall = {pair};
-        plan.clock.step = step_length;
-        around.skin = 0.2 * radius;
     }
-    void add_floor() {
-        Face floor;
-        floor.name = "floor";
-        around.faces = {floor};
-    }
-    void add(const Vec3& position, const Vec3& velocity) {
-        grains.add(static_cast<std::int32_t>(grains.size()), 0, position, radius, density);
-        grains.motion.back().velocity = velocity;
-    }
-    void start() {
-        loop = std::make_unique<StepLoop>(plan, around, grains, team);
-        loop->restart();
-    }
-    void run(std::int64_t count) {
-        loop->run(step, count, plan.clock.step, 0);
-        step += count;
-    }
+    void add_floor() { add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1)); }
+    void add(const Vec3& position, const Vec3& velocity) { Bench::add(position, velocity, radius, density); }
 };
 
 }  // namespace
@@ -106,7 +80,7 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
     const double time = contact_time(smooth, restitution, effective, radius / 2), length = time / steps;
     NormalErrors errors;
     for (int phase = 0; phase < phases; ++phase) {
-        Bench bench(smooth, pair_of(smooth, restitution, effective), length);
+        ContactBench bench(smooth, pair_of(smooth, restitution, effective), length);
         const double apart = radius + 0.5 * (phase + 0.5) / phases * speed * length;
         bench.add(Vec3(-apart, 0, 0), Vec3(speed / 2, 0, 0));
         bench.add(Vec3(apart, 0, 0), Vec3(-speed / 2, 0, 0));
@@ -133,7 +107,7 @@ struct Rebound {
 
 Rebound oblique(const Method& method, double restitution, double steps, double angle) {
     const double time = contact_time(method, restitution, mass(), radius), length = time / steps;
-    Bench bench(method, pair_of(method, restitution, mass()), length);
+    ContactBench bench(method, pair_of(method, restitution, mass()), length);
     bench.add_floor();
     const double down = speed * std::cos(angle);
     bench.add(Vec3(0, 0, radius + 0.5 * down * length), Vec3(speed * std::sin(angle), 0, -down));
@@ -163,7 +137,7 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
 namespace {
 
 double drift_from(double height, double gravity, const Method& method, double length, std::int64_t steps) {
-    Bench bench(method, pair_of(method, 1, mass()), length);
+    ContactBench bench(method, pair_of(method, 1, mass()), length);
     bench.add_floor();
     bench.around.gravity = {0, 0, -gravity};
     bench.add(Vec3(0, 0, radius + height), Vec3(0, 0, 0));
@@ -194,7 +168,7 @@ double bounce_drift(const Method& method, double steps, int bounces) {
 
 double cost_of_a_contact(const Method& method) {
     constexpr int side = 20, steps = 60;
-    Bench bench(method, pair_of(method, 0.9, mass() / 2), 1e-9);
+    ContactBench bench(method, pair_of(method, 0.9, mass() / 2), 1e-9);
     const double apart = 2 * radius * (1 - 1e-4);
     for (int x = 0; x < side; ++x)
         for (int y = 0; y < side; ++y)
