@@ -87,7 +87,7 @@ void settle(Bench& bench) {
         bench.run(steps_per_look, drag);
         if (kinetic_energy(bench.grains).translation < rest) break;
     }
-    bench.step = 0;
+    bench.step = 0;  // the lists count the jump as free flight, and are made again
 }
 
 // Sums over the contacts with floor and wall, and what grains and wall make of the vertical stress.
