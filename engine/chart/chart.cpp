@@ -1,6 +1,7 @@
 #include "engine/chart/chart.hpp"
 
 #include "engine/chart/accuracy.hpp"
+#include "engine/chart/stability.hpp"
 
 namespace grainreel {
 
@@ -8,6 +9,8 @@ const std::vector<Chart>& charts() {
     static const std::vector<Chart> all = {
         {"accuracy", "error against cost: restitution, rebound, energy, a small bed", run_accuracy,
          accuracy_drawing},
+        {"stability", "where each method fails, against theory: step, speed, stiffness, drive, round-off",
+         run_stability, stability_drawing},
     };
     return all;
 }

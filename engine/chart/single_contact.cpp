@@ -3,25 +3,23 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
-#include "engine/measure/energy.hpp"
+#include "engine/chart/bench.hpp"
 #include "engine/scene/damping.hpp"
 #include "engine/step/scheme.hpp"
-#include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double radius = 0.002, density = 2500, stiffness = 1e5;  // m, kg/m3, N/m
-constexpr double speed = 0.3;                                      // m/s, of impacts
+constexpr double radius = bench_radius, stiffness = bench_stiffness;
+constexpr double speed = 0.3;  // m/s, of impacts
 constexpr double friction = 0.3;
 
 double mass() {
-    return density * 4 / 3 * pi * radius * radius * radius;
+    return bench_mass();
 }
 
 // One species whose contacts follow the method; `effective_mass` of those that matter.
@@ -59,40 +57,6 @@ double contact_time(const Method& method, double restitution, double effective_m
     return pi / 2 * (1 + restitution) / natural;
 }
 
-// A few grains, faces and a loop over them, on one thread.
-struct Bench {
-    Plan plan;
-    Surroundings around;
-    Grains grains;
-    Team team{1};
-    std::unique_ptr<StepLoop> loop;
-    std::int64_t step = 0;
-
-    Bench(const Method& method, const PairPlan& pair, double step_length) {
-        plan.integrator = method.integrator;
-        plan.grain = plan.wall = {pair};
-        plan.clock.step = step_length;
-        around.skin = 0.2 * radius;
-    }
-    void add_floor() {
-        Face floor;
-        floor.name = "floor";
-        around.faces = {floor};
-    }
-    void add(const Vec3& position, const Vec3& velocity) {
-        grains.add(static_cast<std::int32_t>(grains.size()), 0, position, radius, density);
-        grains.motion.back().velocity = velocity;
-    }
-    void start() {
-        loop = std::make_unique<StepLoop>(plan, around, grains, team);
-        loop->restart();
-    }
-    void run(std::int64_t count) {
-        loop->run(step, count, plan.clock.step, 0);
-        step += count;
-    }
-};
-
 }  // namespace
 
 int Method::forces_a_step() const {
@@ -106,7 +70,7 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
     const double time = contact_time(smooth, restitution, effective, radius / 2), length = time / steps;
     NormalErrors errors;
     for (int phase = 0; phase < phases; ++phase) {
-        Bench bench(smooth, pair_of(smooth, restitution, effective), length);
+        Bench bench(pair_of(smooth, restitution, effective), length, smooth.integrator);
         const double apart = radius + 0.5 * (phase + 0.5) / phases * speed * length;
         bench.add(Vec3(-apart, 0, 0), Vec3(speed / 2, 0, 0));
         bench.add(Vec3(apart, 0, 0), Vec3(-speed / 2, 0, 0));
@@ -133,7 +97,7 @@ struct Rebound {
 
 Rebound oblique(const Method& method, double restitution, double steps, double angle) {
     const double time = contact_time(method, restitution, mass(), radius), length = time / steps;
-    Bench bench(method, pair_of(method, restitution, mass()), length);
+    Bench bench(pair_of(method, restitution, mass()), length, method.integrator);
     bench.add_floor();
     const double down = speed * std::cos(angle);
     bench.add(Vec3(0, 0, radius + 0.5 * down * length), Vec3(speed * std::sin(angle), 0, -down));
@@ -163,7 +127,7 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
 namespace {
 
 double drift_from(double height, double gravity, const Method& method, double length, std::int64_t steps) {
-    Bench bench(method, pair_of(method, 1, mass()), length);
+    Bench bench(pair_of(method, 1, mass()), length, method.integrator);
     bench.add_floor();
     bench.around.gravity = {0, 0, -gravity};
     bench.add(Vec3(0, 0, radius + height), Vec3(0, 0, 0));
@@ -194,7 +158,7 @@ double bounce_drift(const Method& method, double steps, int bounces) {
 
 double cost_of_a_contact(const Method& method) {
     constexpr int side = 20, steps = 60;
-    Bench bench(method, pair_of(method, 0.9, mass() / 2), 1e-9);
+    Bench bench(pair_of(method, 0.9, mass() / 2), 1e-9, method.integrator);
     const double apart = 2 * radius * (1 - 1e-4);
     for (int x = 0; x < side; ++x)
         for (int y = 0; y < side; ++y)
