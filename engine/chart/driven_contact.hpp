@@ -14,15 +14,15 @@ class DrivenContact {
 
     // Where the contact is led in one step.
     struct Move {
-        Vec3 normal{0, 0, 1};   // unit, from i to j, at the end of the step
-        double overlap = 0;     // m, likewise
-        Vec3 slip{0, 0, 0};     // m, of i over j during the step
-        double twist = 0;       // rad, about the normal, likewise
+        Vec3 normal{0, 0, 1};  // unit, from i to j, at the end of the step
+        double overlap = 0;    // m, likewise
+        Vec3 slip{0, 0, 0};    // m, of i over j during the step
+        double twist = 0;      // rad, about the normal, likewise
     };
     void move(const Move& move);
 
     double normal_force() const { return force_.normal[0]; }  // N
-    Vec3 tangential() const {                                  // N, on j
+    Vec3 tangential() const {                                 // N, on j
         return {force_.tangential[0][0], force_.tangential[1][0], force_.tangential[2][0]};
     }
 

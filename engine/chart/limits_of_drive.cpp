@@ -33,8 +33,9 @@ std::unique_ptr<Bench> on_a_plate(const PairPlan& pair, int steps_a_period, doub
     return whole;
 }
 
-// A ball at rest on a plate below 1 g: its largest speed against the plate over a omega, in every twentieth of
-// the first three periods. Started at once the plate hits it at a omega, and it first leaves at e times that.
+// A ball at rest on a plate below 1 g: its largest speed against the plate over a omega, in every twentieth
+// of the first three periods. Started at once the plate hits it at a omega, and it first leaves at e times
+// that.
 Finding kick(double ramp) {
     constexpr double e = 0.9, level = 0.9;
     constexpr int steps = 40000, points = 60;
@@ -64,7 +65,8 @@ Finding kick(double ramp) {
 }
 
 // A ball on a spring and a dashpot on the plate, long after the start, against the steady swing a (K + i c w)
-// / (K - m w^2 + i c w); the largest distance over the amplitude. The frequency is a fifth of the natural one.
+// / (K - m w^2 + i c w); the largest distance over the amplitude. The frequency is a fifth of the natural
+// one.
 double steady_error(int steps_a_period) {
     const double omega = 2 * pi * frequency, natural = 5 * omega, damping = natural;  // 1/s
     PairPlan pair;
@@ -73,7 +75,8 @@ double steady_error(int steps_a_period) {
     pair.normal_damping = damping;
     const auto whole = on_a_plate(pair, steps_a_period, 0.5, 3);
     Bench& bench = *whole;
-    const double amplitude = 0.5 * gravity / (omega * omega), rest = bench_radius - gravity / (natural * natural);
+    const double amplitude = 0.5 * gravity / (omega * omega),
+                 rest = bench_radius - gravity / (natural * natural);
     const std::complex<double> spring(natural * natural, damping * omega);
     const std::complex<double> swing = amplitude * spring / (spring - omega * omega);
     bench.add(Vec3(0, 0, rest));
@@ -167,7 +170,8 @@ Finding hard_shaking(bool quick) {
     Finding finding;
     finding.theory = 1;
     finding.measured = 0;
-    for (const double level : quick ? std::vector<double>{3, 20} : std::vector<double>{1, 2, 3, 5, 8, 12, 16, 20}) {
+    for (const double level :
+         quick ? std::vector<double>{3, 20} : std::vector<double>{1, 2, 3, 5, 8, 12, 16, 20}) {
         const Scene scene = read_scene_text(bed_text(quick ? 60 : 200, level, quick ? 0.3 : 0.5), "bed.toml");
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 1);
@@ -188,17 +192,18 @@ Finding hard_shaking(bool quick) {
 
 std::vector<Experiment> drive_experiments() {
     const auto silent = Failure::silent;
-    return {{"kick without ramp", "speed against the plate / (a omega)", silent,
-             "ramp of 3 periods by default; check warns of none", [](bool) { return kick(0); }},
-            {"kick with a ramp of 3 periods", "speed against the plate / (a omega)", silent,
-             "the default", [](bool) { return kick(3); }},
-            {"walls in a step", "order of the error", silent, "walls at the time of the force", order_of_walls},
-            {"creep under sideways shaking (arms to the plane)", "way a period / diameter", silent, "none",
-             [](bool quick) { return creep(LeverArms::contact_plane, quick); }},
-            {"creep under sideways shaking (arms of the radius)", "way a period / diameter", silent,
-             "check warns of arms = radius", [](bool quick) { return creep(LeverArms::radius, quick); }},
-            {"shaking at 1 to 20 g", "largest overlap / expected", Failure::loud,
-             "the plan's stiffness; health check", hard_shaking}};
+    return {
+        {"kick without ramp", "speed against the plate / (a omega)", silent,
+         "ramp of 3 periods by default; check warns of none", [](bool) { return kick(0); }},
+        {"kick with a ramp of 3 periods", "speed against the plate / (a omega)", silent, "the default",
+         [](bool) { return kick(3); }},
+        {"walls in a step", "order of the error", silent, "walls at the time of the force", order_of_walls},
+        {"creep under sideways shaking (arms to the plane)", "way a period / diameter", silent, "none",
+         [](bool quick) { return creep(LeverArms::contact_plane, quick); }},
+        {"creep under sideways shaking (arms of the radius)", "way a period / diameter", silent,
+         "check warns of arms = radius", [](bool quick) { return creep(LeverArms::radius, quick); }},
+        {"shaking at 1 to 20 g", "largest overlap / expected", Failure::loud,
+         "the plan's stiffness; health check", hard_shaking}};
 }
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 // Oblique impacts with friction from none to endless, at walls and in corners: energy is never gained, and
 // the closed forms of sticking and of sliding are met. (Known of a widely used engine, 2026: wall friction
-// with history could add 34 % of kinetic energy at a grazing impact, friction 0.5, 76 degrees from the normal.)
+// with history could add 34 % of kinetic energy at a grazing impact, friction 0.5, 76 degrees from the
+// normal.)
 #include <algorithm>
 #include <numbers>
 
@@ -62,11 +63,10 @@ Finding sticking(bool) {
         const Plan plan = plan_of(impact);
         impact.speed /= 100;  // the formula is that of a small overlap
         const Impact after = make_impact(impact, plan, plan.clock.step / 100, pi / 4, 0.5);
-        const double slip = (after.velocity[0].y() + bench_radius * after.spin[0].z()) /
-                            (impact.speed * std::sin(pi / 4));
+        const double slip =
+            (after.velocity[0].y() + bench_radius * after.spin[0].z()) / (impact.speed * std::sin(pi / 4));
         const double slid = 1 - 3.5 * friction * (1 + e);  // throughout while tan 45 >= 3.5 mu (1 + e)...
-        finding.curve.push_back(
-            {friction, slip, friction < 0.12 ? slid : friction > 100 ? stuck : unknown});
+        finding.curve.push_back({friction, slip, friction < 0.12 ? slid : friction > 100 ? stuck : unknown});
         finding.measured = slip;
     }
     return finding;
@@ -75,7 +75,8 @@ Finding sticking(bool) {
 // Sliding throughout: Delta v_t = mu (1 + e) v_n, r Delta omega = 2.5 of it.
 double sliding_energy(double e, double friction, double angle) {
     const double push = friction * (1 + e) * std::cos(angle);
-    return std::pow(e * std::cos(angle), 2) + std::pow(std::sin(angle) - push, 2) + 0.4 * std::pow(2.5 * push, 2);
+    return std::pow(e * std::cos(angle), 2) + std::pow(std::sin(angle) - push, 2) +
+           0.4 * std::pow(2.5 * push, 2);
 }
 
 Finding grazing_at_a_wall(double e) {
@@ -136,14 +137,15 @@ Finding grazing_in_a_corner(double e, bool quick) {
 std::vector<Experiment> friction_experiments() {
     const auto silent = Failure::silent;
     const std::string guard = "energy watch at 5 % of the turnover", energy = "largest energy after / before";
-    return {{"friction 0 to 1e6", energy, silent, guard, gain_by_friction},
-            {"sticking at friction 1e6", "slip after / before", silent, "none needed", sticking},
-            {"grazing at a wall (e = 0.9)", energy, silent, guard, [](bool) { return grazing_at_a_wall(0.9); }},
-            {"grazing at a wall (e = 1)", energy, silent, guard, [](bool) { return grazing_at_a_wall(1); }},
-            {"grazing in a corner (e = 0.9)", energy, silent, guard,
-             [](bool quick) { return grazing_in_a_corner(0.9, quick); }},
-            {"grazing in a corner (e = 1)", energy, silent, guard,
-             [](bool quick) { return grazing_in_a_corner(1, quick); }}};
+    return {
+        {"friction 0 to 1e6", energy, silent, guard, gain_by_friction},
+        {"sticking at friction 1e6", "slip after / before", silent, "none needed", sticking},
+        {"grazing at a wall (e = 0.9)", energy, silent, guard, [](bool) { return grazing_at_a_wall(0.9); }},
+        {"grazing at a wall (e = 1)", energy, silent, guard, [](bool) { return grazing_at_a_wall(1); }},
+        {"grazing in a corner (e = 0.9)", energy, silent, guard,
+         [](bool quick) { return grazing_in_a_corner(0.9, quick); }},
+        {"grazing in a corner (e = 1)", energy, silent, guard,
+         [](bool quick) { return grazing_in_a_corner(1, quick); }}};
 }
 
 }  // namespace grainreel

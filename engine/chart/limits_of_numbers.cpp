@@ -1,5 +1,5 @@
-// Round-off: a bead at rest on a plate sinks in by m g / K. When a unit in the last place of its position is as
-// large as that, the contact force is a lottery. 3 mm glass at 0.3 m from the origin, as in a hopper.
+// Round-off: a bead at rest on a plate sinks in by m g / K. When a unit in the last place of its position is
+// as large as that, the contact force is a lottery. 3 mm glass at 0.3 m from the origin, as in a hopper.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,8 +22,8 @@ double last_place(bool in_single) {
                      : std::nextafter(height, 1.0) - height;
 }
 
-// |N / (m g) - 1| of a bead at rest, on a spring with a dashpot: root mean square over time, on a plate `shift` of
-// a last place higher.
+// |N / (m g) - 1| of a bead at rest, on a spring with a dashpot: root mean square over time, on a plate
+// `shift` of a last place higher.
 double force_error(double stiffness, bool in_single, double shift) {
     const double mass = sphere_mass_of(radius), natural = std::sqrt(stiffness / mass);
     PairPlan pair;
@@ -63,9 +63,10 @@ Finding rounding(bool in_single) {
     for (const double share : logarithmic(1e-4, 30, 12))
         finding.curve.push_back({share * limit, worst_error(share * limit, in_single), 0.5 * share});
     finding.theory = limit;
-    finding.measured = limit * std::exp(last_that_holds(std::log(1e-3), std::log(30.0), 12, [&](double share) {
-                           return worst_error(std::exp(share) * limit, in_single) < 0.5;
-                       }));
+    finding.measured =
+        limit * std::exp(last_that_holds(std::log(1e-3), std::log(30.0), 12, [&](double share) {
+            return worst_error(std::exp(share) * limit, in_single) < 0.5;
+        }));
     finding.usual = 2e4;
     return finding;
 }
@@ -73,8 +74,8 @@ Finding rounding(bool in_single) {
 }  // namespace
 
 std::vector<Experiment> number_experiments() {
-    return {{"rounding in single precision", "stiffness in N/m", Failure::silent, "the engine computes in double",
-             [](bool) { return rounding(true); }},
+    return {{"rounding in single precision", "stiffness in N/m", Failure::silent,
+             "the engine computes in double", [](bool) { return rounding(true); }},
             {"rounding in double precision", "stiffness in N/m", Failure::silent, "check warns",
              [](bool) { return rounding(false); }}};
 }

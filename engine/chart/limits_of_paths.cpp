@@ -82,7 +82,8 @@ Finding twisting_direction(bool) {
 // ---- closed loops ----
 
 // Loaded by a slip at the overlap `high`, unloaded by the same slip back at `low`, elastic along the normal:
-// energy made by the contact over the work of the slip forwards (Elata & Berryman 1996, Mech. Mater. 24, 229).
+// energy made by the contact over the work of the slip forwards (Elata & Berryman 1996, Mech. Mater. 24,
+// 229).
 double made_in_a_loop(TangentialLaw law, double low, double high) {
     constexpr int steps = 4000;
     DrivenContact contact(contact_of(law, friction));
@@ -136,8 +137,8 @@ double made_by_theory(TangentialLaw law, double low, double high) {
 }
 
 Experiment loop_of(TangentialLaw law, const std::string& name, const std::string& guard) {
-    return {"closed loop of " + name, "largest energy made / work of the slip", Failure::silent,
-            guard, [law](bool) {
+    return {"closed loop of " + name, "largest energy made / work of the slip", Failure::silent, guard,
+            [law](bool) {
                 constexpr double overlap = 1e-3 * bench_radius;
                 Finding finding;
                 finding.theory = finding.measured = -1;
@@ -155,9 +156,10 @@ Experiment loop_of(TangentialLaw law, const std::string& name, const std::string
 // ---- ratcheting ----
 
 // Two touching grains over cycles that end where they began: overlap d0 (1 + cos(psi) / 2) while they turn by
-// p sin(psi), as one body (`swing`) or each on its place (`roll`). What slip the spring keeps a cycle, over d0
-// p: arms of the radius count d dp too much when they swing, arms to the contact plane when they roll, pi/2 in
-// each case (der; McNamara, Garcia-Rojo & Herrmann 2008, Phys. Rev. E 77, 031304 on what follows of it).
+// p sin(psi), as one body (`swing`) or each on its place (`roll`). What slip the spring keeps a cycle, over
+// d0 p: arms of the radius count d dp too much when they swing, arms to the contact plane when they roll,
+// pi/2 in each case (der; McNamara, Garcia-Rojo & Herrmann 2008, Phys. Rev. E 77, 031304 on what follows of
+// it).
 double slip_a_cycle(LeverArms arms, bool swing, int steps) {
     constexpr double depth = 1e-3 * bench_radius, swings = 0.1;
     constexpr int cycles = 10;
@@ -179,9 +181,8 @@ double slip_a_cycle(LeverArms arms, bool swing, int steps) {
         bench.run(1);
     }
     double sheared = 0;
-    bench.loop->visit_contacts(bench.step, [&](const ContactView& c) {
-        sheared = c.tangential.norm() / (0.8 * bench_stiffness);
-    });
+    bench.loop->visit_contacts(
+        bench.step, [&](const ContactView& c) { sheared = c.tangential.norm() / (0.8 * bench_stiffness); });
     return sheared / cycles / (depth * swings);
 }
 
@@ -208,8 +209,8 @@ std::vector<Experiment> path_experiments() {
     const std::string guard = "energy watch at 5 % of the turnover";
     std::vector<Experiment> all = {
         {"turning pair", "change of |T| / |T| in 20 turns", Failure::silent, "none needed", turning_length},
-        {"twisting pair", "direction error of T in rad a turn of 100 steps", Failure::silent,
-         "none needed", twisting_direction},
+        {"twisting pair", "direction error of T in rad a turn of 100 steps", Failure::silent, "none needed",
+         twisting_direction},
         loop_of(TangentialLaw::linear_spring, "linear-spring", guard),
         loop_of(TangentialLaw::mindlin, "mindlin", guard),
         loop_of(TangentialLaw::incremental_slip, "incremental-slip", guard)};

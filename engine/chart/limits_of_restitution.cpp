@@ -39,9 +39,9 @@ Finding planned_errors(const std::vector<double>& values, bool quick, const Set&
 }
 
 Finding restitutions(bool quick) {
-    return planned_errors({0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98,
-                           0.99, 0.999},
-                          quick, [](ImpactScene& impact, double e) { impact.restitution = e; });
+    return planned_errors(
+        {0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.999},
+        quick, [](ImpactScene& impact, double e) { impact.restitution = e; });
 }
 
 Finding sizes(bool quick) {
@@ -115,8 +115,8 @@ Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, 
         const double error = normal_errors(plain, e, steps, quick ? 40 : 200).restitution;
         const auto known = std::find_if(derived.begin(), derived.end(),
                                         [&](const auto& figure) { return figure.first == steps; });
-        finding.curve.push_back({static_cast<double>(steps), error,
-                                 known == derived.end() ? unknown : known->second});
+        finding.curve.push_back(
+            {static_cast<double>(steps), error, known == derived.end() ? unknown : known->second});
         if (steps == 12) {
             finding.theory = known->second;
             finding.measured = error;
@@ -130,18 +130,20 @@ Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, 
 std::vector<Experiment> restitution_experiments() {
     const auto silent = Failure::silent;
     const std::string plan = "the plan's step", steps = "check warns of too few steps; it prints the error";
-    return {{"restitution 0.02 to 0.999", "largest error of e", silent, plan, restitutions},
-            {"size ratio 1 to 20", "largest error of e", silent, plan, sizes},
-            {"mass ratio 1 to 1000", "largest error of e", silent, plan, masses},
-            {"momentum at size ratios 1 to 20", "largest change / momentum", silent, "arms to the contact plane",
-             momenta},
-            {"slip at size ratios 1 to 20", "largest error / that of equal grains", silent, plan,
-             oblique_sizes},
-            {"12 steps a contact (e = 0.9)", "largest error of e", silent, steps,
-             [](bool quick) { return few_steps(0.9, {{5, .019}, {10, .0032}, {12, .0018}, {20, .0003}}, quick); }},
-            {"12 steps a contact (e = 0.3)", "largest error of e", silent, steps, [](bool quick) {
-                 return few_steps(0.3, {{5, .10}, {10, .013}, {12, .0082}, {20, .0014}, {40, .0008}}, quick);
-             }}};
+    return {
+        {"restitution 0.02 to 0.999", "largest error of e", silent, plan, restitutions},
+        {"size ratio 1 to 20", "largest error of e", silent, plan, sizes},
+        {"mass ratio 1 to 1000", "largest error of e", silent, plan, masses},
+        {"momentum at size ratios 1 to 20", "largest change / momentum", silent, "arms to the contact plane",
+         momenta},
+        {"slip at size ratios 1 to 20", "largest error / that of equal grains", silent, plan, oblique_sizes},
+        {"12 steps a contact (e = 0.9)", "largest error of e", silent, steps,
+         [](bool quick) {
+             return few_steps(0.9, {{5, .019}, {10, .0032}, {12, .0018}, {20, .0003}}, quick);
+         }},
+        {"12 steps a contact (e = 0.3)", "largest error of e", silent, steps, [](bool quick) {
+             return few_steps(0.3, {{5, .10}, {10, .013}, {12, .0082}, {20, .0014}, {40, .0008}}, quick);
+         }}};
 }
 
 }  // namespace grainreel

@@ -43,7 +43,8 @@ class HardColumn {
     }
     // Kinetic energy over that before, once nothing meets any more.
     double energy_left() {
-        while (meet_next()) {}
+        while (meet_next()) {
+        }
         double sum = 0;
         for (const double v : velocity_) sum += v * v / column_of;
         return sum;
@@ -246,7 +247,8 @@ Finding drive_near_contact(bool quick) {
         return point;
     };
     Finding finding;
-    for (const double share : logarithmic(0.003, 1.03, quick ? 8 : 16)) finding.curve.push_back(errors(share));
+    for (const double share : logarithmic(0.003, 1.03, quick ? 8 : 16))
+        finding.curve.push_back(errors(share));
     finding.measured = last_that_holds(1e-3, 0.3, 9, [&](double share) { return errors(share).value < off; });
     finding.theory = last_that_holds(1e-3, 0.3, 9, [&](double share) { return errors(share).theory < off; });
     return finding;
@@ -260,8 +262,8 @@ std::vector<Experiment> softness_experiments() {
             detachment(NormalForce::spring_dashpot, 0.9, "dashpot"),
             {"soft column", "frequency x layers sqrt(m/K) where the top moves twice as far", silent,
              "the plan's stiffness; check warns of slow waves", soft_column},
-            {"drive as fast as a contact", "frequency x time of a contact where the rebound is 10 % off", silent,
-             "check warns", drive_near_contact}};
+            {"drive as fast as a contact", "frequency x time of a contact where the rebound is 10 % off",
+             silent, "check warns", drive_near_contact}};
 }
 
 }  // namespace grainreel

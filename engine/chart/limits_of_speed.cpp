@@ -25,7 +25,9 @@ double after_head_on(double speed, double step, double phase) {
     bench.add(Vec3(-apart, 0, 0), Vec3(0.5 * closing, 0, 0));
     bench.add(Vec3(apart, 0, 0), Vec3(-0.5 * closing, 0, 0));
     bench.start();
-    while ((bench.position(1) - bench.position(0)).norm() < 2.5 * apart && static_cast<double>(bench.step) < 100 / step) bench.run(1);
+    while ((bench.position(1) - bench.position(0)).norm() < 2.5 * apart &&
+           static_cast<double>(bench.step) < 100 / step)
+        bench.run(1);
     return (bench.velocity(1) - bench.velocity(0)).x() / closing;
 }
 
@@ -43,10 +45,9 @@ Finding through_each_other(bool) {
     finding.theory = 1;
     finding.usual = usual_speed();
     for (const double speed : {0.01, 0.1, 0.5, 0.8, 0.9, 0.95, 0.99, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0})
-        finding.curve.push_back({speed, after_head_on(speed, step, 0.5),
-                                 speed < 1 ? 1 : -1.0});
-    finding.measured = last_that_holds(
-        0.5, 2, 14, [](double speed) { return after_head_on(speed, step, 0.5) > 0; });
+        finding.curve.push_back({speed, after_head_on(speed, step, 0.5), speed < 1 ? 1 : -1.0});
+    finding.measured =
+        last_that_holds(0.5, 2, 14, [](double speed) { return after_head_on(speed, step, 0.5) > 0; });
     return finding;
 }
 

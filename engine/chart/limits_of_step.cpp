@@ -36,7 +36,7 @@ struct Disturbance {
     int steps;   // within which it grows ten-thousandfold, or does not
 };
 
-// Of the amplitude a step: over the time in which it grows ten-thousandfold, or over all.
+// Of the amplitude a step: while the energy grows from ten-thousandfold on, or over all steps.
 double growth_of(Bench& bench, const Disturbance& disturbance) {
     Random random(1, Stream::centres);
     const double speed = 1e-9 * overlap / unit();
@@ -44,12 +44,15 @@ double growth_of(Bench& bench, const Disturbance& disturbance) {
         for (int axis = 0; axis < 3; ++axis)
             motion.velocity[axis] = disturbance.along[axis] * random.between(-speed, speed);
     const double begin = bench.kinetic();
-    int done = 0;
-    while (done < disturbance.steps && bench.kinetic() < 1e8 * begin) {
-        bench.run(10);
-        done += 10;
+    double from = begin, now = begin;
+    std::int64_t since = 0;
+    while (bench.step < disturbance.steps && now < 1e12 * begin) {
+        bench.run(1);
+        now = bench.kinetic();
+        if (from == begin && now > 1e4 * begin) from = now, since = bench.step;
     }
-    return std::pow(bench.kinetic() / begin, 0.5 / done);
+    if (now < 1e8 * begin) return std::pow(now / begin, 0.5 / disturbance.steps);
+    return std::pow(now / from, 0.5 / static_cast<double>(bench.step - since));
 }
 
 // The limit over sqrt(m / K), and the growth about there with the step over that of theory.
@@ -59,9 +62,7 @@ Finding find_limit(const Build& build, const Disturbance& disturbance, double th
     constexpr double coarse = 0.05;
     // Below the limit Verlet's amplitude swings; it does not grow as much as this.
     const double unstable = std::pow(1e4, 1.0 / disturbance.steps);
-    const auto growth = [&](double share) {
-        return growth_of(*build(share * theory * unit()), disturbance);
-    };
+    const auto growth = [&](double share) { return growth_of(*build(share * theory * unit()), disturbance); };
     Finding finding;
     finding.theory = theory;
     finding.usual = usual_step() / unit();
@@ -99,11 +100,8 @@ std::unique_ptr<Bench> column(int count, double plate_stiffness, double step, In
 // Two grains between soft plates: omega^2 = (2 K + K_plate) / m.
 Experiment pair_limit(Integrator integrator) {
     constexpr double plate = 0.01;  // over K
-    return {"step: pair by " + word_of(integrator, integrator_words),
-            "step / sqrt(m/K)",
-            Failure::loud,
-            "health check; the plan's step; check warns above the stable limit",
-            [=](bool) {
+    return {"step: pair by " + word_of(integrator, integrator_words), "step / sqrt(m/K)", Failure::loud,
+            "health check; the plan's step; check warns above the stable limit", [=](bool) {
                 return find_limit(
                     [&](double step) { return column(2, plate * bench_stiffness, step, integrator); },
                     along_z, stability_limit(integrator) / std::sqrt(2 + plate), integrator);

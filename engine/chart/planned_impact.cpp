@@ -22,7 +22,8 @@ std::string scene_text(const ImpactScene& impact) {
            "[container]\nshape = \"none\"\n" +
            fmt::format("[[grain]]\nspecies = \"a\"\nposition = [0, 0, 0]\nvelocity = [{:.17g}, 0, 0]\n",
                        impact.speed) +
-           (impact.wall ? fmt::format("[[wall]]\npoint = [{:.17g}, 0, 0]\nnormal = [-1, 0, 0]\n", apart) : "") +
+           (impact.wall ? fmt::format("[[wall]]\npoint = [{:.17g}, 0, 0]\nnormal = [-1, 0, 0]\n", apart)
+                        : "") +
            fmt::format("[[grain]]\nspecies = \"b\"\nposition = [{:.17g}, 0, 0]\n",
                        impact.wall ? -4 * second : apart) +
            "[run]\nduration = 1\n";
@@ -38,8 +39,7 @@ Vec3 momentum_of(const Bench& bench) {
 Vec3 angular_momentum_of(const Bench& bench) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < bench.grains.size(); ++i) {
-        sum += bench.grains.mass(i) *
-               bench.grains.place[i].position.cross(bench.grains.motion[i].velocity);
+        sum += bench.grains.mass(i) * bench.grains.place[i].position.cross(bench.grains.motion[i].velocity);
         sum += bench.grains.inertia(i) * bench.grains.spin[i].rate;
     }
     return sum;
@@ -82,8 +82,7 @@ Impact make_impact(const ImpactScene& impact, const Plan& plan, double step, dou
         result.spin[id] = bench.spin(id);
     }
     result.momentum_change = (momentum_of(bench) - momentum).norm() / momentum.norm();
-    result.angular_change =
-        (angular_momentum_of(bench) - angular).norm() / (momentum.norm() * bench_radius);
+    result.angular_change = (angular_momentum_of(bench) - angular).norm() / (momentum.norm() * bench_radius);
     return result;
 }
 

@@ -20,7 +20,8 @@ std::string cell(double value) {
     return std::isnan(value) ? "nan" : number(value);
 }
 
-void add_rows(const Experiment& experiment, const Finding& finding, ResultTable& limits, ResultTable& curves) {
+void add_rows(const Experiment& experiment, const Finding& finding, ResultTable& limits,
+              ResultTable& curves) {
     const std::string& name = experiment.name;
     for (const CurvePoint& point : finding.curve)
         if (!curves.has({name, cell(point.x)}))
