@@ -42,6 +42,7 @@ std::vector<Experiment> friction_experiments();
 std::vector<Experiment> path_experiments();
 std::vector<Experiment> softness_experiments();
 std::vector<Experiment> drive_experiments();
+std::vector<Experiment> bed_experiments();
 std::vector<Experiment> number_experiments();
 
 // Where a condition that holds at `low` and not at `high` ceases to hold.

@@ -1,14 +1,10 @@
-// The drive: the kick of one that starts at once, the walls' place in a step, and shaking up to 20 g.
-#include <fmt/format.h>
-
+// The drive: the kick of one that starts at once, and the walls' place in a step.
 #include <algorithm>
 #include <complex>
 #include <numbers>
 
 #include "engine/chart/bench.hpp"
 #include "engine/chart/experiment.hpp"
-#include "engine/run/simulation.hpp"
-#include "engine/scene/reader.hpp"
 
 namespace grainreel {
 namespace {
@@ -106,88 +102,6 @@ Finding order_of_walls(bool) {
     return finding;
 }
 
-std::string bed_text(int grains, double g_level, double duration) {
-    return fmt::format(
-        "[[species]]\nname = \"glass\"\ncount = {}\ndiameter = \"4 mm\"\ndensity = 2500\n"
-        "[contact]\nrestitution = 0.9\nfriction = 0.4\n"
-        "[container]\nshape = \"box\"\nwidth = \"24 mm\"\ndepth = \"24 mm\"\nheight = \"100 mm\"\n"
-        "[drive]\nfrequency = {}\ng_level = {}\n[run]\nduration = {}\n",
-        grains, frequency, g_level, duration);
-}
-
-// ---- a bed shaken sideways, gently enough for all contacts to hold ----
-
-const char* tray = R"([[species]]
-name = "glass"
-count = 150
-diameter = { min = "3.6 mm", max = "4.4 mm" }
-density = 2500
-[contact]
-restitution = 0.5
-friction = 0.8
-[container]
-shape = "box"
-width = "28 mm"
-depth = "20 mm"
-height = "60 mm"
-[drive]
-frequency = 20
-g_level = 0.2
-direction = [0, 1, 0]
-[output]
-trajectory = false
-)";
-
-// Mean way of a grain since the tenth period, over its diameter; the limit: a period, over the second half.
-Finding creep(LeverArms arms, bool quick) {
-    constexpr int settled = 10;
-    const int periods = quick ? 20 : 100;
-    const Scene scene = read_scene_text(
-        tray, "tray.toml",
-        {std::string("contact.arms=") + (arms == LeverArms::radius ? "radius" : "contact-plane"),
-         fmt::format("run.duration={}", (settled + periods) / frequency)});
-    const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 1);
-    simulation.pack([](const PackingProgress&) { return true; });
-    simulation.advance(settled * plan.clock.steps_per_period);
-    const Frame start = simulation.frame();
-    Finding finding;
-    for (int period = 1; period <= periods; ++period) {
-        simulation.advance((settled + period) * plan.clock.steps_per_period);
-        const Frame now = simulation.frame();
-        double way = 0;
-        for (std::size_t i = 0; i < now.size(); ++i)
-            way += (now.position[i] - start.position[i]).norm() / (2 * now.radius[i]);
-        finding.curve.push_back({static_cast<double>(period), way / static_cast<double>(now.size())});
-    }
-    const CurvePoint &half = finding.curve[periods / 2], &end = finding.curve.back();
-    finding.measured = (end.value - half.value) / (end.x - half.x);
-    return finding;
-}
-
-// The largest overlap seen over the largest that the plan expects; a run that its health check stops throws.
-Finding hard_shaking(bool quick) {
-    Finding finding;
-    finding.theory = 1;
-    finding.measured = 0;
-    for (const double level :
-         quick ? std::vector<double>{3, 20} : std::vector<double>{1, 2, 3, 5, 8, 12, 16, 20}) {
-        const Scene scene = read_scene_text(bed_text(quick ? 60 : 200, level, quick ? 0.3 : 0.5), "bed.toml");
-        const Plan plan = make_plan(scene);
-        Simulation simulation(scene, plan, 1);
-        simulation.pack([](const PackingProgress&) { return true; });
-        double largest = 0;
-        for (std::int64_t step = 0; step < plan.steps;) {
-            step = std::min(plan.steps, step + 20);
-            simulation.advance(step);
-            largest = std::max(largest, 0.5 * simulation.measures().largest_overlap);
-        }
-        finding.curve.push_back({level, largest, plan.expected_overlap});
-        finding.measured = std::max(finding.measured, largest / plan.expected_overlap);
-    }
-    return finding;
-}
-
 }  // namespace
 
 std::vector<Experiment> drive_experiments() {
@@ -197,13 +111,7 @@ std::vector<Experiment> drive_experiments() {
          "ramp of 3 periods by default; check warns of none", [](bool) { return kick(0); }},
         {"kick with a ramp of 3 periods", "speed against the plate / (a omega)", silent, "the default",
          [](bool) { return kick(3); }},
-        {"walls in a step", "order of the error", silent, "walls at the time of the force", order_of_walls},
-        {"creep under sideways shaking (arms to the plane)", "way a period / diameter", silent, "none",
-         [](bool quick) { return creep(LeverArms::contact_plane, quick); }},
-        {"creep under sideways shaking (arms of the radius)", "way a period / diameter", silent,
-         "check warns of arms = radius", [](bool quick) { return creep(LeverArms::radius, quick); }},
-        {"shaking at 1 to 20 g", "largest overlap / expected", Failure::loud,
-         "the plan's stiffness; health check", hard_shaking}};
+        {"walls in a step", "order of the error", silent, "walls at the time of the force", order_of_walls}};
 }
 
 }  // namespace grainreel

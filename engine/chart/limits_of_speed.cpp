@@ -148,7 +148,7 @@ Finding listing(bool quick) {
     Finding finding;
     finding.theory = finding.measured = 1;
     for (const double way : {0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0}) {
-        const double share = share_listed(way, quick ? 10 : 60);
+        const double share = share_listed(way, quick ? 30 : 100);
         finding.curve.push_back({way, share, 1});
         finding.measured = std::min(finding.measured, share);
     }

@@ -36,7 +36,7 @@ struct Disturbance {
     int steps;   // within which it grows ten-thousandfold, or does not
 };
 
-// Of the amplitude a step: while the energy grows from ten-thousandfold on, or over all steps.
+// Of the amplitude a step, 1 for none: while the energy grows from ten-thousandfold on, or over all steps.
 double growth_of(Bench& bench, const Disturbance& disturbance) {
     Random random(1, Stream::centres);
     const double speed = 1e-9 * overlap / unit();
@@ -51,7 +51,7 @@ double growth_of(Bench& bench, const Disturbance& disturbance) {
         now = bench.kinetic();
         if (from == begin && now > 1e4 * begin) from = now, since = bench.step;
     }
-    if (now < 1e8 * begin) return std::pow(now / begin, 0.5 / disturbance.steps);
+    if (now < 1e8 * begin) return std::max(1.0, std::pow(now / begin, 0.5 / disturbance.steps));
     return std::pow(now / from, 0.5 / static_cast<double>(bench.step - since));
 }
 
@@ -70,7 +70,7 @@ Finding find_limit(const Build& build, const Disturbance& disturbance, double th
     for (double share = 0.5; share < 1.3; share += coarse) {
         const double grown = growth(share);
         finding.curve.push_back(
-            {share, grown, growth_a_step(integrator, share * stability_limit(integrator))});
+            {share, grown, std::max(1.0, growth_a_step(integrator, share * stability_limit(integrator)))});
         if (grown >= unstable && stable == 0) stable = share - coarse;
     }
     finding.measured = theory * last_that_holds(stable, stable + coarse, 8,

@@ -72,15 +72,17 @@ do for [form in "svg png"] {
     set title 'Closed loop of N and T'; set xlabel 'N while T rises / N while T falls'; set ylabel 'energy made / work'; set key inside bottom center
     eval "plot ".one('closed loop of linear-spring', 1, 'linear-spring').", ".one('closed loop of mindlin', 2, 'mindlin').", ".one('closed loop of incremental-slip', 3, 'incremental-slip')
     unset logscale x; set autoscale y
-    set title 'Creep of a bed shaken sideways'; set xlabel 'periods'; set ylabel 'mean way / diameter'; set key inside top left
+    set title 'Creep of a bed shaken sideways'; set xlabel 'seed'; set ylabel 'mean way a period / diameter'; set key inside top left; set yrange [0:*<0.001]; set xrange [0:9]
     plot of('creep under sideways shaking (arms to the plane)') @M1 title 'arms to the plane', of('creep under sideways shaking (arms of the radius)') @M2 title 'arms of the radius'
+    set autoscale
     set logscale x; set format x "10^{%L}"; set key inside top left
     set title 'Detachment, column of 8 on a plate'; set xlabel 'time of a contact / time between impacts'; set ylabel 'energy after / before'
     eval "plot ".one('detachment by Walton-Braun', 1, 'Walton-Braun').", of('detachment by dashpot') ".measured(2)." title 'dashpot'"
     unset logscale x; set format x '%g'
     set key inside top left
-    set title 'Column of 10 grains on a shaken plate'; set xlabel 'frequency x layers x (m/K)^{1/2}'; set ylabel 'way of the top / of the plate'
+    set title 'Column of 10 grains on a shaken plate'; set xtics 0.05; set xlabel 'frequency x layers x (m/K)^{1/2}'; set ylabel 'way of the top / of the plate'
     eval "plot ".one('soft column', 1, 'elastic')
+    set xtics autofreq
     set logscale; set format "10^{%L}"
     set title 'Plate that turns during the impact'; set xlabel 'frequency x time of a contact'; set ylabel 'rebound, error / speed'; set key inside bottom right
     eval "plot ".one('drive as fast as a contact', 1, 'elastic ball')
