@@ -114,10 +114,10 @@ Finding hard_shaking(bool quick) {
     finding.measured = 0;
     for (const double level :
          quick ? std::vector<double>{3, 20} : std::vector<double>{1, 2, 3, 5, 8, 12, 16, 20}) {
-        const Scene scene = read_scene_text(box(quick ? 60 : 200, quick ? 0.3 : 0.5) +
-                                                fmt::format("[drive]\nfrequency = {}\ng_level = {}\n",
-                                                            frequency, level),
-                                            "bed.toml");
+        const Scene scene =
+            read_scene_text(box(quick ? 60 : 200, quick ? 0.3 : 0.5) +
+                                fmt::format("[drive]\nfrequency = {}\ng_level = {}\n", frequency, level),
+                            "bed.toml");
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 1);
         simulation.pack([](const PackingProgress&) { return true; });

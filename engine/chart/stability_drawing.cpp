@@ -42,13 +42,13 @@ do for [form in "svg png"] {
     unset ytics
     set ytics
 
-    if (form eq "svg") { set terminal svg size 1200,1650 font face(13) background 'white' } else { set terminal pngcairo size 1800,2475 font face(13) }
-    set output 'curves.'.form
-    set multiplot layout 5,3 title 'Points: measured. Lines: theory.'
-    unset grid; set mxtics 1; set mytics 1; set key inside top left Left reverse vertical samplen 1 spacing 1.1
+    if (form eq "svg") { set terminal svg size 1200,700 font face(13) background 'white' } else { set terminal pngcairo size 1800,1050 font face(13) }
+    set output 'impacts.'.form
+    set multiplot layout 2,3 title 'Points: measured. Lines: theory.'
+    unset grid; set xtics nomirror; set ytics nomirror; set mxtics 1; set mytics 1; set key inside top left Left reverse vertical samplen 1 spacing 1.1
     set title 'Longest step: growth of a disturbance'; set xlabel 'step / limit'; set ylabel 'growth a step'; set yrange [0.9:2.6]; set key inside top left
     eval "plot ".one('step: pair by velocity-verlet', 1, 'Verlet').", ".one('step: pair by forest-ruth', 2, 'Forest-Ruth').", ".one('step: pair by gear', 3, 'Gear')
-    set autoscale y; set logscale y; set format y "10^{%L}"
+    set autoscale y; set logscale y; set format y '%g'
     set title 'Restitution at the step of the plan'; set xlabel 'restitution e'; set ylabel 'largest error of e'; set yrange [5e-5:2e-2]
     eval "plot ".one('restitution 0.02 to 0.999', 1, 'plan; line: allowed')
     set autoscale y; set logscale x
@@ -62,20 +62,24 @@ do for [form in "svg png"] {
     eval "plot ".one('past each other in one step', 1, 'measured')
     set title 'Energy after an impact, friction 0.5'; set xlabel 'degrees from the normal'; set ylabel 'largest energy after / before'; set key inside bottom left; set yrange [0.3:1.1]
     eval "plot ".one('grazing at a wall (e = 0.9)', 1, 'wall, e = 0.9').", ".one('grazing at a wall (e = 1)', 2, 'wall, e = 1').", of('grazing in a corner (e = 1)') ".measured(3)." title 'corner, e = 1', 1 lc 'gray' dt 2 notitle"
-    set autoscale y; set logscale x; set format x "10^{%L}"
-    set title 'Friction to no end, 45 degrees'; set xlabel 'friction'; set ylabel 'slip after / before'; set key inside top right
-    eval "plot ".one('sticking at friction 1e6', 1, 'sliding, sticking')
-    set logscale y; set format y "10^{%L}"
+    unset multiplot
+    if (form eq "svg") { set terminal svg size 1200,1000 font face(13) background 'white' } else { set terminal pngcairo size 1800,1500 font face(13) }
+    set output 'contacts.'.form
+    set multiplot layout 3,3 title 'Points: measured. Lines: theory.'
+    set autoscale y; set logscale x; set format x '%g'
+    set xtics 100; set title 'Friction without end, 45 degrees'; set xlabel 'friction'; set ylabel 'slip after / before'; set key inside top right
+    eval "plot ".one('sticking at friction 1e6', 1, 'sliding, sticking'); set xtics autofreq
+    set logscale y; set format y '%g'
     set title 'Twisting pair'; set xlabel 'steps a turn'; set ylabel 'direction of T, error in rad'
     eval "plot ".one('twisting pair', 1, 'a turn')
     unset logscale y; set format y '%g'; set format x '%g'; set yrange [-2.5:0.5]
     set title 'Closed loop of N and T'; set xlabel 'N while T rises / N while T falls'; set ylabel 'energy made / work'; set key inside bottom center
     eval "plot ".one('closed loop of linear-spring', 1, 'linear-spring').", ".one('closed loop of mindlin', 2, 'mindlin').", ".one('closed loop of incremental-slip', 3, 'incremental-slip')
     unset logscale x; set autoscale y
-    set title 'Creep of a bed shaken sideways'; set xlabel 'seed'; set ylabel 'mean way a period / diameter'; set key inside top left; set yrange [0:*<0.001]; set xrange [0:9]
-    plot of('creep under sideways shaking (arms to the plane)') @M1 title 'arms to the plane', of('creep under sideways shaking (arms of the radius)') @M2 title 'arms of the radius'
+    set title 'Creep of a bed shaken sideways'; set xlabel 'seed'; set ylabel 'mean way a period / diameter, 10^{-4}'; set key inside top left; set yrange [0:8]; set xrange [0:9]
+    plot of('creep under sideways shaking (arms to the plane)') using 1:($2*1e4) with points pt 7 ps 0.9 lc rgb colour(1) title 'arms to the plane', of('creep under sideways shaking (arms of the radius)') using 1:($2*1e4) with points pt 5 ps 0.9 lc rgb colour(2) title 'arms of the radius'
     set autoscale
-    set logscale x; set format x "10^{%L}"; set key inside top left
+    set logscale x; set format x '%g'; set key inside top left
     set title 'Detachment, column of 8 on a plate'; set xlabel 'time of a contact / time between impacts'; set ylabel 'energy after / before'
     eval "plot ".one('detachment by Walton-Braun', 1, 'Walton-Braun').", of('detachment by dashpot') ".measured(2)." title 'dashpot'"
     unset logscale x; set format x '%g'
@@ -83,15 +87,15 @@ do for [form in "svg png"] {
     set title 'Column of 10 grains on a shaken plate'; set xtics 0.05; set xlabel 'frequency x layers x (m/K)^{1/2}'; set ylabel 'way of the top / of the plate'
     eval "plot ".one('soft column', 1, 'elastic')
     set xtics autofreq
-    set logscale; set format "10^{%L}"
+    set logscale; set format '%g'
     set title 'Plate that turns during the impact'; set xlabel 'frequency x time of a contact'; set ylabel 'rebound, error / speed'; set key inside bottom right
     eval "plot ".one('drive as fast as a contact', 1, 'elastic ball')
     set title 'Ball on a spring on a shaken plate'; set xlabel 'steps a period'; set ylabel 'error / amplitude'; set key inside top right; set format x '%g'
-    eval "plot ".one('walls in a step', 1, 'measured; line: second order')
-    set title 'Bead at rest: rounding of its position'; set xlabel 'stiffness, N/m'; set ylabel 'error of the force'; set key inside top left; set format x "10^{%L}"
+    eval "plot ".one('walls in a step', 1, 'line: second order')
+    set title 'Bead at rest: rounding of its position'; set xlabel 'stiffness, N/m'; set ylabel 'error of the force'; set key inside bottom right; set xtics 1e4; set format x '%g'
     eval "plot ".one('rounding in single precision', 1, 'single').", ".one('rounding in double precision', 2, 'double')
-    unset multiplot
-    unset title; unset logscale; set autoscale; set format '%g'; unset ylabel; set key default; set grid; set mxtics default; set mytics default
+    unset multiplot; set xtics autofreq
+    unset title; unset logscale; set autoscale; set format '%g'; unset ylabel; set key default; set grid; set xtics mirror; set ytics mirror; set mxtics default; set mytics default
 }
 )gp";
 }
