@@ -158,7 +158,7 @@ void warn_of_rounding(const Scene& scene, const Plan& plan, const BedPlan& bed, 
 }
 
 void warn_of_arms(const Plan& plan, Warnings& warnings) {
-    if (plan.arms == LeverArms::radius && plan.rubs())
+    if (plan.arms == LeverArms::radius)
         warnings.add(
             "contact.arms",
             "the radius as lever arm does not keep angular momentum, and the slip of pairs that swing "
