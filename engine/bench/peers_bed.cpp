@@ -18,7 +18,8 @@ class PythonRandom {
         for (std::uint32_t i = 1; i < n; ++i) state_[i] = 1812433253u * mixed(i) + i;
         std::uint32_t i = 1;
         for (std::uint32_t k = 0; k < n; ++k) state_[i] = (state_[i] ^ (mixed(i) * 1664525u)) + seed, next(i);
-        for (std::uint32_t k = 0; k < n - 1; ++k) state_[i] = (state_[i] ^ (mixed(i) * 1566083941u)) - i, next(i);
+        for (std::uint32_t k = 0; k < n - 1; ++k)
+            state_[i] = (state_[i] ^ (mixed(i) * 1566083941u)) - i, next(i);
         state_[0] = 0x80000000u;
     }
     double uniform(double low, double high) {

@@ -1,13 +1,28 @@
-// Grains of one kind, faces and a loop over them, on one thread: what the charts' experiments are built on.
+// A few grains, faces and laws put together by hand: the small worlds of the charts' experiments.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <numbers>
 
+#include "engine/measure/energy.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 
+// The grain and the contact of most experiments; what they find is given over these.
+constexpr double bench_radius = 0.002, bench_density = 2500, bench_stiffness = 1e5;  // m, kg/m3, N/m
+inline double sphere_volume(double radius) {
+    return 4.0 / 3 * std::numbers::pi * radius * radius * radius;
+}
+inline double sphere_mass_of(double radius, double density = bench_density) {
+    return density * sphere_volume(radius);
+}
+inline double bench_mass() {
+    return sphere_mass_of(bench_radius);
+}
+
+// On one thread. The loop refers to the rest, so a bench stays where it is.
 struct Bench {
     Plan plan;
     Surroundings around;
@@ -16,25 +31,36 @@ struct Bench {
     std::unique_ptr<StepLoop> loop;
     std::int64_t step = 0;
 
-    // The contact holds among the grains and at walls; step_length in s.
-    Bench(const PairPlan& pair, double step_length) {
-        plan.grain = plan.wall = {pair};
+    Bench(const PairPlan& contact, double step_length, Integrator integrator = Integrator::velocity_verlet) {
+        plan.integrator = integrator;
+        plan.grain = plan.wall = {contact};
         plan.clock.step = step_length;
+        around.skin = 0.2 * bench_radius;
     }
-    // radius: m; density: kg/m3.
-    void add(const Vec3& position, const Vec3& velocity, double radius, double density) {
-        grains.add(static_cast<std::int32_t>(grains.size()), 0, position, radius, density);
-        grains.motion.back().velocity = velocity;
-    }
+    explicit Bench(const Plan& planned, double skin) : plan(planned) { around.skin = skin; }
+
     Face& add_plane(const Vec3& point, const Vec3& normal) {
         Face face;
+        face.name = "plane";
         face.point = point;
         face.normal = normal;
         around.faces.push_back(face);
         return around.faces.back();
     }
+    void add_floor() { add_plane(Vec3::Zero(), Vec3(0, 0, 1)); }
+
+    struct Sphere {
+        double radius = bench_radius, density = bench_density;  // m, kg/m3
+        std::int32_t species = 0;
+    };
+    // Grains are numbered as they come.
+    void add(const Vec3& position, const Vec3& velocity = Vec3::Zero()) { add(position, velocity, Sphere()); }
+    void add(const Vec3& position, const Vec3& velocity, const Sphere& sphere) {
+        const auto id = static_cast<std::int32_t>(grains.size());
+        grains.add(id, sphere.species, position, sphere.radius, sphere.density);
+        grains.motion.back().velocity = velocity;
+    }
     void start() {
-        if (around.skin == 0) around.skin = 0.2 * grains.place[0].radius;
         loop = std::make_unique<StepLoop>(plan, around, grains, team);
         loop->restart();
     }
@@ -43,10 +69,20 @@ struct Bench {
         loop->run(step, count, plan.clock.step, drag);
         step += count;
     }
-};
 
-inline double sphere_volume(double radius) {
-    return 4.0 / 3 * std::numbers::pi * radius * radius * radius;
-}
+    // The loop keeps grains in spatial order: where the one with this number is.
+    std::size_t at(std::int32_t id) const {
+        std::size_t i = 0;
+        while (grains.id[i] != id) ++i;
+        return i;
+    }
+    Vec3& position(std::int32_t id) { return grains.place[at(id)].position; }
+    Vec3& velocity(std::int32_t id) { return grains.motion[at(id)].velocity; }
+    Vec3& spin(std::int32_t id) { return grains.spin[at(id)].rate; }
+    double kinetic() const {  // J
+        const Kinetic k = kinetic_energy(grains);
+        return k.translation + k.rotation;
+    }
+};
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 #include "engine/chart/chart.hpp"
 
 #include "engine/chart/accuracy.hpp"
+#include "engine/chart/stability.hpp"
 #include "engine/chart/validation.hpp"
 
 namespace grainreel {
@@ -11,6 +12,8 @@ const std::vector<Chart>& charts() {
          accuracy_drawing},
         {"validation", "published experiments and laws: impacts, packings, silo, cooling gas", run_validation,
          validation_drawing},
+        {"stability", "where each method fails, against theory: step, speed, stiffness, drive, round-off",
+         run_stability, stability_drawing},
     };
     return all;
 }

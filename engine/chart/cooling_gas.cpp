@@ -45,7 +45,8 @@ struct Gas {
         for (int k = 0; k < count; ++k) {
             const Vec3 cell(k % gas.side, k / gas.side % gas.side, k / gas.side / gas.side);
             const double u = random.normal(), v = random.normal(), w = random.normal();
-            bench.add((cell + 0.5 * Vec3::Ones()) * edge / gas.side, speed * Vec3(u, v, w), radius, density);
+            bench.add((cell + 0.5 * Vec3::Ones()) * edge / gas.side, speed * Vec3(u, v, w),
+                      {radius, density});
         }
         bench.around.skin = 0.5 * radius;
         bench.start();

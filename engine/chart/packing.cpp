@@ -40,7 +40,7 @@ struct Crowd {
         Random centres(setting.seed, Stream::centres);
         for (int k = 0; k < setting.grains; ++k) {
             const double x = centres.between(-edge / 2, edge / 2), y = centres.between(-room, room);
-            bench.add(Vec3(x, y, centres.between(-room, room)), Vec3::Zero(), diameter / 2, density);
+            bench.add(Vec3(x, y, centres.between(-room, room)), Vec3::Zero(), {diameter / 2, density});
         }
         for (const Vec3& normal : {Vec3::UnitY().eval(), Vec3::UnitZ().eval()}) {
             bench.add_plane(-edge / 2 * normal, normal);

@@ -49,10 +49,10 @@ Rebound rebound(const ImpactLaw& law, double degrees, Target target) {
     const double gap = 0.4 * down * length;
     if (target == Target::plane) {
         bench.add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1));
-        bench.add(Vec3(0, 0, radius + gap), approach, radius, density);
+        bench.add(Vec3(0, 0, radius + gap), approach, {radius, density});
     } else {
-        bench.add(Vec3(0, 0, radius + gap / 2), approach / 2, radius, density);
-        bench.add(Vec3(0, 0, -radius - gap / 2), -approach / 2, radius, density);
+        bench.add(Vec3(0, 0, radius + gap / 2), approach / 2, {radius, density});
+        bench.add(Vec3(0, 0, -radius - gap / 2), -approach / 2, {radius, density});
     }
     bench.start();
     bench.run(3 * steps_per_contact);

@@ -66,7 +66,7 @@ Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
     for (int k = 0; k < grains; ++k) {
         const double out = (cylinder.bore / 2 - radius) * std::sqrt(random.uniform());
         const double angle = random.between(0, 2 * pi), z = random.between(radius, height - radius);
-        bench.add(Vec3(out * std::cos(angle), out * std::sin(angle), z), Vec3::Zero(), radius, density);
+        bench.add(Vec3(out * std::cos(angle), out * std::sin(angle), z), Vec3::Zero(), {radius, density});
     }
     bench.start();
     const double drag = 0.5 * std::sqrt(stiffness / mass());

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "engine/chart/bench.hpp"
-#include "engine/measure/energy.hpp"
 #include "engine/scene/damping.hpp"
 #include "engine/step/scheme.hpp"
 
@@ -15,12 +14,12 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double radius = 0.002, density = 2500, stiffness = 1e5;  // m, kg/m3, N/m
-constexpr double speed = 0.3;                                      // m/s, of impacts
+constexpr double radius = bench_radius, stiffness = bench_stiffness;
+constexpr double speed = 0.3;  // m/s, of impacts
 constexpr double friction = 0.3;
 
 double mass() {
-    return density * 4 / 3 * pi * radius * radius * radius;
+    return bench_mass();
 }
 
 // One species whose contacts follow the method; `effective_mass` of those that matter.
@@ -58,15 +57,6 @@ double contact_time(const Method& method, double restitution, double effective_m
     return pi / 2 * (1 + restitution) / natural;
 }
 
-// Grains of the radius and density above, whose contacts follow the method.
-struct ContactBench : Bench {
-    ContactBench(const Method& method, const PairPlan& pair, double step_length) : Bench(pair, step_length) {
-        plan.integrator = method.integrator;
-    }
-    void add_floor() { add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1)); }
-    void add(const Vec3& position, const Vec3& velocity) { Bench::add(position, velocity, radius, density); }
-};
-
 }  // namespace
 
 int Method::forces_a_step() const {
@@ -80,7 +70,7 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
     const double time = contact_time(smooth, restitution, effective, radius / 2), length = time / steps;
     NormalErrors errors;
     for (int phase = 0; phase < phases; ++phase) {
-        ContactBench bench(smooth, pair_of(smooth, restitution, effective), length);
+        Bench bench(pair_of(smooth, restitution, effective), length, smooth.integrator);
         const double apart = radius + 0.5 * (phase + 0.5) / phases * speed * length;
         bench.add(Vec3(-apart, 0, 0), Vec3(speed / 2, 0, 0));
         bench.add(Vec3(apart, 0, 0), Vec3(-speed / 2, 0, 0));
@@ -107,7 +97,7 @@ struct Rebound {
 
 Rebound oblique(const Method& method, double restitution, double steps, double angle) {
     const double time = contact_time(method, restitution, mass(), radius), length = time / steps;
-    ContactBench bench(method, pair_of(method, restitution, mass()), length);
+    Bench bench(pair_of(method, restitution, mass()), length, method.integrator);
     bench.add_floor();
     const double down = speed * std::cos(angle);
     bench.add(Vec3(0, 0, radius + 0.5 * down * length), Vec3(speed * std::sin(angle), 0, -down));
@@ -137,7 +127,7 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
 namespace {
 
 double drift_from(double height, double gravity, const Method& method, double length, std::int64_t steps) {
-    ContactBench bench(method, pair_of(method, 1, mass()), length);
+    Bench bench(pair_of(method, 1, mass()), length, method.integrator);
     bench.add_floor();
     bench.around.gravity = {0, 0, -gravity};
     bench.add(Vec3(0, 0, radius + height), Vec3(0, 0, 0));
@@ -168,7 +158,7 @@ double bounce_drift(const Method& method, double steps, int bounces) {
 
 double cost_of_a_contact(const Method& method) {
     constexpr int side = 20, steps = 60;
-    ContactBench bench(method, pair_of(method, 0.9, mass() / 2), 1e-9);
+    Bench bench(pair_of(method, 0.9, mass() / 2), 1e-9, method.integrator);
     const double apart = 2 * radius * (1 - 1e-4);
     for (int x = 0; x < side; ++x)
         for (int y = 0; y < side; ++y)

@@ -1,4 +1,5 @@
-// Laws and histories in floats: twice as many to a register. Positions, overlaps and sums of forces stay doubles.
+// Laws and histories in floats: twice as many to a register. Positions, overlaps and sums of forces stay
+// doubles.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/laws/mixed_kernels.cpp"
 #include "engine/vector/targets.hpp"

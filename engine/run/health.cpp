@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/energy.hpp"
 
 namespace grainreel {
 
 namespace {
 
 constexpr double kTurnoverShare = 0.05;
+constexpr std::int64_t kStepsPerLook = 200;
+constexpr double kFasterMeanwhile = 2;  // a grain may be until the next look: hit by a heavy one
 
 std::string moment(const Clock& clock, std::int64_t step) {
     return fmt::format("step {} ({:.6g} s)", step, clock.time(step));
@@ -28,14 +32,87 @@ bool finite(const Grains& grains, std::size_t i) {
            grains.spin[i].rate.allFinite();
 }
 
+double largest_mass(const Species& species) {
+    return species.density * std::numbers::pi / 6 * std::pow(species.diameter.largest, 3);
+}
+
+// m/s, at which two grains, or a grain and a wall, overlap by `depth` (m).
+double speed_for(double depth, const PairPlan& pair, double effective_mass) {
+    return depth * std::sqrt(pair.loading_stiffness / effective_mass);
+}
+
+struct Box {
+    Vec3 low, high;
+    void take(const Vec3& v) { low = low.cwiseMin(v), high = high.cwiseMax(v); }
+    double size() const { return (high - low).norm(); }
+};
+
+// m/s: no two grains are faster against each other than its size.
+Box velocities(const Grains& grains) {
+    Box box{grains.motion[0].velocity, grains.motion[0].velocity};
+    for (const Motion& motion : grains.motion) box.take(motion.velocity);
+    return box;
+}
+
+std::size_t fastest_of(const Grains& grains) {
+    std::size_t fastest = 0;
+    for (std::size_t i = 1; i < grains.size(); ++i)
+        if (grains.motion[i].velocity.squaredNorm() > grains.motion[fastest].velocity.squaredNorm())
+            fastest = i;
+    return fastest;
+}
+
 }  // namespace
 
 HealthLimits health_limits(const Scene& scene, const Plan& plan) {
     HealthLimits limits;
     limits.clock = plan.clock;
-    for (const Species& s : scene.species) limits.species.push_back(s.name);
+    for (std::size_t a = 0; a < scene.species.size(); ++a) {
+        const Species& first = scene.species[a];
+        const double radius = 0.5 * first.diameter.smallest, mass = largest_mass(first);
+        limits.species.push_back(first.name);
+        limits.smallest_radius = std::min(limits.smallest_radius, radius);
+        const auto take = [&](double smaller, const PairPlan& pair, double effective_mass) {
+            limits.safe_speed =
+                std::min(limits.safe_speed, speed_for(limits.overlap * smaller, pair, effective_mass));
+        };
+        take(radius, plan.wall[a], mass);
+        for (std::size_t b = 0; b <= a; ++b) {
+            const double other = largest_mass(scene.species[b]);
+            take(std::min(radius, 0.5 * scene.species[b].diameter.smallest), plan.between(a, b),
+                 mass * other / (mass + other));
+        }
+    }
     return limits;
 }
+
+std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                                std::int64_t step) {
+    const std::int64_t regular = kStepsPerLook - step % kStepsPerLook;
+    const Pose pose = around.motion.at(step);
+    Box box = velocities(grains);
+    for (const Face& face : around.faces) box.take(face.velocity_at(pose));
+    const double closing = kFasterMeanwhile * box.size();
+    if (!(closing > limits.safe_speed)) return regular;
+    const double steps = limits.overlap * limits.smallest_radius / (closing * limits.clock.step);
+    return std::clamp(static_cast<std::int64_t>(steps), std::int64_t{1}, regular);
+}
+
+namespace {
+
+// Within a step no grain may come as far as to meet another unseen.
+void check_way_of_a_step(const HealthLimits& limits, const Grains& grains, std::int64_t step) {
+    const double way = velocities(grains).size() * limits.clock.step;
+    if (!(way > limits.smallest_radius)) return;
+    throw RunError(
+        fmt::format("{}: grains pass each other by {:.2g} of the smallest radius in one step, {} the "
+                    "fastest, so that they "
+                    "may meet unseen; take a smaller run.step",
+                    moment(limits.clock, step), way / limits.smallest_radius,
+                    grain_name(limits, grains, fastest_of(grains))));
+}
+
+}  // namespace
 
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                  const StepLoop& loop, std::int64_t step) {
@@ -55,30 +132,37 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
                             moment(limits.clock, step), grain_name(limits, grains, i), face.name));
         }
     }
+    check_way_of_a_step(limits, grains, step);
     loop.visit_contacts(step, [&](const ContactView& c) {
         if (c.overlap <= limits.overlap * c.smaller_radius) return;
-        const std::string other = c.second >= 0 ? fmt::format("grain {}", grains.id[c.second])
-                                                : "the " + around.faces[-1 - c.second].name;
+        const bool wall = c.second < 0;
+        const std::string other =
+            wall ? "the " + around.faces[-1 - c.second].name : fmt::format("grain {}", grains.id[c.second]);
         throw RunError(
-            fmt::format("{}: {} overlaps {} by {:.2f} of the smaller radius; take a larger "
-                        "contact.stiffness or a smaller run.step",
+            fmt::format("{}: {} overlaps {} by {:.2f} of the smaller radius; take a larger {} or a smaller "
+                        "run.step",
                         moment(limits.clock, step), grain_name(limits, grains, c.first), other,
-                        c.overlap / c.smaller_radius));
+                        c.overlap / c.smaller_radius, wall ? "contact.wall.stiffness" : "contact.stiffness"));
     });
 }
 
-void EnergyWatch::check(double energy, double work, double allowance, const Clock& clock, std::int64_t step) {
+void EnergyWatch::check(double energy, double work, double allowance, const HealthLimits& limits,
+                        const Grains& grains, std::int64_t step) {
     const double balance = energy - work;
     if (std::isnan(first_)) first_ = balance;
     work_done_ = std::max(work_done_, std::abs(work));
     lowest_ = std::min(lowest_, balance);
+    const Kinetic kinetic = kinetic_energy(grains);
     const double turnover = std::max(first_ - lowest_, work_done_);
+    const double motion = kinetic.translation + kinetic.rotation;
     const double risen = balance - lowest_;
-    if (risen <= kTurnoverShare * turnover + allowance) return;
-    throw RunError(
-        fmt::format("{}: the grains gained {:.3g} J that no wall gave them ({:.3g} J turned over so far); "
-                    "take a smaller run.step",
-                    moment(clock, step), risen, turnover));
+    if (risen <= kTurnoverShare * (turnover + motion) + allowance) return;
+    const std::size_t fastest = fastest_of(grains);
+    throw RunError(fmt::format(
+        "{}: the grains gained {:.3g} J that no wall gave them ({:.3g} J turned over so far), and {} is the "
+        "fastest at {:.3g} m/s; take a smaller run.step",
+        moment(limits.clock, step), risen, turnover, grain_name(limits, grains, fastest),
+        grains.motion[fastest].velocity.norm()));
 }
 
 }  // namespace grainreel

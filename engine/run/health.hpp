@@ -14,23 +14,33 @@ namespace grainreel {
 
 struct HealthLimits {
     Clock clock;
-    double overlap = 1.0 / 3.0;        // over the smaller radius
-    std::vector<std::string> species;  // names, for messages
+    double overlap = 1.0 / 3.0;                                   // over the smaller radius
+    std::vector<std::string> species;                             // names, for messages
+    double safe_speed = std::numeric_limits<double>::infinity();  // m/s, of two grains against each other:
+                                                                  // no impact below it overlaps so far
+    double smallest_radius = std::numeric_limits<double>::infinity();  // m
 };
 
 HealthLimits health_limits(const Scene& scene, const Plan& plan);
 
-// Throws RunError when a grain has left the finite numbers or the container, or overlaps too far.
+// Throws RunError when a grain has left the finite numbers or the container, overlaps too far, or is so fast
+// that it may pass another between two steps.
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                  const StepLoop& loop, std::int64_t step);
+
+// How many steps may go by until the next look, so that no impact that overlaps too far begins and ends
+// unseen: many, where the speeds are safe.
+std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                                std::int64_t step);
 
 // Watches the energy balance: without work done on them, grains can only lose energy.
 class EnergyWatch {
   public:
     // energy: J, total; work: J, done by walls so far; allowance: J, below which nothing is said.
     // Throws RunError when energy - work has risen above its lowest value so far by more than 5 % of all that
-    // was turned over, plus the allowance.
-    void check(double energy, double work, double allowance, const Clock& clock, std::int64_t step);
+    // was turned over and of the motion there is, plus the allowance.
+    void check(double energy, double work, double allowance, const HealthLimits& limits, const Grains& grains,
+               std::int64_t step);
 
   private:
     double lowest_ = std::numeric_limits<double>::infinity();

@@ -27,8 +27,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::int64_t kStepsPerLook = 200;  // between health checks, at multiples of it
-constexpr double kSkinShare = 0.4;           // of the smallest radius
+constexpr double kSkinShare = 0.4;  // of the smallest radius
 
 double smallest_radius(const Scene& scene) {
     double smallest = scene.species[0].diameter.smallest;
@@ -66,7 +65,8 @@ struct Simulation::Impl {
         : scene(s),
           plan(p),
           team(threads > 0 ? threads : usable_processors()),
-          around(make_surroundings(s, p)) {}
+          around(make_surroundings(s, p)),
+          limits(health_limits(s, p)) {}
 
     Scene scene;
     Plan plan;
@@ -76,7 +76,9 @@ struct Simulation::Impl {
     std::unique_ptr<StepLoop> loop;
     std::int64_t step = 0;
     double start_energy = 0;
+    HealthLimits limits;
     EnergyWatch energy_watch;
+    std::int64_t next_look = 0;  // step
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
@@ -172,25 +174,26 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
 }
 
 void Simulation::Impl::look_at_health() {
-    check_state(health_limits(scene, plan), around, grains, *loop, step);
+    check_state(limits, around, grains, *loop, step);
     // Round-off and a law's own closed loops must not stop a bed at rest: a hundredth of its weight over a
     // radius.
     double allowance = 0;
     for (std::size_t i = 0; i < grains.size(); ++i) {
         allowance += 0.01 * grains.mass(i) * around.gravity.norm() * grains.place[i].radius;
     }
-    energy_watch.check(total_energy(around, grains, *loop, step), wall_work(grains), allowance, plan.clock,
-                       step);
+    energy_watch.check(total_energy(around, grains, *loop, step), wall_work(grains), allowance, limits,
+                       grains, step);
+    next_look = step + steps_to_next_look(limits, around, grains, step);
 }
 
 void Simulation::advance(std::int64_t target) {
     Impl& m = *impl_;
     while (m.step < target) {
-        const std::int64_t next_look = (m.step / kStepsPerLook + 1) * kStepsPerLook;
-        const std::int64_t count = std::min(target, next_look) - m.step;
+        if (m.next_look <= m.step) m.look_at_health();  // the first: where all begins
+        const std::int64_t count = std::min(target, m.next_look) - m.step;
         m.loop->run(m.step, count, m.plan.clock.step, 0);
         m.step += count;
-        if (m.step == next_look) m.look_at_health();
+        if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
 }
 

@@ -51,9 +51,13 @@ double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& 
 // 0.005, plain when the number is whole, with the contact corrections whatever it is.
 int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy = Accuracy::standard);
 
+// The longest step times the fastest angular frequency: 2 for Verlet in all its forms, sqrt 2 for Gear's four
+// values, and what the amplification matrix of Omelyan's scheme gives.
+double stable_step(Integrator integrator);
+
 struct StepChoice {
     double step = 0;    // s
-    double stable = 0;  // s, above which Verlet diverges
+    double stable = 0;  // s, above which the integrator diverges
     std::string reason;
 };
 StepChoice plan_step(const Scene& scene, const Plan& plan);

@@ -11,11 +11,10 @@
 namespace grainreel {
 namespace {
 
-// Verlet is stable up to 2 / omega. Free pairs keep well below, so that the stiffest branch is followed too.
+// Free pairs keep well below the stable limit, so that the stiffest branch is followed too.
 constexpr double pair_share = std::numbers::pi / 2 / 2.75;
 // A dense bed has its own fastest mode; it decides over stability only, not over accuracy.
 constexpr double bed_share = 1.2;
-constexpr double verlet_limit = 2;
 
 std::string pair_name(const Scene& scene, std::size_t a, std::size_t b) {
     return scene.species[a].name + "-" + (b < scene.species.size() ? scene.species[b].name : "wall");
@@ -62,6 +61,11 @@ int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy) {
     return static_cast<int>(std::ceil(more * standard));
 }
 
+double stable_step(Integrator integrator) {
+    if (integrator == Integrator::gear) return std::numbers::sqrt2;
+    return integrator == Integrator::forest_ruth ? 2.99 : 2;
+}
+
 StepChoice plan_step(const Scene& scene, const Plan& plan) {
     StepChoice choice;
     choice.step = choice.stable = std::numeric_limits<double>::infinity();
@@ -71,6 +75,7 @@ StepChoice plan_step(const Scene& scene, const Plan& plan) {
             choice.reason = reason;
         }
     };
+    const double limit = stable_step(plan.integrator);
     const std::size_t count = plan.wall.size();
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = a; b <= count; ++b) {
@@ -83,14 +88,14 @@ StepChoice plan_step(const Scene& scene, const Plan& plan) {
             const double sideways = std::sqrt(3.5 * tangential_stiffness(pair) / pair.effective_mass);
             demand(share_of(pair_share, unloading), "unloading of a contact " + name);
             demand(share_of(pair_share, sideways), "tangential spring of a contact " + name);
-            choice.stable = std::min(choice.stable, share_of(verlet_limit, std::max(unloading, sideways)));
+            choice.stable = std::min(choice.stable, share_of(limit, std::max(unloading, sideways)));
         }
         const Species& species = scene.species[a];
         const double mass = species.density * std::numbers::pi / 6 * std::pow(species.diameter.smallest, 3);
         const double dense = bed_frequency(plan, a, mass);
         demand(share_of(bed_share, dense),
                fmt::format("stability of \"{}\" among twelve neighbours", species.name));
-        choice.stable = std::min(choice.stable, share_of(verlet_limit, dense));
+        choice.stable = std::min(choice.stable, share_of(limit, dense));
     }
     if (scene.run.step) {
         choice.step = *scene.run.step;

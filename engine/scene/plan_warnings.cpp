@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "engine/scene/bed.hpp"
 #include "engine/scene/plan_parts.hpp"
 
 namespace grainreel {
@@ -13,6 +15,10 @@ namespace {
 constexpr double alarming_overlap =
     0.05;  // over the smaller diameter; 1 % is the usual aim for most contacts
 constexpr double alarming_size_ratio = 10;
+// docs/stability.md has what each of these costs.
+constexpr double alarming_turn = 0.05;      // of a period that a contact with a moving wall lasts
+constexpr double alarming_flight = 0.2;     // of a diameter that a grain flies while a contact lasts
+constexpr double fewest_last_places = 100;  // of a position, in the overlap of a grain at rest
 
 class Warnings {
   public:
@@ -83,6 +89,80 @@ void warn_of_softness(const Scene& scene, const Plan& plan, const BedPlan& bed, 
                 "a wave needs {:.2g} of a period to cross the bed, which then behaves like a soft body; "
                 "raise the stiffness",
                 bed.frequency * bed.layers * slowest));
+}
+
+// A sine that starts at once has its top speed at once, unless its phase says otherwise.
+void warn_of_kick(const Scene& scene, Warnings& warnings) {
+    const Drive& drive = scene.drive;
+    if (!drive.present || drive.ramp > 0 || scene.start.keep_clock) return;
+    if (scene.start.method == Start::Method::grains) return;  // nothing need lie on what moves
+    const double kick = drive.speed() * std::abs(std::cos(2 * std::numbers::pi * drive.phase));
+    if (kick > 0.05 * drive.speed())
+        warnings.add(
+            "drive.ramp",
+            fmt::format("without a ramp the drive starts at {:.3g} m/s and kicks the bed; take a ramp "
+                        "of 3 periods, or a phase of 90 deg",
+                        kick));
+}
+
+// Contacts that last too long for what else happens meanwhile.
+void warn_of_long_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
+    double at_walls = 0, flight = 0;
+    const std::size_t count = scene.species.size();
+    for (std::size_t a = 0; a < count; ++a) {
+        at_walls = std::max(at_walls, plan.wall[a].contact_time);
+        for (std::size_t b = a; b < count; ++b) {
+            const double smaller =
+                std::min(scene.species[a].diameter.smallest, scene.species[b].diameter.smallest);
+            flight = std::max(flight, bed.impact_speed * plan.between(a, b).contact_time / smaller);
+        }
+    }
+    if (bed.frequency * at_walls > alarming_turn)
+        warnings.add(
+            "contact.stiffness",
+            fmt::format(
+                "a contact lasts {:.2g} of a period, in which what is shaken changes its speed by {:.2g} "
+                "of the largest, so that rebounds are off; raise the stiffness",
+                bed.frequency * at_walls, 2 * std::numbers::pi * bed.frequency * at_walls));
+    if (flight > alarming_flight)
+        warnings.add("contact.stiffness",
+                     fmt::format("a grain may fly {:.2g} of a diameter while a contact lasts, so that grains "
+                                 "close together lose too little energy (detachment); raise the stiffness",
+                                 flight));
+}
+
+// m: how far a grain of its weight sinks into another.
+double resting_overlap(const PairPlan& pair, const Species& species, double gravity) {
+    const double diameter = species.diameter.smallest;
+    const double weight = species.density * std::numbers::pi / 6 * std::pow(diameter, 3) * gravity;
+    if (pair.modulus == 0) return weight / pair.loading_stiffness;
+    const double k = 4.0 / 3 * pair.modulus * std::sqrt(diameter / 4);
+    return std::pow(weight / k, 2.0 / 3);
+}
+
+void warn_of_rounding(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
+    if (bed.gravity == 0) return;
+    const Extent extent = extent_of(scene);
+    const double farthest = std::max(extent.low.cwiseAbs().maxCoeff(), extent.high.cwiseAbs().maxCoeff());
+    const double last_place = std::numeric_limits<double>::epsilon() * farthest;
+    for (std::size_t a = 0; a < scene.species.size(); ++a) {
+        const double overlap = resting_overlap(plan.between(a, a), scene.species[a], bed.gravity);
+        if (overlap > fewest_last_places * last_place) continue;
+        warnings.add(
+            "contact.stiffness",
+            fmt::format("at rest a grain of \"{}\" sinks in by {:.2g} m only, {:.2g} times the rounding "
+                        "of its position, and the force is noise; lower the stiffness",
+                        scene.species[a].name, overlap, overlap / last_place));
+        return;
+    }
+}
+
+void warn_of_arms(const Plan& plan, Warnings& warnings) {
+    if (plan.arms == LeverArms::radius)
+        warnings.add(
+            "contact.arms",
+            "the radius as lever arm does not keep angular momentum, and the slip of pairs that swing "
+            "to and fro adds up (ratcheting); leave it out, unless it is what you study");
 }
 
 void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, const StepChoice& step,
@@ -168,6 +248,10 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
     Warnings warnings(scene);
     warn_of_drive(scene, bed, warnings);
     warn_of_softness(scene, plan, bed, warnings);
+    warn_of_kick(scene, warnings);
+    warn_of_long_contacts(scene, plan, bed, warnings);
+    warn_of_rounding(scene, plan, bed, warnings);
+    warn_of_arms(plan, warnings);
     warn_of_step(scene, plan, bed, step, warnings);
     warn_of_colours(scene, warnings);
     warn_of_film(scene, warnings);

@@ -1,6 +1,6 @@
 // LAMMPS' gran/hooke/history as this engine would compute it, its conventions kept: velocities of the half
-// step in dashpots and slip, the slip turned by projection alone, no slip in the forces before the first step.
-// For the comparison with it only (same_state.cpp); with arms of the full radii.
+// step in dashpots and slip, the slip turned by projection alone, no slip in the forces before the first
+// step. For the comparison with it only (same_state.cpp); with arms of the full radii.
 #if defined(GRAINREEL_TESTS_LAMMPS_HOOKE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_TESTS_LAMMPS_HOOKE_INL
 #undef GRAINREEL_TESTS_LAMMPS_HOOKE_INL

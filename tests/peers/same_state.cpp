@@ -86,8 +86,8 @@ class Bed {
         around_ = peers_surroundings({}, plan_);
         for (std::size_t k = 0; k < from.size(); ++k) {
             const double diameter = from[k].type == 1 ? kPeersSmall : kPeersBig;
-            grains_.add(static_cast<std::int32_t>(k), from[k].type - 1, from[k].position - corner, diameter / 2,
-                        2500);
+            grains_.add(static_cast<std::int32_t>(k), from[k].type - 1, from[k].position - corner,
+                        diameter / 2, 2500);
             grains_.motion.back().velocity = from[k].velocity;
             grains_.spin.back().rate = from[k].spin;
         }
@@ -145,7 +145,8 @@ void compare(const std::string& dump, const std::string& table) {
     while (read_frame(in, step, frame)) {
         theirs.run(step - before), ours.run(step - before);
         before = step;
-        text += fmt::format("{},{:.4g},{:.4g}\n", step, theirs.farthest_from(frame), ours.farthest_from(frame));
+        text +=
+            fmt::format("{},{:.4g},{:.4g}\n", step, theirs.farthest_from(frame), ours.farthest_from(frame));
     }
     replace_file(table, text);
     fmt::print("{}", text);

@@ -65,14 +65,17 @@ TEST_F(HealthCheck, StopsAtAGrainBehindAWall) {
     EXPECT_THAT(complaint(), HasSubstr("went through the floor"));
 }
 
-TEST(EnergyWatch, LetsWallsGiveEnergyAndStopsAtMore) {
+TEST_F(HealthCheck, LetsWallsGiveEnergyAndStopsAtMore) {
     EnergyWatch watch;
-    Clock clock;
-    clock.step = 1e-6;
-    watch.check(1.0, 0.0, 1e-3, clock, 0);
-    watch.check(2.5, 1.6, 1e-3, clock, 100);  // 1.6 J of work, 0.1 J lost
-    EXPECT_THROW(watch.check(2.7, 1.6, 1e-3, clock, 200), RunError);
-    EXPECT_NO_THROW(watch.check(2.55, 1.6, 1e-3, clock, 300));
+    const auto check = [&](double energy, double work) {
+        watch.check(energy, work, 1e-3, limits, w.grains, 100);
+    };
+    check(1.0, 0.0);
+    check(2.5, 1.6);  // 1.6 J of work, 0.1 J lost
+    EXPECT_THROW(check(2.7, 1.6), RunError);
+    EXPECT_NO_THROW(check(2.55, 1.6));
+    w.grains.motion[0].velocity.x() = std::sqrt(2 * 3.0 / sphere_mass());  // 3 J of motion
+    EXPECT_NO_THROW(check(2.7, 1.6));
 }
 
 }  // namespace

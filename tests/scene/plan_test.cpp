@@ -1,6 +1,7 @@
 // The plan against formulas worked out by hand, one condition at a time.
 #include "engine/scene/plan.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -313,6 +314,47 @@ TEST(PlanWarnings, WordForWord) {
     EXPECT_THAT(of("contact.stiffness=0.1"), HasSubstr("may pass through each other"));
     EXPECT_THAT(of("species.small.diameter=0.9 mm"),
                 HasSubstr("the largest grain is 11.1 times the smallest"));
+}
+
+// Failures that no health check sees (docs/stability.md).
+TEST(PlanWarnings, OfSilentFailures) {
+    const auto of = [&](std::vector<std::string> sets) {
+        sets.insert(sets.begin(), "species.small.count=1000");
+        return warnings(wedge_text, sets);
+    };
+    EXPECT_EQ(
+        of({"drive.ramp=0"}),
+        fmt::format("--set drive.ramp: without a ramp the drive starts at {:.3g} m/s and kicks the bed; "
+                    "take a ramp of 3 periods, or a phase of 90 deg\n",
+                    3 * 10 / (2 * pi * 20)));
+    EXPECT_EQ(of({"drive.ramp=0", "drive.phase=90 deg"}), "");
+    EXPECT_EQ(
+        of({"contact.arms=radius"}),
+        "--set contact.arms: the radius as lever arm does not keep angular momentum, and the slip of "
+        "pairs that swing to and fro adds up (ratcheting); leave it out, unless it is what you study\n");
+    EXPECT_EQ(of({"contact.arms=radius", "contact.friction=0"}).find("ratcheting"), std::string::npos);
+
+    const Plan soft = make_plan(read_text(wedge_text, {"contact.stiffness=20"}));
+    const std::string said = of({"contact.stiffness=20"});
+    const double lasts = soft.wall[1].contact_time * 20;
+    EXPECT_THAT(said,
+                HasSubstr(fmt::format("a contact lasts {:.2g} of a period, in which what is shaken changes "
+                                      "its speed by {:.2g} of the largest",
+                                      lasts, 2 * pi * lasts)));
+    EXPECT_THAT(said, HasSubstr("close together lose too little energy (detachment); raise the stiffness"));
+    EXPECT_THAT(of({"contact.stiffness=2e12"}),
+                HasSubstr("times the rounding of its position, and the force is noise; lower the stiffness"));
+}
+
+TEST(PlanWarnings, TheStableStepIsThatOfTheIntegrator) {
+    const double fastest = std::sqrt(8 * 1000 / sphere_mass(0.001, 2500));
+    const std::string between = fmt::format("run.step={}", 1.6 / fastest);  // of Gear's 1.41 and Verlet's 2
+    const auto of = [&](const char* integrator) {
+        return warnings(box_text,
+                        {std::string("run.integrator=") + integrator, between, "contact.friction=0"});
+    };
+    EXPECT_THAT(of("gear"), HasSubstr("is above the stable limit"));
+    EXPECT_EQ(of("velocity-verlet").find("is above the stable limit"), std::string::npos);
 }
 
 TEST(PlanWarnings, AFilmThatEndsBeforeTheRun) {

@@ -1,0 +1,38 @@
+// One contact led along a path by hand, through the same law that the step loop uses.
+#pragma once
+
+#include <vector>
+
+#include "engine/laws/law_kernel.hpp"
+#include "engine/step/contact_list.hpp"
+
+namespace grainreel {
+
+class DrivenContact {
+  public:
+    explicit DrivenContact(const PairPlan& pair);
+
+    // Where the contact is led in one step.
+    struct Move {
+        Vec3 normal{0, 0, 1};  // unit, from i to j, at the end of the step
+        double overlap = 0;    // m, likewise
+        Vec3 slip{0, 0, 0};    // m, of i over j during the step
+        double twist = 0;      // rad, about the normal, likewise
+    };
+    void move(const Move& move);
+
+    double normal_force() const { return force_.normal[0]; }  // N
+    Vec3 tangential() const {                                 // N, on j
+        return {force_.tangential[0][0], force_.tangential[1][0], force_.tangential[2][0]};
+    }
+
+  private:
+    const LawKernel& law_;
+    LawParameters parameters_;
+    std::vector<Block> history_;
+    Block mass_{}, radius_{};
+    TouchChunk touch_;
+    ForceChunk force_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,65 @@
+// The experiments of the stability chart: each takes one method to where it fails and measures that, beside
+// what theory says (physics.md section 6; sources stand by each experiment).
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace grainreel {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+struct CurvePoint {
+    double x, value;
+    double theory = unknown;
+};
+
+// The limit in the unit of `Experiment::varied`. Where a method has no limit but an error, theory is the
+// error allowed and measured the largest one found.
+struct Finding {
+    double theory = unknown, measured = unknown;
+    double usual = unknown;  // where a run with the plan's choices stands, where they decide
+    std::vector<CurvePoint> curve;
+};
+
+// Loud: the health check stops the run. Silent: nothing but a warning before it, or care, helps.
+enum class Failure { loud, silent };
+
+struct Experiment {
+    std::string name, varied;  // varied: the quantity, with its unit
+    Failure failure;
+    std::string guard;  // what protects a user
+    std::function<Finding(bool quick)> run;
+};
+
+std::vector<Experiment> step_experiments();
+std::vector<Experiment> speed_experiments();
+std::vector<Experiment> restitution_experiments();
+std::vector<Experiment> friction_experiments();
+std::vector<Experiment> path_experiments();
+std::vector<Experiment> softness_experiments();
+std::vector<Experiment> drive_experiments();
+std::vector<Experiment> bed_experiments();
+std::vector<Experiment> number_experiments();
+
+// Where a condition that holds at `low` and not at `high` ceases to hold.
+template <class Holds>
+double last_that_holds(double low, double high, int halvings, const Holds& holds) {
+    for (int k = 0; k < halvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (holds(middle) ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+// `count` values from low to high, evenly spread on a logarithmic axis.
+inline std::vector<double> logarithmic(double low, double high, int count) {
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k) values.push_back(low * std::pow(high / low, k / (count - 1.0)));
+    return values;
+}
+
+}  // namespace grainreel
