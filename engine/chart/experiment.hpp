@@ -40,6 +40,7 @@ std::vector<Experiment> speed_experiments();
 std::vector<Experiment> restitution_experiments();
 std::vector<Experiment> friction_experiments();
 std::vector<Experiment> path_experiments();
+std::vector<Experiment> detachment_experiments();
 std::vector<Experiment> softness_experiments();
 std::vector<Experiment> drive_experiments();
 std::vector<Experiment> bed_experiments();

@@ -7,9 +7,10 @@ namespace grainreel {
 
 std::vector<Experiment> stability_experiments() {
     std::vector<Experiment> all;
-    for (const auto& family : {step_experiments(), speed_experiments(), restitution_experiments(),
-                               friction_experiments(), path_experiments(), softness_experiments(),
-                               drive_experiments(), bed_experiments(), number_experiments()})
+    for (const auto& family :
+         {step_experiments(), speed_experiments(), restitution_experiments(), friction_experiments(),
+          path_experiments(), detachment_experiments(), softness_experiments(), drive_experiments(),
+          bed_experiments(), number_experiments()})
         all.insert(all.end(), family.begin(), family.end());
     return all;
 }
