@@ -1,6 +1,7 @@
 #include "engine/chart/chart.hpp"
 
 #include "engine/chart/accuracy.hpp"
+#include "engine/chart/savings.hpp"
 #include "engine/chart/stability.hpp"
 #include "engine/chart/validation.hpp"
 
@@ -14,6 +15,8 @@ const std::vector<Chart>& charts() {
          validation_drawing},
         {"stability", "where each method fails, against theory: step, speed, stiffness, drive, round-off",
          run_stability, stability_drawing},
+        {"savings", "what leaving friction, walls' motion and the like out of a scene saves", run_savings,
+         savings_drawing},
     };
     return all;
 }

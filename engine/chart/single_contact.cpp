@@ -162,7 +162,7 @@ double cost_of_a_contact(const Method& method) {
     const double apart = 2 * radius * (1 - 1e-4);
     for (int x = 0; x < side; ++x)
         for (int y = 0; y < side; ++y)
-            for (int z = 0; z < side; ++z) bench.add(apart * Vec3(x, y, z), Vec3(1e-4 * (x % 2), 0, 0));
+            for (int z = 0; z < side; ++z) bench.add(apart * Vec3(x, y, z), 0.01 * Vec3(y % 2, z % 2, x % 2));
     bench.start();
     const double contacts = 3.0 * side * side * (side - 1) * steps * method.forces_a_step();
     double best = 1e9;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/step/flush_denormals.hpp"
 #include "engine/step/integrate.hpp"
 
 namespace grainreel {
@@ -50,6 +51,7 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
 // Steps `from` to `to`, the part of one thread. A thread writes to its own grains only; it reads the others'
 // positions and velocities between the two barriers of a step, while nobody writes them.
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
+    const FlushDenormals flush;
     for (std::int64_t n = from; n < to; ++n) {
         for (std::size_t stage = 0; stage < scheme_.stages.size(); ++stage) {
             const Evaluation at = evaluation(n, stage, step);

@@ -173,6 +173,7 @@ void print_model(const Scene& scene, const Plan& plan, Listing& list) {
     note(tangential(TangentialLaw::mindlin), "friction: Mindlin's spring with Coulomb's cap");
     const bool rubs = plan.rubs();
     (plan.rolls() ? in : out).push_back("rolling resistance");
+    note(scene.run.precision == Precision::mixed, "contact laws in single precision");
     (rubs ? in : out).push_back("spin and torque");
     if (!rubs) out.push_back("friction");
     (scene.gravity.norm() > 0 ? in : out).push_back("gravity");
@@ -193,7 +194,7 @@ std::string restitution_error(const Plan& plan, const PairPlan& pair) {
     NormalForce law = pair.model.normal;
     if (law == NormalForce::walton_braun_speed || law == NormalForce::walton_braun_table)
         law = NormalForce::walton_braun;
-    const Method method{"", plan.integrator, law, TangentialLaw::none};
+    const Method method{"", plan.integrator, law, TangentialLaw::none, pair.model.precision};
     const double steps = pair.contact_time / plan.clock.step;
     if (steps < 2) return "-";
     return fmt::format("{:.1g}", normal_errors(method, pair.restitution, steps, 50).restitution);
