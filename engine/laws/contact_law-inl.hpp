@@ -90,17 +90,23 @@ struct ContactLaw {
         return f;
     }
 
-    // The force as it stands, `velocity` being that of now, and J, what the contact would give back if it
-    // were unloaded.
+    // The force as it stands, `velocity` being that of now, and what is to be said of energies.
     template <class R>
     static HWY_INLINE Force<R> now(const Parameters<R>& p, const History<R>& h, Touch<R> touch,
-                                   const Triple<R>& velocity, R& stored_energy) {
-        if constexpr (uses_velocity) set_velocity(touch, velocity);
+                                   const Triple<R>& velocity, Energies<R>& e) {
+        set_velocity(touch, velocity);
         Force<R> f{Normal::now(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
-        stored_energy = Normal::stored_energy(p.normal, h.normal, touch, f.normal);
+        e = {Normal::stored_energy(p.normal, h.normal, touch, f.normal), R(0), R(0), R(0), R(0)};
+        if constexpr (has_dashpot) {
+            e.damping = (f.normal - Normal::spring_force(p.normal, touch)) * touch.closing_speed;
+        } else {
+            e.latched = Normal::latched_energy(p.normal, h.normal, touch);
+        }
         if constexpr (rubs) {
             f.tangential = Tangential::now(p.tangential, p.normal, h.tangential, touch, f.normal);
-            stored_energy += Tangential::stored_energy(p.tangential, h.tangential);
+            e.sideways = Tangential::stored_energy(p.tangential, h.tangential);
+            e.stored += e.sideways;
+            e.rubbing = f.tangential.dot(touch.slip_velocity);
         }
         return f;
     }

@@ -151,18 +151,26 @@ void step_any(const LawInput& in, double* history, ForceChunk& out) {
                               : step_chunk<Law, false>(in, history, out);
 }
 
+HWY_INLINE void put_energies(LanesMask touching, const Energies<Lanes>& e, int c, EnergyChunk& out) {
+    store(select(touching, e.stored, Lanes(0.0)), out.stored + c);
+    store(select(touching, e.sideways, Lanes(0.0)), out.sideways + c);
+    store(select(touching, e.latched, Lanes(0.0)), out.latched + c);
+    store(select(touching, e.damping, Lanes(0.0)), out.damping + c);
+    store(select(touching, e.rubbing, Lanes(0.0)), out.rubbing + c);
+}
+
 template <class Law>
-void observe_chunk(const LawInput& in, const double* history, ForceChunk& out) {
+void observe_chunk(const LawInput& in, const double* history, ForceChunk& out, EnergyChunk& energy) {
     const std::size_t stride = in.history_stride;
     for (int c = 0; c < in.count; c += kLanes) {
         const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
         typename Law::template History<Lanes> h;
         h.each(LoadHistory(history + (c / kBlock) * (stride * kBlock) + c % kBlock));
-        Lanes stored(0.0);
+        Energies<Lanes> e;
         const auto force =
-            Law::now(parameters_at<Law>(in, c), h, touch_at<Law>(in, c), velocity_at<Law>(in, c), stored);
+            Law::now(parameters_at<Law>(in, c), h, touch_at<Law>(in, c), velocity_at<Law>(in, c), e);
         put_force<Law>(touching, force, c, out);
-        store(select(touching, stored, Lanes(0.0)), out.stored + c);
+        put_energies(touching, e, c, energy);
     }
 }
 

@@ -41,8 +41,9 @@ struct LawKernel {
 
     // `history`: in blocks of kBlock contacts, within a block number by number. Zeroed where nothing touches.
     void (*step)(const LawInput& in, double* history, ForceChunk& out);
-    // Forces as they stand, without a step; velocities are those of now.
-    void (*observe)(const LawInput& in, const double* history, ForceChunk& out);
+    // Forces and energies as they stand, without a step; velocities are those of now. Resistance to rolling
+    // adds to the energies of its law.
+    void (*observe)(const LawInput& in, const double* history, ForceChunk& out, EnergyChunk& energy);
 };
 
 // The one place where laws are chosen at run time. `model` without its rolling, which comes on top.

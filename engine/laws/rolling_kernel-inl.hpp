@@ -38,15 +38,22 @@ inline void step_rolling(const LawInput& in, double* history, ForceChunk& out) {
     }
 }
 
-inline void observe_rolling(const LawInput& in, const double* history, ForceChunk& out) {
+HWY_INLINE void add(LanesMask touching, Lanes more, double* to) {
+    store(load(to) + select(touching, more, Lanes(0.0)), to);
+}
+
+inline void observe_rolling(const LawInput& in, const double* history, ForceChunk&, EnergyChunk& energy) {
     for (int c = 0; c < in.count; c += kLanes) {
         const LanesMask touching = load(in.touch->overlap + c) > Lanes(0.0);
         RollingSpring::History<Lanes> h;
         h.each(LoadHistory(history + (c / kBlock) * (in.history_stride * kBlock) + c % kBlock));
         const Lanes stored = RollingSpring::stored_energy(parameters_at<RollingSpring>(in, c), h,
                                                           load(in.effective_radius + c));
+        const Lanes power = h.torque.dot(triple_at(in.rolling->rate, c));
         put_rolling(touching, h.torque, c, *in.rolling);
-        store(load(out.stored + c) + select(touching, stored, Lanes(0.0)), out.stored + c);
+        add(touching, stored, energy.stored + c);
+        add(touching, stored, energy.sideways + c);
+        add(touching, power, energy.rubbing + c);
     }
 }
 

@@ -87,6 +87,11 @@ struct WaltonBraunCorrected {
                                       R normal_force) {
         return R(0.5) * normal_force * normal_force * larger(h.softness, p.give_back);
     }
+    // J, K1 a0 a_max / 2: the area between the slopes up to a_max and back.
+    template <class R>
+    static HWY_INLINE R latched_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&) {
+        return R(0.5) * p.loading * residual(p, h) * h.largest_overlap;
+    }
 
   private:
     // m: a0 = a_max (1 - K1 / K2').

@@ -181,11 +181,12 @@ void ContactPass::observe(const ContactRules& rules, std::size_t group, const Gr
     const ContactList& list = lists_[group];
     each_chunk(rules, group, grains, state, {0, 0, 0}, [&](const LawInput& in, std::int32_t c) {
         const double* history = list.history_of_block(c);
-        of.law->observe(in, history, force_);
-        if (of.rolling) of.rolling->observe(for_rolling(of, in), history + behind_law(of), force_);
+        EnergyChunk energy;
+        of.law->observe(in, history, force_, energy);
+        if (of.rolling) of.rolling->observe(for_rolling(of, in), history + behind_law(of), force_, energy);
         for (int k = 0; k < in.count; ++k) {
             if ((touch_.touching >> k & 1) && list.first[c + k] >= begin_)
-                seen(list.first[c + k], list.second[c + k], k, touch_, force_);
+                seen(list.first[c + k], list.second[c + k], k, touch_, force_, energy);
         }
     });
 }
