@@ -72,7 +72,8 @@ void EnergyBalance::add_friction(double spent) {
 std::uint64_t EnergyBalance::key(const ContactView& c) const {
     const auto id = [&](std::int32_t index) { return static_cast<std::uint64_t>(grains_.id[index]); };
     const std::uint64_t first = id(c.first);
-    if (c.second < 0) return first << 32 | (std::uint64_t{1} << 31) | static_cast<std::uint64_t>(-1 - c.second);
+    if (c.second < 0)
+        return first << 32 | (std::uint64_t{1} << 31) | static_cast<std::uint64_t>(-1 - c.second);
     const std::uint64_t second = id(c.second);
     return std::min(first, second) << 32 | std::max(first, second);
 }

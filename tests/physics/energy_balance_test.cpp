@@ -67,8 +67,7 @@ TEST(EnergyTerms, DashpotTakesWhatRestitutionSays) {
 TEST(EnergyTerms, FrictionTakesForceTimesSlip) {
     const double e = 0.9, mu = 0.2, down = 0.05, sideways = 0.2;
     const double impulse = sphere_mass() * (1 + e) * down;
-    const double expected =
-        mu * impulse * sideways - 1.75 * mu * mu * impulse * impulse / sphere_mass();
+    const double expected = mu * impulse * sideways - 1.75 * mu * mu * impulse * impulse / sphere_mass();
     const EnergyTerms t = impact(walton_braun_pair(e, mu), NormalForce::walton_braun,
                                  TangentialLaw::linear_spring, down, sideways);
     EXPECT_NEAR(t.friction, expected, 5e-3 * expected);
@@ -151,10 +150,11 @@ TEST_P(VibratedBed, BalancesToSecondOrder) {
         ASSERT_GT(t.wall_work, 1e-3);
         EXPECT_GT(t.lost(), 0.5 * t.wall_work);
         EXPECT_LT(b.residual, GetParam().bound * share * share);
-        std::printf("[ measured ] %s, step x %.1f: latching %.3f, friction %.3f (gave back %.4f), damping %.3f "
-                    "of the wall work, residual %.5f\n",
-                    GetParam().name, share, t.latching / t.wall_work, t.friction / t.wall_work,
-                    t.given_back / t.wall_work, t.damping / t.wall_work, b.residual);
+        std::printf(
+            "[ measured ] %s, step x %.1f: latching %.3f, friction %.3f (gave back %.4f), damping %.3f "
+            "of the wall work, residual %.5f\n",
+            GetParam().name, share, t.latching / t.wall_work, t.friction / t.wall_work,
+            t.given_back / t.wall_work, t.damping / t.wall_work, b.residual);
     }
 }
 
@@ -232,7 +232,8 @@ double rise_at_rest(const std::vector<std::string>& sets, double share) {
         rise = std::max(rise, now - lowest);
         lowest = std::min(lowest, now);
     }
-    std::printf("[ measured ] %s, step x %.2f: rose by %.1e\n", sets[0].c_str(), share, rise / (start - lowest));
+    std::printf("[ measured ] %s, step x %.2f: rose by %.1e\n", sets[0].c_str(), share,
+                rise / (start - lowest));
     return rise / (start - lowest);
 }
 
