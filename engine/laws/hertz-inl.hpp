@@ -20,6 +20,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 struct Hertz {
     static constexpr bool has_dashpot = true, uses_velocity = true, uses_mass = true, uses_radius = true;
+    static constexpr bool weighs_onset = false;
 
     template <class R>
     struct Parameters {

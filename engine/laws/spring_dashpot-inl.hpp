@@ -19,6 +19,7 @@ constexpr double kFarBelow = 1e30;  // N
 
 struct SpringDashpot {
     static constexpr bool has_dashpot = true, uses_velocity = true, uses_mass = true, uses_radius = false;
+    static constexpr bool weighs_onset = false;
 
     template <class R>
     struct Parameters {
