@@ -1,4 +1,4 @@
-# Draws contacts.csv and bed.csv: gnuplot accuracy.gp
+# Draws contacts.csv, convergence.csv and bed.csv: gnuplot accuracy.gp
 set datafile separator ','
 set style data linespoints
 set grid
@@ -27,6 +27,22 @@ do for [form in "svg png"] {
     plot for [m in methods] pick(m, 'energy drift', '0.9') using 2:($3 > 1e-15 ? $3 : 1e-15) title m lw 2
     unset multiplot
     unset title
+    set output 'convergence.'.form
+    set logscale xy
+    set multiplot layout 2,1
+    laws = "'slip' 'slip; corrected' 'spring' 'spring; corrected'"
+    of(contact, law) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" {print $3\",\"$4}' convergence.csv", contact, law)
+    set xlabel 'steps in a contact'
+    set ylabel 'largest error / speed'
+    set xrange [7:450]
+    set yrange [1e-6:0.1]
+    do for [contact in "impact lasting"] {
+        set title contact eq 'impact' ? 'Tangential velocity after an impact at 0 to 85 degrees, e = 0.9' : 'Tangential velocity in a lasting contact that sticks'
+        plot for [l in laws] of(contact, l) using 1:2 title l lw 2 ps 0.7, 0.4/x lc 'gray40' dt 2 title 'slope 1', 0.8/x**2 lc 'gray40' dt 3 title 'slope 2'
+    }
+    unset multiplot
+    unset title
+    set autoscale
     set output 'bed.'.form
     unset logscale
     set format y '%g'

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
+#include "engine/chart/convergence.hpp"
 #include "engine/chart/result_table.hpp"
 #include "engine/chart/single_contact.hpp"
 #include "engine/chart/small_bed.hpp"
@@ -148,17 +149,21 @@ bool run_accuracy(const ChartRequest& request, const ChartWatcher& watcher) {
     ResultTable contacts(request.folder / "contacts.csv", "method,error,e,forces,ns,value", 4);
     ResultTable beds(request.folder / "bed.csv",
                      "setting,seed,height_m,temperature_m2s2,contacts,mixing,cost_ns", 2);
+    ResultTable convergence(request.folder / "convergence.csv", "contact,law,steps,error", 3);
     const std::size_t pieces =
+        convergence_pieces(request.quick) +
         methods().size() * restitutions(request.quick).size() * force_counts(request.quick).size() +
         bed_settings(request.quick).size() * (request.quick ? 2 : 5);
     ChartWork work(watcher, pieces);
-    if (!run_contacts(request.quick, contacts, work) || !run_beds(request.quick, beds, work)) return false;
+    if (!run_contacts(request.quick, contacts, work) || !run_convergence(request.quick, convergence, work) ||
+        !run_beds(request.quick, beds, work))
+        return false;
     replace_file(request.folder / "differences.csv", differences_table(beds));
     return true;
 }
 
 std::string accuracy_drawing() {
-    return R"(# Draws contacts.csv and bed.csv: gnuplot accuracy.gp
+    return R"(# Draws contacts.csv, convergence.csv and bed.csv: gnuplot accuracy.gp
 set datafile separator ','
 set style data linespoints
 set grid
@@ -187,7 +192,8 @@ do for [form in "svg png"] {
     plot for [m in methods] pick(m, 'energy drift', '0.9') using 2:($3 > 1e-15 ? $3 : 1e-15) title m lw 2
     unset multiplot
     unset title
-    set output 'bed.'.form
+)" + std::string(convergence_drawing()) +
+           R"(    set output 'bed.'.form
     unset logscale
     set format y '%g'
     set offsets 0.5, 0.5, 0, 0

@@ -39,7 +39,8 @@ Bench& build(Bench& bench) {
     for (int z = 0; z < side; ++z)
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x)
-                bench.add(apart * Vec3(x, y, z) + Vec3(0, 0, 0.9999 * bench_radius), 0.01 * Vec3(y % 2, z % 2, x % 2));
+                bench.add(apart * Vec3(x, y, z) + Vec3(0, 0, 0.9999 * bench_radius),
+                          0.01 * Vec3(y % 2, z % 2, x % 2));
     return bench;
 }
 
@@ -105,7 +106,10 @@ std::vector<Saving> savings() {
          each_contact([](PairPlan& p) { p.model.precision = Precision::mixed; })},
         {"a second species", mix, nothing},
         {"moving walls", shake, nothing},
-        {"gravity", nothing, [](Bench& bench) { bench.around.gravity = {0, 0, 0}; }},
+        {"gravity", nothing,
+         [](Bench& bench) {
+             bench.around.gravity = {0, 0, 0};
+         }},
     };
 }
 

@@ -1,5 +1,5 @@
-// `grainreel chart savings`: what a scene saves that does without friction, moving walls, a second species and
-// the like. One table, savings.csv: cost of a grain's step with and without.
+// `grainreel chart savings`: what a scene saves that does without friction, moving walls, a second species
+// and the like. One table, savings.csv: cost of a grain's step with and without.
 #pragma once
 
 #include "engine/chart/chart.hpp"

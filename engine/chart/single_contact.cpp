@@ -113,6 +113,9 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
     Method reference = method;
     reference.integrator = Integrator::velocity_verlet;
     if (reference.normal == NormalForce::walton_braun_corrected) reference.normal = NormalForce::walton_braun;
+    // Of second order then, and so the better reference.
+    if (reference.normal == NormalForce::walton_braun && method.tangential == TangentialLaw::linear_spring)
+        reference.normal = NormalForce::walton_braun_corrected;
     ObliqueErrors errors;
     for (int degrees = 0; degrees <= 85; degrees += 5) {
         const double angle = degrees * pi / 180;
@@ -122,6 +125,36 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
         errors.spin = std::max(errors.spin, std::abs(is.spin - should.spin));
     }
     return errors;
+}
+
+namespace {
+
+// Tangential velocity over the push at 24 times, evenly spread over three contacts.
+std::vector<double> shear(const Method& method, std::int64_t steps_between, double contact) {
+    const double length = contact / (8 * static_cast<double>(steps_between));
+    Bench bench(pair_of(method, 1, mass()), length, method.integrator);
+    bench.add_floor();
+    const double push = 0.02, gravity = 4 * push * std::sqrt(stiffness / mass());
+    bench.around.gravity = {0, 0, -gravity};
+    bench.add(Vec3(0, 0, radius - mass() * gravity / stiffness), Vec3(push / 2, 0, -push));
+    bench.start();
+    std::vector<double> velocities;
+    for (int k = 0; k < 24; ++k) {
+        bench.run(steps_between);
+        velocities.push_back(bench.grains.motion[0].velocity.x() / push);
+    }
+    return velocities;
+}
+
+}  // namespace
+
+double shear_error(const Method& method, double steps) {
+    const double contact = contact_time(method, 1, mass(), radius);
+    const auto is = shear(method, static_cast<std::int64_t>(steps / 8), contact);
+    const auto should = shear(method, 2500, contact);
+    double largest = 0;
+    for (std::size_t k = 0; k < is.size(); ++k) largest = std::max(largest, std::abs(is[k] - should[k]));
+    return largest;
 }
 
 namespace {

@@ -37,6 +37,10 @@ struct ContactLaw {
     static constexpr bool uses_velocity = Normal::uses_velocity, has_dashpot = Normal::has_dashpot;
     static constexpr bool uses_mass = Normal::uses_mass, uses_radius = Normal::uses_radius;
 
+    // Where the normal law weighs the onset of a contact and the tangential one gains by it, slip counts from
+    // the touch, and the tangential force acts for as long as the normal one.
+    static constexpr bool weighs_onset = Normal::weighs_onset && Tangential::gains_by_onset;
+
     template <class R>
     struct Parameters {
         typename Normal::template Parameters<R> normal;
@@ -83,6 +87,14 @@ struct ContactLaw {
             set_velocity(touch, velocity);
         }
         if constexpr (uses_velocity) touch.step = step;
+        if constexpr (weighs_onset) {
+            touch.slip = across(velocity, touch.normal) * Normal::touched(h.normal, touch);
+            const R over_the_step = Normal::force(p.normal, h.normal, touch);
+            const R spring = Normal::now(p.normal, h.normal, touch);
+            const R acts = select(spring > R(0), over_the_step / spring, R(0));
+            return {over_the_step,
+                    Tangential::force(p.tangential, p.normal, h.tangential, touch, spring) * acts};
+        }
         Force<R> f{Normal::force(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
         if constexpr (rubs) {
             f.tangential = Tangential::force(p.tangential, p.normal, h.tangential, touch, f.normal);
@@ -90,17 +102,23 @@ struct ContactLaw {
         return f;
     }
 
-    // The force as it stands, `velocity` being that of now, and J, what the contact would give back if it
-    // were unloaded.
+    // The force as it stands, `velocity` being that of now, and what is to be said of energies.
     template <class R>
     static HWY_INLINE Force<R> now(const Parameters<R>& p, const History<R>& h, Touch<R> touch,
-                                   const Triple<R>& velocity, R& stored_energy) {
-        if constexpr (uses_velocity) set_velocity(touch, velocity);
+                                   const Triple<R>& velocity, Energies<R>& e) {
+        set_velocity(touch, velocity);
         Force<R> f{Normal::now(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
-        stored_energy = Normal::stored_energy(p.normal, h.normal, touch, f.normal);
+        e = {Normal::stored_energy(p.normal, h.normal, touch, f.normal), R(0), R(0), R(0), R(0)};
+        if constexpr (has_dashpot) {
+            e.damping = (f.normal - Normal::spring_force(p.normal, touch)) * touch.closing_speed;
+        } else {
+            e.latched = Normal::latched_energy(p.normal, h.normal, touch);
+        }
         if constexpr (rubs) {
             f.tangential = Tangential::now(p.tangential, p.normal, h.tangential, touch, f.normal);
-            stored_energy += Tangential::stored_energy(p.tangential, h.tangential);
+            e.sideways = Tangential::stored_energy(p.tangential, h.tangential);
+            e.stored += e.sideways;
+            e.rubbing = f.tangential.dot(touch.slip_velocity);
         }
         return f;
     }

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct Frictionless {
-    static constexpr bool rubs = false;
+    static constexpr bool rubs = false, gains_by_onset = false;
 
     template <class R>
     struct Parameters {

@@ -20,6 +20,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 struct Hertz {
     static constexpr bool has_dashpot = true, uses_velocity = true, uses_mass = true, uses_radius = true;
+    static constexpr bool weighs_onset = false;
 
     template <class R>
     struct Parameters {
@@ -66,19 +67,17 @@ struct Hertz {
     }
     template <class R>
     static HWY_INLINE R now(const Parameters<R>& p, const History<R>&, const Touch<R>& touch) {
-        return larger(p.lowest, elastic(p, touch) + p.normal_damping(touch) * touch.closing_speed);
+        return larger(p.lowest, spring_force(p, touch) + p.normal_damping(touch) * touch.closing_speed);
+    }
+    template <class R>
+    static HWY_INLINE R spring_force(const Parameters<R>& p, const Touch<R>& touch) {
+        return p.modulus * p.contact_radius(touch) * touch.overlap;
     }
 
     // J, 2/5 k a^(5/2).
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>&, const Touch<R>& touch, R) {
-        return R(0.4) * elastic(p, touch) * touch.overlap;
-    }
-
-  private:
-    template <class R>
-    static HWY_INLINE R elastic(const Parameters<R>& p, const Touch<R>& touch) {
-        return p.modulus * p.contact_radius(touch) * touch.overlap;
+        return R(0.4) * spring_force(p, touch) * touch.overlap;
     }
 };
 

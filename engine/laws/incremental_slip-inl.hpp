@@ -23,7 +23,8 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct IncrementalSlip {
-    static constexpr bool rubs = true;
+    // Its stiffness is that of the step's beginning: of first order, and no better for an exact onset.
+    static constexpr bool rubs = true, gains_by_onset = false;
 
     template <class R>
     struct Parameters {

@@ -178,18 +178,27 @@ void step_any(const LawInput& in, void* history, ForceChunk& out) {
                               : step_chunk<Law, L, false>(in, numbers, out);
 }
 
+template <class L>
+HWY_INLINE void put_energies(typename L::Mask touching, const Energies<L>& e, int c, EnergyChunk& out) {
+    store_as(select(touching, e.stored, L(0.0)), out.stored + c);
+    store_as(select(touching, e.sideways, L(0.0)), out.sideways + c);
+    store_as(select(touching, e.latched, L(0.0)), out.latched + c);
+    store_as(select(touching, e.damping, L(0.0)), out.damping + c);
+    store_as(select(touching, e.rubbing, L(0.0)), out.rubbing + c);
+}
+
 template <class Law, class L>
-void observe_chunk(const LawInput& in, const void* history, ForceChunk& out) {
+void observe_chunk(const LawInput& in, const void* history, ForceChunk& out, EnergyChunk& energy) {
     const auto* numbers = static_cast<const NumberOf<L>*>(history);
     for (int c = 0; c < in.count; c += L::count) {
         const auto touching = touching_at<L>(in, c);
         typename Law::template History<L> h;
         h.each(LoadHistory<L>(numbers + place_in_history(c, in.history_stride)));
-        L stored(0.0);
-        const auto force = Law::now(parameters_at<Law, L>(in, c), h, touch_at<Law, L>(in, c),
-                                    velocity_at<Law, L>(in, c), stored);
+        Energies<L> e;
+        const auto force =
+            Law::now(parameters_at<Law, L>(in, c), h, touch_at<Law, L>(in, c), velocity_at<Law, L>(in, c), e);
         put_force<Law, L>(touching, force, c, out);
-        store_as(select(touching, stored, L(0.0)), out.stored + c);
+        put_energies(touching, e, c, energy);
     }
 }
 

@@ -48,13 +48,15 @@ struct LawKernel {
     bool rubs;                // asks for spin, twist and arms
     bool rolls;               // asks for the rolling motion
     bool uses_velocity;       // asks for velocity; so does a law that rubs
+    bool at_mid_step = true;  // slip is across the normal of the step's middle; if not, of its end
     bool uses_mass, uses_radius;
     LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
 
     // `history`: in blocks of kBlock contacts, within a block number by number. Zeroed where nothing touches.
     void (*step)(const LawInput& in, void* history, ForceChunk& out);
-    // Forces as they stand, without a step; velocities are those of now.
-    void (*observe)(const LawInput& in, const void* history, ForceChunk& out);
+    // Forces and energies as they stand, without a step; velocities are those of now. Resistance to rolling
+    // adds to the energies of its law.
+    void (*observe)(const LawInput& in, const void* history, ForceChunk& out, EnergyChunk& energy);
 };
 
 // The one place where laws are chosen at run time. `model` without its rolling, which comes on top.

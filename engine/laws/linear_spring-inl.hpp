@@ -17,7 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct LinearSpring {
-    static constexpr bool rubs = true;
+    // It follows any slip exactly, so that the onset is all that it gets wrong.
+    static constexpr bool rubs = true, gains_by_onset = true;
 
     template <class R>
     struct Parameters {

@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct Mindlin {
-    static constexpr bool rubs = true;
+    static constexpr bool rubs = true, gains_by_onset = false;
 
     template <class R>
     struct Parameters {

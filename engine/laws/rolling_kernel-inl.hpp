@@ -31,7 +31,12 @@ void step_rolling(const LawInput& in, void* history, ForceChunk& out) {
 }
 
 template <class L>
-void observe_rolling(const LawInput& in, const void* history, ForceChunk& out) {
+HWY_INLINE void add_where(typename L::Mask which, L more, double* to) {
+    store_as(load_as<L>(to) + select(which, more, L(0.0)), to);
+}
+
+template <class L>
+void observe_rolling(const LawInput& in, const void* history, ForceChunk&, EnergyChunk& energy) {
     const auto* numbers = static_cast<const NumberOf<L>*>(history);
     for (int c = 0; c < in.count; c += L::count) {
         const auto touching = touching_at<L>(in, c);
@@ -39,8 +44,11 @@ void observe_rolling(const LawInput& in, const void* history, ForceChunk& out) {
         h.each(LoadHistory<L>(numbers + place_in_history(c, in.history_stride)));
         const L stored = RollingSpring::stored_energy(parameters_at<RollingSpring, L>(in, c), h,
                                                       load_as<L>(in.effective_radius + c));
+        const L power = h.torque.dot(triple_at<L>(in.rolling->rate, c));
         put_where(touching, h.torque, in.rolling->torque, c);
-        store_as(load_as<L>(out.stored + c) + select(touching, stored, L(0.0)), out.stored + c);
+        add_where(touching, stored, energy.stored + c);
+        add_where(touching, stored, energy.sideways + c);
+        add_where(touching, power, energy.rubbing + c);
     }
 }
 

@@ -19,6 +19,7 @@ constexpr double kFarBelow = 1e30;  // N
 
 struct SpringDashpot {
     static constexpr bool has_dashpot = true, uses_velocity = true, uses_mass = true, uses_radius = false;
+    static constexpr bool weighs_onset = false;
 
     template <class R>
     struct Parameters {
@@ -55,7 +56,11 @@ struct SpringDashpot {
     template <class R>
     static HWY_INLINE R now(const Parameters<R>& p, const History<R>&, const Touch<R>& touch) {
         return larger(p.lowest,
-                      p.stiffness * touch.overlap + p.damping * touch.effective_mass * touch.closing_speed);
+                      spring_force(p, touch) + p.damping * touch.effective_mass * touch.closing_speed);
+    }
+    template <class R>
+    static HWY_INLINE R spring_force(const Parameters<R>& p, const Touch<R>& touch) {
+        return p.stiffness * touch.overlap;
     }
 
     // J, k a^2 / 2.

@@ -25,6 +25,16 @@ struct Touch {
     R step;                   // s, between two forces; set only for laws that use velocity
 };
 
+// What an observer is told of a contact's energy.
+template <class R>
+struct Energies {
+    R stored;    // J, that it would give back if it were unloaded
+    R sideways;  // J, the part of it in tangential and rolling springs
+    R latched;   // J, that latching has taken since the bodies met, if they were unloaded now
+    R damping;   // W, into the normal dashpot
+    R rubbing;   // W, that slip and rolling put into springs, friction and tangential dashpots
+};
+
 }  // namespace grainreel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -29,7 +29,12 @@ static_assert(kChunk == 64, "a bit for each contact");
 struct alignas(64) ForceChunk {
     double normal[kChunk] = {};         // N, on j along k
     double tangential[3][kChunk] = {};  // N, on j
-    double stored[kChunk] = {};         // J; set for observers only
+};
+
+// What observers are told of each contact's energy; see Energies for the meaning.
+struct alignas(64) EnergyChunk {
+    double stored[kChunk] = {}, sideways[kChunk] = {}, latched[kChunk] = {};  // J
+    double damping[kChunk] = {}, rubbing[kChunk] = {};                        // W
 };
 
 // Of contacts that resist rolling: their motion, and the answer.

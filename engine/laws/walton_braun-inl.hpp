@@ -21,6 +21,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 struct WaltonBraun {
     static constexpr bool has_dashpot = false, uses_velocity = false, uses_mass = false, uses_radius = false;
+    static constexpr bool weighs_onset = false;
 
     template <class R>
     struct Parameters {
@@ -65,6 +66,11 @@ struct WaltonBraun {
                                       R normal_force) {
         return normal_force * normal_force / (R(2) * p.unloading);
     }
+    // J, the area between the slopes up to a_max and back: K1 (1 - K1/K2) a_max^2 / 2.
+    template <class R>
+    static HWY_INLINE R latched_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&) {
+        return R(0.5) * p.loading * p.residual_share * h.largest_overlap * h.largest_overlap;
+    }
 };
 
 // What the laws share whose unloading slope depends on the largest overlap: Law::unloading says how.
@@ -87,6 +93,12 @@ struct HardeningSpring {
     template <class P, class H, class R>
     static HWY_INLINE R stored_energy(const P& p, const H& h, const Touch<R>& touch, R normal_force) {
         return normal_force * normal_force / (R(2) * Law::unloading(p, h, touch));
+    }
+    // J, the area between the slopes up to a_max and back: K1 (1 - K1/K2) a_max^2 / 2.
+    template <class P, class H, class R>
+    static HWY_INLINE R latched_energy(const P& p, const H& h, const Touch<R>& touch) {
+        const R share = R(1) - p.loading / Law::unloading(p, h, touch);
+        return R(0.5) * p.loading * share * h.largest_overlap * h.largest_overlap;
     }
 };
 

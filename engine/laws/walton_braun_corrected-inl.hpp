@@ -23,6 +23,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 struct WaltonBraunCorrected {
     static constexpr bool has_dashpot = false, uses_velocity = true, uses_mass = true, uses_radius = false;
+    static constexpr bool weighs_onset = true;
 
     template <class R>
     struct Parameters {
@@ -52,19 +53,25 @@ struct WaltonBraunCorrected {
         }
     };
 
+    // s, of the step, that the grains have touched: all of it but in a contact's first.
+    template <class R>
+    static HWY_INLINE R touched(const History<R>& h, const Touch<R>& touch) {
+        const R v = touch.closing_speed, dt = touch.step;
+        const R since = select(v > R(0), smaller(dt, touch.overlap / v), dt);
+        return select(h.largest_overlap == R(0), since, dt);
+    }
     // N, >= 0: over the step about the time of this overlap.
     template <class R>
     static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
         const R m = touch.effective_mass, dt = touch.step, v = touch.closing_speed, a = touch.overlap;
-        const auto fresh = h.largest_overlap == R(0);
+        const R met = touched(h, touch);
         const auto loads = a > h.largest_overlap;
         h.softness = p.give_back + p.loss_share * dt * dt / m;
         h.largest_overlap = select(loads, a, larger(h.largest_overlap, h.peak));
 
         const R spring = now(p, h, touch);
-        const R touched = select(v > R(0), smaller(dt, a / v), dt);     // s, since the grains met
-        const R before = R(0.5) * spring * select(fresh, touched, dt);  // N s, up to now
-        const R speed = v - before / m;                                 // m/s, now
+        const R before = R(0.5) * spring * met;  // N s, up to now
+        const R speed = v - before / m;          // m/s, now
         h.peak = select(loads, root(a * a + m * speed * speed / p.loading), h.peak);
 
         const R whole = before + R(0.5) * spring * dt;  // N s, of the step
@@ -86,6 +93,11 @@ struct WaltonBraunCorrected {
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&,
                                       R normal_force) {
         return R(0.5) * normal_force * normal_force * larger(h.softness, p.give_back);
+    }
+    // J, K1 a0 a_max / 2: the area between the slopes up to a_max and back.
+    template <class R>
+    static HWY_INLINE R latched_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&) {
+        return R(0.5) * p.loading * residual(p, h) * h.largest_overlap;
     }
 
   private:

@@ -19,6 +19,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 struct WaltonBraunSpeed : HardeningSpring<WaltonBraunSpeed> {
     static constexpr bool has_dashpot = false, uses_velocity = false, uses_mass = false, uses_radius = false;
+    static constexpr bool weighs_onset = false;
 
     template <class R>
     struct Parameters {

@@ -16,6 +16,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 struct WaltonBraunTable : HardeningSpring<WaltonBraunTable> {
     static constexpr bool has_dashpot = false, uses_velocity = false, uses_mass = true, uses_radius = false;
+    static constexpr bool weighs_onset = false;
     static constexpr int kPieces = static_cast<int>(kTablePoints) - 1;
 
     template <class R>

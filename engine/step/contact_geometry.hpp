@@ -24,6 +24,7 @@ struct GeometryInput {
     Wants wants;
     LeverArms arms;
     double step;            // s
+    bool at_mid_step;       // as LawKernel has it
     RollingChunk* rolling;  // set when that is wanted
 };
 

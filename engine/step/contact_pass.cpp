@@ -130,9 +130,8 @@ void ContactPass::each_chunk(const ContactRules& rules, std::size_t group, const
     const Wants wants = of.rolling ? Wants::rolling : wants_of(*of.law);
     for (std::int32_t c = 0; c < list.size(); c += kChunk) {
         const int count = std::min(kChunk, list.size() - c);
-        const GeometryInput in{
-            &grains,  list.first.data() + c, list.second.data() + c, count, wants, rules.arms, times.since,
-            &rolling_};
+        const GeometryInput in{&grains,    list.first.data() + c, list.second.data() + c, count,    wants,
+                               rules.arms, times.since,           of.law->at_mid_step,    &rolling_};
         of.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
         if (count < kChunk) touch_.touching &= (std::uint64_t{1} << count) - 1;  // not the fill
         law(LawInput{count, &touch_, list.mass_of_block(c), list.radius_of_block(c), list.kind.data() + c,
@@ -185,11 +184,12 @@ void ContactPass::observe(const ContactRules& rules, std::size_t group, const Gr
     const ContactList& list = lists_[group];
     each_chunk(rules, group, grains, state, {0, 0, 0}, [&](const LawInput& in, std::int32_t c) {
         const void* history = list.history_of_block(c);
-        of.law->observe(in, history, force_);
-        if (of.rolling) of.rolling->observe(for_rolling(of, in), behind_law(of, history), force_);
+        EnergyChunk energy;
+        of.law->observe(in, history, force_, energy);
+        if (of.rolling) of.rolling->observe(for_rolling(of, in), behind_law(of, history), force_, energy);
         for (int k = 0; k < in.count; ++k) {
             if ((touch_.touching >> k & 1) && list.first[c + k] >= begin_)
-                seen(list.first[c + k], list.second[c + k], k, touch_, force_);
+                seen(list.first[c + k], list.second[c + k], k, touch_, force_, energy);
         }
     });
 }

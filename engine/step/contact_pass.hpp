@@ -44,7 +44,7 @@ class ContactPass {
     // Shows every contact of a group under an own grain that touches: its bodies, and where to find it in the
     // chunks.
     using Seen = std::function<void(std::int32_t first, std::int32_t second, int at, const TouchChunk&,
-                                    const ForceChunk&)>;
+                                    const ForceChunk&, const EnergyChunk&)>;
     void observe(const ContactRules& rules, std::size_t group, const Grains& grains, const WallState& state,
                  const Seen& seen) const;
 

@@ -35,15 +35,19 @@ struct Surroundings {
 
 // One touching contact as an observer sees it.
 struct ContactView {
-    std::int32_t first;     // index of a grain
-    std::int32_t second;    // index of a grain, or -1 - face
-    Vec3 normal;            // unit, from first to second
-    double overlap;         // m
-    double smaller_radius;  // m
-    double normal_force;    // N
-    Vec3 tangential;        // N, on second
-    double stored_energy;   // J
-    Vec3 point;             // m
+    std::int32_t first;      // index of a grain
+    std::int32_t second;     // index of a grain, or -1 - face
+    Vec3 normal;             // unit, from first to second
+    double overlap;          // m
+    double smaller_radius;   // m
+    double normal_force;     // N
+    Vec3 tangential;         // N, on second
+    double stored_energy;    // J, that unloading would give back
+    double sideways_energy;  // J, the part of it in tangential and rolling springs
+    double latched_energy;   // J, that latching has taken since the bodies met, if they were unloaded now
+    double damping_power;    // W, into the normal dashpot
+    double rubbing_power;    // W, that slip and rolling put into springs, friction, tangential dashpots
+    Vec3 point;              // m
 };
 
 class StepLoop {
@@ -114,7 +118,7 @@ class StepLoop {
     void note_listing(const Pose& pose);
     void share_out();
     ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
-                     const ForceChunk& force) const;
+                     const ForceChunk& force, const EnergyChunk& energy) const;
     std::vector<KeptContacts> all_kept() const;
     template <class Loop, class Kept, class ReachType, class Each>
     static void transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& each);

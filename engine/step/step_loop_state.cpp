@@ -16,15 +16,16 @@ void StepLoop::visit_contacts(std::int64_t at_step,
         for (const Member& m : members_) {
             m.contacts.observe(rules_, g, grains_, walls,
                                [&](std::int32_t i, std::int32_t j, int at, const TouchChunk& touch,
-                                   const ForceChunk& force) {
-                                   visit(view(rubs, i, of_pairs ? j : -1 - j, at, touch, force));
+                                   const ForceChunk& force, const EnergyChunk& energy) {
+                                   visit(view(rubs, i, of_pairs ? j : -1 - j, at, touch, force, energy));
                                });
         }
     }
 }
 
 ContactView StepLoop::view(bool rubs, std::int32_t first, std::int32_t second, int at,
-                           const TouchChunk& touch, const ForceChunk& force) const {
+                           const TouchChunk& touch, const ForceChunk& force,
+                           const EnergyChunk& energy) const {
     const auto of = [at](const double(*axes)[kChunk]) { return Vec3(axes[0][at], axes[1][at], axes[2][at]); };
     const Place& one = grains_.place[first];
     ContactView v{};
@@ -35,7 +36,11 @@ ContactView StepLoop::view(bool rubs, std::int32_t first, std::int32_t second, i
     v.smaller_radius = second < 0 ? one.radius : std::min(one.radius, grains_.place[second].radius);
     v.normal_force = force.normal[at];
     v.tangential = rubs ? of(force.tangential) : Vec3::Zero();
-    v.stored_energy = force.stored[at];
+    v.stored_energy = energy.stored[at];
+    v.sideways_energy = energy.sideways[at];
+    v.latched_energy = energy.latched[at];
+    v.damping_power = energy.damping[at];
+    v.rubbing_power = energy.rubbing[at];
     v.point = one.position + v.normal * (one.radius - 0.5 * v.overlap);
     return v;
 }

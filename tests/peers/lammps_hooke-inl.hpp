@@ -1,6 +1,7 @@
 // LAMMPS' gran/hooke/history as this engine would compute it, its conventions kept: velocities of the half
-// step in dashpots and slip, the slip turned by projection alone, no slip in the forces before the first
-// step. For the comparison with it only (same_state.cpp); with arms of the full radii.
+// step in dashpots and slip, taken across the normal of its end, the slip turned by projection alone, no slip
+// in the forces before the first step. For the comparison with it only (same_state.cpp); with arms of the
+// full radii.
 #if defined(GRAINREEL_TESTS_LAMMPS_HOOKE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_TESTS_LAMMPS_HOOKE_INL
 #undef GRAINREEL_TESTS_LAMMPS_HOOKE_INL
@@ -73,7 +74,8 @@ struct LammpsHooke {
     }
     template <class R>
     static HWY_INLINE Force<R> now(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch,
-                                   const Triple<R>& velocity, R&) {
+                                   const Triple<R>& velocity, Energies<R>& energies) {
+        energies = {R(0), R(0), R(0), R(0), R(0)};  // LAMMPS is asked for none
         History<R> copy = h;
         return force(p, copy, touch, velocity, R(0), R(0));
     }

@@ -79,9 +79,10 @@ class Bed {
     Bed(const std::vector<Grain>& from, Conventions conventions) {
         plan_ = peers_plan();
         if (conventions == Conventions::lammps) {
+            law_.at_mid_step = false;
             plan_.arms = LeverArms::radius;
             for (auto* kinds : {&plan_.grain, &plan_.wall})
-                for (PairPlan& pair : *kinds) pair.model.own = &HWY_NAMESPACE::kernel_of<LammpsLaw, Lanes>();
+                for (PairPlan& pair : *kinds) pair.model.own = &law_;
         }
         around_ = peers_surroundings({}, plan_);
         for (std::size_t k = 0; k < from.size(); ++k) {
@@ -125,6 +126,7 @@ class Bed {
     inline static const Vec3 corner{0.01, 0.01, 0};
     static constexpr std::int64_t long_before = -1000000000;  // the floor moves from step 0 on
 
+    LawKernel law_ = HWY_NAMESPACE::kernel_of<LammpsLaw, Lanes>();
     Plan plan_;
     Surroundings around_;
     Grains grains_;

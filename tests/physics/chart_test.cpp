@@ -80,6 +80,24 @@ TEST(Charts, CorrectionsKeepTheRestitutionAtFractionsOfAStepToo) {
     EXPECT_GT(normal_errors(plain, 0.9, 12.5, 50).restitution, 0.005);
 }
 
+// A contact that lasts follows a linear spring to second order, and so does an impact whose slip counts from
+// the touch; without that the first increment begins in the middle of a step, and the error is of first
+// order.
+TEST(Charts, LinearSpringIsOfSecondOrderWithCorrections) {
+    const Method plain{"", Integrator::velocity_verlet, NormalForce::walton_braun,
+                       TangentialLaw::linear_spring};
+    Method corrected = plain;
+    corrected.normal = NormalForce::walton_braun_corrected;
+    EXPECT_NEAR(std::log2(shear_error(plain, 32) / shear_error(plain, 64)), 2, 0.1);
+    EXPECT_NEAR(
+        std::log2(oblique_errors(plain, 0.9, 16).velocity / oblique_errors(plain, 0.9, 128).velocity) / 3, 1,
+        0.2);
+    EXPECT_NEAR(std::log2(oblique_errors(corrected, 0.9, 16).velocity /
+                          oblique_errors(corrected, 0.9, 128).velocity) /
+                    3,
+                2, 0.2);
+}
+
 TEST(Charts, DifferencesAreOverTheSeedsScatter) {
     const auto row = [](const char* setting, double height, double cost) {
         return BedRow{setting, {height, 1, 1, 1, cost}};

@@ -1,5 +1,5 @@
-// Every combination of law, friction, rolling, integrator, precision and container runs soundly, or is refused
-// with a reason.
+// Every combination of law, friction, rolling, integrator, precision and container runs soundly, or is
+// refused with a reason.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,9 +14,13 @@ namespace grainreel {
 namespace {
 
 const std::vector<std::string> normal_laws = {
-    "law = \"walton-braun\"", "law = \"walton-braun\"\nrestitution_speed = \"1 m/s\"",
-    "law = \"walton-braun\"\nrestitution_table = [[0, 0.9], [1, 0.5]]", "law = \"spring-dashpot\"",
-    "law = \"spring-dashpot\"\nattraction = true", "law = \"hertz\"\nattraction = true", "law = \"hertz\""};
+    "law = \"walton-braun\"",
+    "law = \"walton-braun\"\nrestitution_speed = \"1 m/s\"",
+    "law = \"walton-braun\"\nrestitution_table = [[0, 0.9], [1, 0.5]]",
+    "law = \"spring-dashpot\"",
+    "law = \"spring-dashpot\"\nattraction = true",
+    "law = \"hertz\"\nattraction = true",
+    "law = \"hertz\""};
 const std::vector<std::string> containers = {
     "shape = \"box\"\nwidth = 0.02\ndepth = 0.02\nheight = 0.04\n",
     "shape = \"box\"\nwidth = 0.02\ndepth = 0.02\nheight = 0.04\nperiodic_depth = true\n",
@@ -34,9 +38,10 @@ std::string crowd(const std::string& law, const std::string& friction, bool roll
         law, friction, friction == "none" ? "" : "friction = 0.5\n", rolls ? "rolling_friction = 0.1\n" : "",
         container);
     for (int k = 0; k < 8; ++k)
-        text += fmt::format("[[grain]]\nposition = [{}, {}, {}]\nvelocity = [{}, {}, -0.5]\nspin = [{}, 30, 0]\n",
-                            0.0032 * (k % 2) - 0.0016, 0.0032 * (k / 2 % 2) - 0.0014, 0.0032 * (k / 4) + 0.004,
-                            0.3 - 0.7 * (k % 2), 0.1 * (k % 3), 20 * k);
+        text +=
+            fmt::format("[[grain]]\nposition = [{}, {}, {}]\nvelocity = [{}, {}, -0.5]\nspin = [{}, 30, 0]\n",
+                        0.0032 * (k % 2) - 0.0016, 0.0032 * (k / 2 % 2) - 0.0014, 0.0032 * (k / 4) + 0.004,
+                        0.3 - 0.7 * (k % 2), 0.1 * (k % 3), 20 * k);
     return text + "[run]\nduration = 0.006\n";
 }
 
@@ -78,8 +83,8 @@ TEST(Combinations, RunOrAreRefusedWithAReason) {
                     const std::string text = crowd(law, friction, rolls, container);
                     for (const std::string& integrator : all_of(integrator_words)) {
                         for (const std::string& precision : all_of(precision_words)) {
-                            SCOPED_TRACE(fmt::format("{} / {} / rolls {} / {} / {} / {}", law, friction, rolls,
-                                                     container.substr(0, 16), integrator, precision));
+                            SCOPED_TRACE(fmt::format("{} / {} / rolls {} / {} / {} / {}", law, friction,
+                                                     rolls, container.substr(0, 16), integrator, precision));
                             const std::string said =
                                 run(text, {"run.integrator=" + integrator, "run.precision=" + precision});
                             const bool sound = go_together(law, friction) && !(rolls && friction == "none");

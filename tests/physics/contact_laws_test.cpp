@@ -12,7 +12,7 @@ using std::numbers::pi;
 
 // Two equal spheres head-on at speed v.
 struct Rebound {
-    double restitution, contact_time, largest_overlap;
+    double restitution, contact_time, largest_overlap, largest_force;
 };
 Rebound rebound(const PairPlan& pair, NormalForce law, double v, double step) {
     World w = make_world(pair, step, law, TangentialLaw::none);
@@ -22,12 +22,13 @@ Rebound rebound(const PairPlan& pair, NormalForce law, double v, double step) {
     w.grains.motion[0].velocity = Vec3(v / 2, 0, 0);
     w.grains.motion[1].velocity = Vec3(-v / 2, 0, 0);
     w.start();
-    Rebound result{0, 0, 0};
+    Rebound result{0, 0, 0, 0};
     for (std::int64_t touching = 0; touching == 0 || w.position(1).x() - w.position(0).x() < 2 * kRadius;) {
         w.run(1);
         const double overlap = 2 * kRadius - (w.position(1).x() - w.position(0).x());
         touching += overlap > 0;
         result.largest_overlap = std::max(result.largest_overlap, overlap);
+        result.largest_force = std::max(result.largest_force, w.grains.load[0].force.norm());
         result.contact_time = static_cast<double>(touching) * step;
     }
     result.restitution = (w.velocity(1) - w.velocity(0)).x() / v;
@@ -63,6 +64,31 @@ TEST(Dashpot, DampingAndRestitutionAreInverse) {
     // The branch above the critical damping joins the one below: e^-2 at beta = 1.
     EXPECT_NEAR(linear_restitution(1 - 1e-5, false), std::exp(-2), 1e-4);
     EXPECT_NEAR(linear_restitution(1 + 1e-5, false), std::exp(-2), 1e-4);
+}
+
+// A ball that falls from h0 on a floor: from touch on, with b the damping ratio, u = sqrt(2 g (h0 - r)),
+//   y = [(g/w0^2) cos wt + ((b g/w0 - u) / w) sin wt] e^(-b w0 t) + r - g/w0^2,   w = w0 sqrt(1 - b^2).
+TEST(Dashpot, FallingBallFollowsTheDampedOscillation) {
+    const double natural = std::sqrt(kStiffness / sphere_mass()), beta = 0.1, gravity = 500,
+                 height = 2 * kRadius;
+    const double u = std::sqrt(2 * gravity * (height - kRadius)), fall = u / gravity;
+    const double slower = natural * std::sqrt(1 - beta * beta), sink = gravity / (natural * natural);
+    PairPlan pair = walton_braun_pair(1, 0);
+    pair.normal_damping = 2 * natural * beta;
+    World w = make_world(pair, fall / 20000, NormalForce::spring_dashpot, TangentialLaw::none);
+    w.around.faces = {floor_face()};
+    w.around.gravity = {0, 0, -gravity};
+    w.grains.add(0, 0, Vec3(0, 0, height), kRadius, kDensity);
+    w.start();
+    w.run(20000);
+    while (static_cast<double>(w.step) * w.plan.clock.step < fall + 0.8 * pi / slower) {
+        const double t = static_cast<double>(w.step) * w.plan.clock.step - fall;
+        const double swing =
+            sink * std::cos(slower * t) + (beta * gravity / natural - u) / slower * std::sin(slower * t);
+        const double expected = swing * std::exp(-beta * natural * t) + kRadius - sink;
+        ASSERT_NEAR(w.position(0).z(), expected, 1e-3 * u / natural) << t;
+        w.run(1);
+    }
 }
 
 // A ball on the floor, pushed off its equilibrium and always in contact: u/w e^(-b w0 t) sin w t. The dashpot
@@ -106,13 +132,15 @@ PairPlan hertz_pair(double e, double friction, bool attraction) {
 // N/m^1.5, of two equal spheres.
 const double kHertz = 4.0 / 3 * 1e8 * std::sqrt(kRadius / 2);
 
-// Elastic: a = (5 m v^2 / 4k)^0.4, t = 2.9432 a / v (Timoshenko & Goodier art. 142).
+// Elastic: a = (5 m v^2 / 4k)^0.4, P = k a^1.5, t = 2.9432 a / v (Timoshenko & Goodier art. 142).
 TEST(Hertz, PeakAndDurationOfAnElasticImpact) {
     for (const double v : {0.03, 1.0}) {
         const double deepest = std::pow(1.25 * sphere_mass() / 2 * v * v / kHertz, 0.4);
         const double time = 2.9432 * deepest / v, step = time / 4000;
         const Rebound impact = rebound(hertz_pair(1, 0, false), NormalForce::hertz, v, step);
         EXPECT_NEAR(impact.largest_overlap, deepest, 1e-4 * deepest);
+        EXPECT_NEAR(impact.largest_force, kHertz * std::pow(deepest, 1.5),
+                    2e-4 * kHertz * std::pow(deepest, 1.5));
         EXPECT_NEAR(impact.contact_time, time, 1e-3 * time);
         EXPECT_NEAR(impact.restitution, 1, 1e-5);
     }

@@ -190,6 +190,7 @@ TEST(VectorLaws, AreTheScalarLawsToTheLastBitAtEveryWidth) {
             using WC = WaltonBraunCorrected;
             constexpr auto wc = NormalForce::walton_braun_corrected;
             compare<WC, IncrementalSlip>(wc, TangentialLaw::incremental_slip, kinds);
+            compare<WC, LinearSpring>(wc, TangentialLaw::linear_spring, kinds);
             compare<WC, Frictionless>(wc, TangentialLaw::none, kinds);
             using WT = WaltonBraunTable;
             constexpr auto wt = NormalForce::walton_braun_table;

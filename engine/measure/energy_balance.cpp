@@ -1,0 +1,81 @@
+#include "engine/measure/energy_balance.hpp"
+
+#include <algorithm>
+
+#include "engine/measure/energy.hpp"
+
+namespace grainreel {
+
+EnergyBalance::EnergyBalance(const Surroundings& around, const Grains& grains, const StepLoop& loop,
+                             std::int64_t step, double step_length)
+    : around_(around), grains_(grains), loop_(loop), half_step_(0.5 * step_length) {
+    look(step);
+    const EnergyTerms now = terms_;
+    terms_ = {now.kinetic, now.rotational, now.gravitational, now.stored};
+    held_at_start_ = terms_.held();
+    work_at_start_ = now.wall_work;
+}
+
+void EnergyBalance::note(std::int64_t step) {
+    const Powers before = powers_;
+    look(step);
+    end_contacts(step);
+    terms_.damping += half_step_ * (before.damping + powers_.damping);
+}
+
+void EnergyBalance::look(std::int64_t step) {
+    const Kinetic kinetic = kinetic_energy(grains_);
+    terms_.kinetic = kinetic.translation;
+    terms_.rotational = kinetic.rotation;
+    terms_.gravitational = gravitational_energy(grains_, around_.gravity);
+    terms_.stored = 0;
+    powers_ = {};
+    const Pose pose = around_.motion.at(step);
+    loop_.visit_contacts(step, [&](const ContactView& c) {
+        add_contact(step, c);
+        terms_.stored += c.stored_energy;
+        powers_.damping += c.damping_power;
+        if (c.second >= 0) return;
+        const Vec3 on_wall = c.normal_force * c.normal + c.tangential;
+        powers_.walls -= on_wall.dot(around_.faces[-1 - c.second].velocity_at(pose));
+    });
+    // The grains' count has the last force for a whole step; half of that is still to come.
+    terms_.wall_work = wall_work(grains_) - half_step_ * powers_.walls - work_at_start_;
+}
+
+void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
+    Kept& kept = contacts_[key(c)];
+    terms_.latching += c.latched_energy - kept.latched;
+    add_friction(half_step_ * (kept.rubbing + c.rubbing_power) - (c.sideways_energy - kept.sideways));
+    kept = {step, c.latched_energy, c.sideways_energy, c.rubbing_power};
+}
+
+// What a tangential spring still held when its contact parted goes to friction.
+void EnergyBalance::end_contacts(std::int64_t step) {
+    for (auto at = contacts_.begin(); at != contacts_.end();) {
+        const Kept& kept = at->second;
+        if (kept.step == step) {
+            ++at;
+            continue;
+        }
+        add_friction(half_step_ * kept.rubbing + kept.sideways);
+        at = contacts_.erase(at);
+    }
+}
+
+void EnergyBalance::add_friction(double spent) {
+    terms_.friction += spent;
+    terms_.given_back += std::max(0.0, -spent);
+}
+
+// Grains by id, for their indices change; walls behind all grains.
+std::uint64_t EnergyBalance::key(const ContactView& c) const {
+    const auto id = [&](std::int32_t index) { return static_cast<std::uint64_t>(grains_.id[index]); };
+    const std::uint64_t first = id(c.first);
+    if (c.second < 0)
+        return first << 32 | (std::uint64_t{1} << 31) | static_cast<std::uint64_t>(-1 - c.second);
+    const std::uint64_t second = id(c.second);
+    return std::min(first, second) << 32 | std::max(first, second);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,74 @@
+// The energy balance of a run, term by term: what walls give and what contacts take is measured at the
+// contacts, and none of it is inferred from the others. What is left is the error of the finite step.
+//
+// Latching takes what its law says, the area between its slopes: (K1/2)(1 - e^2) a_max^2, as a_max grows.
+// Friction takes T . ds less what its springs keep, dashpots their force times velocity, walls give theirs
+// times the wall's velocity; all three by the trapezoidal rule over the steps. With velocity Verlet that rule
+// is what the step itself does with a force: sum dt F . v is the change of m v^2 / 2 to the last digit, but
+// for m (dt a)^2 / 8 at either end (by expanding Swope et al. 1982, J. Chem. Phys. 76, 637).
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+struct EnergyTerms {
+    double kinetic = 0, rotational = 0, gravitational = 0, stored = 0;  // J, now
+
+    // J, since the balance began.
+    double wall_work = 0;  // by moving walls on the grains, through friction too
+    double latching = 0, friction = 0, damping = 0;
+    // J, part of the friction: what it gave back beyond its spring's T^2 / (2 K0). A linear spring gives back
+    // none. Incremental slip has no state function and may, on closed paths of (N, T).
+    double given_back = 0;
+
+    double held() const { return kinetic + rotational + gravitational + stored; }
+    double lost() const { return latching + friction + damping; }
+};
+
+class EnergyBalance {
+  public:
+    // Begins with the state at `step`; all must outlive the balance. step_length: s.
+    EnergyBalance(const Surroundings& around, const Grains& grains, const StepLoop& loop, std::int64_t step,
+                  double step_length);
+
+    // Call after every step, with its number.
+    void note(std::int64_t step);
+
+    const EnergyTerms& terms() const { return terms_; }
+    // J: what the grains hold more than the balance says.
+    double residual() const { return terms_.held() - held_at_start_ - terms_.wall_work + terms_.lost(); }
+
+  private:
+    // Of one contact, at the last step it touched.
+    struct Kept {
+        std::int64_t step;
+        double latched = 0, sideways = 0;  // J
+        double rubbing = 0;                // W
+    };
+
+    // W, at one step.
+    struct Powers {
+        double walls = 0, damping = 0;
+    };
+
+    void look(std::int64_t step);
+    void add_contact(std::int64_t step, const ContactView& contact);
+    void end_contacts(std::int64_t step);
+    void add_friction(double spent);
+    std::uint64_t key(const ContactView& contact) const;
+
+    const Surroundings& around_;
+    const Grains& grains_;
+    const StepLoop& loop_;
+    const double half_step_;  // s
+    std::unordered_map<std::uint64_t, Kept> contacts_;
+    Powers powers_;
+    EnergyTerms terms_;
+    double held_at_start_ = 0, work_at_start_ = 0;  // J
+};
+
+}  // namespace grainreel
