@@ -115,9 +115,11 @@ bool run_beds(bool quick, ResultTable& table, ChartWork& work) {
             if (!work.next(fmt::format("bed, {}, seed {}", setting.name, seed))) return false;
             if (table.has({setting.name, number(seed)})) continue;
             try {
-                const BedResult r = run_bed(setting, static_cast<std::uint64_t>(seed), quick ? 0.5 : 2.0);
-                table.add({setting.name, number(seed), number(r.height), number(r.temperature),
-                           number(r.contacts), number(r.mixing), number(r.cost)});
+                const auto r = run_bed(setting, static_cast<std::uint64_t>(seed), quick ? 0.5 : 2.0,
+                                       [&] { return work.goes_on(); });
+                if (!r) return false;
+                table.add({setting.name, number(seed), number(r->height), number(r->temperature),
+                           number(r->contacts), number(r->mixing), number(r->cost)});
             } catch (const RunError&) {  // the health check stopped it: that is a result
                 table.add({setting.name, number(seed), "nan", "nan", "nan", "nan", "nan"});
             }

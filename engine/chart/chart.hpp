@@ -28,15 +28,20 @@ struct Chart {
 
 const std::vector<Chart>& charts();
 
-// Counts the pieces of work and asks the watcher between them.
+// Counts the pieces of work and asks the watcher between them, and within long ones.
 class ChartWork {
   public:
     ChartWork(const ChartWatcher& watcher, std::size_t pieces)
         : watcher_(watcher), pieces_(static_cast<double>(pieces)) {}
-    bool next(const std::string& what) { return watcher_(what, done_++ / pieces_); }
+    bool next(const std::string& what) {
+        what_ = what;
+        return watcher_(what_, done_++ / pieces_);
+    }
+    bool goes_on() const { return watcher_(what_, (done_ - 1) / pieces_); }
 
   private:
     const ChartWatcher& watcher_;
+    std::string what_;
     double pieces_, done_ = 0;
 };
 

@@ -45,20 +45,22 @@ double default_bed_step() {
     return make_plan(read_scene_text(bed_scene(), "small_bed.toml")).clock.step;
 }
 
-BedResult run_bed(const BedSetting& setting, std::uint64_t seed, double duration) {
+std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, double duration,
+                                 const std::function<bool()>& goes_on) {
     std::vector<std::string> sets = setting.sets;
     sets.push_back(fmt::format("run.seed={}", seed));
     sets.push_back(fmt::format("run.duration={}", duration));
     const Scene scene = read_scene_text(bed_scene(), "small_bed.toml", sets);
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 1);
-    simulation.pack([](const PackingProgress&) { return true; });
+    if (!simulation.pack([&](const PackingProgress&) { return goes_on(); }).finished) return std::nullopt;
 
     BedResult result;
     std::int64_t looks = 0;
     const auto begin = std::chrono::steady_clock::now();
     for (std::int64_t step = 0; step < plan.steps;) {
         step = std::min(plan.steps, step + plan.clock.steps_per_period / 8);
+        if (!goes_on()) return std::nullopt;
         simulation.advance(step);
         if (2 * step < plan.steps) continue;
         const Frame frame = simulation.frame();

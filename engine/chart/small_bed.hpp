@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +24,10 @@ struct BedResult {
     double cost = 0;         // ns of one thread a grain and simulated microsecond
 };
 
-// Runs `duration` seconds of the bed on one thread.
-BedResult run_bed(const BedSetting& setting, std::uint64_t seed, double duration);
+// Runs `duration` seconds of the bed on one thread. Nothing when goes_on(), asked a few times a second, says
+// no.
+std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, double duration,
+                                 const std::function<bool()>& goes_on);
 
 // What a setting changes of the bed: the mean over its seeds, and how far that is from the reference's, in
 // per cent of it; `error` is the standard error of the difference, likewise.
