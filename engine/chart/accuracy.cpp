@@ -48,11 +48,9 @@ std::vector<BedSetting> bed_settings(bool quick) {
     std::vector<BedSetting> all = {{"reference", {step(0.125)}},
                                    {"default", {}},
                                    {"no corrections", {"run.contact_corrections=false"}},
-                                   {"step x 1.5", {step(1.5)}}};
+                                   {"step x 2", {step(2)}}};
     if (quick) return all;
     for (const BedSetting& more : std::vector<BedSetting>{{"step x 0.5", {step(0.5)}},
-                                                          {"step x 2", {step(2)}},
-                                                          {"leapfrog", {"run.integrator=leapfrog"}},
                                                           {"mixed precision", {"run.precision=mixed"}},
                                                           {"overlap 0.2 %", {"run.overlap=0.002"}},
                                                           {"overlap 2 %", {"run.overlap=0.02"}},
