@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <string>
 
 namespace grainreel {
 namespace {
@@ -89,7 +89,6 @@ PeersBed peers_bed(std::uint32_t seed, int small_count, int big_count) {
     bed.big_ones = lattice(big_count, kPeersBig, bed.side, z, random);
     z -= 0.3e-3;
     bed.small_ones = lattice(small_count, kPeersSmall, bed.side, z, random);
-    bed.cover = std::max(z + 5e-3, bed.cover);
     return bed;
 }
 

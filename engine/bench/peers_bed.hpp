@@ -13,7 +13,6 @@ namespace grainreel {
 
 struct PeersBed {
     double side = 0.02;                      // m
-    double cover = 0.1;                      // m, height above which nothing starts
     double density = 2500;                   // kg/m3
     std::vector<Vec3> small_ones, big_ones;  // m, centres; the box from 0 to `side`
 };

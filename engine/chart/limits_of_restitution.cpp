@@ -110,7 +110,6 @@ Finding oblique_sizes(bool quick) {
 Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, bool quick) {
     const Method plain{"", Integrator::velocity_verlet, NormalForce::walton_braun, TangentialLaw::none};
     Finding finding;
-    finding.theory = allowed;
     for (const int steps : {3, 4, 5, 6, 8, 10, 12, 15, 20, 30, 40}) {
         const double error = normal_errors(plain, e, steps, quick ? 40 : 200).restitution;
         const auto known = std::find_if(derived.begin(), derived.end(),

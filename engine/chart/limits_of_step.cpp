@@ -66,13 +66,14 @@ Finding find_limit(const Build& build, const Disturbance& disturbance, double th
     Finding finding;
     finding.theory = theory;
     finding.usual = usual_step() / unit();
-    double stable = 0;
+    double stable = unknown;
     for (double share = 0.5; share < 1.3; share += coarse) {
         const double grown = growth(share);
         finding.curve.push_back(
             {share, grown, std::max(1.0, growth_a_step(integrator, share * stability_limit(integrator)))});
-        if (grown >= unstable && stable == 0) stable = share - coarse;
+        if (grown >= unstable && std::isnan(stable)) stable = share - coarse;
     }
+    if (std::isnan(stable)) return finding;
     finding.measured = theory * last_that_holds(stable, stable + coarse, 8,
                                                 [&](double share) { return growth(share) < unstable; });
     return finding;

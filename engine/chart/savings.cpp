@@ -26,11 +26,6 @@ PairPlan contact() {
     return pair;
 }
 
-void set_model(Bench& bench, const std::function<void(PairPlan&)>& change) {
-    for (auto* kinds : {&bench.plan.grain, &bench.plan.wall})
-        for (PairPlan& pair : *kinds) change(pair);
-}
-
 // A cubic lattice on a floor, six contacts a grain that rub, and a step so short that the lists stay.
 Bench& build(Bench& bench) {
     bench.add_floor();
@@ -52,7 +47,7 @@ double cost(Bench& bench, std::int64_t steps) {
     return taken.count() / (static_cast<double>(steps) * side * side * side);
 }
 
-// `change` takes a thing away, or adds one, before the bench starts.
+// What is done to two benches alike, so that one has the thing and the other has not.
 struct Saving {
     std::string name;
     std::function<void(Bench&)> with, without;
@@ -78,7 +73,10 @@ void mix(Bench& bench) {
 }
 
 std::function<void(Bench&)> each_contact(const std::function<void(PairPlan&)>& change) {
-    return [change](Bench& bench) { set_model(bench, change); };
+    return [change](Bench& bench) {
+        for (auto* kinds : {&bench.plan.grain, &bench.plan.wall})
+            for (PairPlan& pair : *kinds) change(pair);
+    };
 }
 
 std::vector<Saving> savings() {

@@ -1,6 +1,5 @@
 #include "engine/chart/stability.hpp"
 
-#include "engine/base/text_file.hpp"
 #include "engine/chart/result_table.hpp"
 
 namespace grainreel {

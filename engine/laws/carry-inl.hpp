@@ -14,17 +14,20 @@ namespace grainreel::HWY_NAMESPACE {
 // Turns `force` (perpendicular to `before`) by the smallest rotation that takes unit normal `before` to
 // `now`, then by `twist` (rad) about `now`; its length is kept. Projection alone, as in the original program,
 // cannot see the twist. With c = before x now and d = before . now, Rodrigues' formula for f perpendicular to
-// `before` is f d + c x f + c (c . f) / (1 + d). The twist is Cayley's rotation by 2 atan(twist / 2): exact
-// in length, and in angle to twist^3 / 12. A new contact has no force and `before` zero: it stays without.
+// `before` is f d + c x f + c (c . f) / (1 + d). 1 - d is taken as |now - before|^2 / 2, nothing at all where
+// the contact does not turn: the square of a rounded normal is not quite 1, and would act every step. The
+// twist is Cayley's rotation by 2 atan(twist / 2): exact in length, and in angle to twist^3 / 12. A new
+// contact has no force and `before` zero: it stays without.
 template <class R>
 HWY_INLINE Triple<R> carry_along(const Triple<R>& force, const Triple<R>& before, const Triple<R>& now,
                                  R twist) {
     const Triple<R> axis = before.cross(now);
-    const R cosine = before.dot(now);
+    const R lost = R(0.5) * (now - before).squared();  // 1 - d
     const R t = R(0.5) * twist, t_squared = t * t;
-    const R from_turn = R(1) + cosine, from_twist = R(1) + t_squared;
+    const R from_turn = R(2) - lost, from_twist = R(1) + t_squared;
     const R both = R(1) / (from_turn * from_twist);  // one division for the two
-    Triple<R> turned = force * cosine + axis.cross(force) + axis * (axis.dot(force) * (both * from_twist));
+    Triple<R> turned =
+        force - force * lost + axis.cross(force) + axis * (axis.dot(force) * (both * from_twist));
     turned = turned - now * now.dot(turned);  // what round-off left along the normal
     const R scale = both * from_turn;
     return turned * ((R(1) - t_squared) * scale) + now.cross(turned) * (R(2) * t * scale);

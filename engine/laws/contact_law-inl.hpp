@@ -79,7 +79,7 @@ struct ContactLaw {
     template <class R>
     static HWY_INLINE Force<R> force(const Parameters<R>& p, History<R>& h, Touch<R> touch,
                                      const Triple<R>& velocity, R step, R ahead) {
-        if constexpr (rubs) touch.slip = across(velocity, touch.normal) * step;
+        if constexpr (rubs && !weighs_onset) touch.slip = across(velocity, touch.normal) * step;
         if constexpr (has_dashpot) {
             set_velocity(touch, later(velocity, h.before.velocity, ahead));
             h.before.velocity = velocity;

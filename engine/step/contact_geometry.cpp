@@ -29,14 +29,12 @@ HWY_INLINE Lanes nearest(Lanes x, Lanes period) {
 }
 
 // Of i's surface against j's, the centres' velocity and the spins' share of it being those of the middle of
-// the step, k that of its end. In the middle it was k' = k + turn (v - k (k . v)), with turn = dt / 2 over
-// the distance: the velocity is taken with k' and given with k in its place, or a pair that turns as one body
-// would slip by its angle a step (Vyas et al., Comput. Phys. Commun. 310, 109524: time levels).
+// the step, k that of its end. In the middle it was k + change: the velocity is taken with that and given
+// with k in its place, or a pair that turns as one body would slip by its angle a step (Vyas et al., Comput.
+// Phys. Commun. 310, 109524: time levels).
 HWY_INLINE Triple<Lanes> of_surfaces(const Triple<Lanes>& velocity, const Triple<Lanes>& spins,
-                                     const Triple<Lanes>& k, Lanes turn) {
-    const Lanes closing = k.dot(velocity);
-    const Triple<Lanes> change = (velocity - k * closing) * turn;
-    return velocity - change * closing + spins.cross(k + change);
+                                     const Triple<Lanes>& k, const Triple<Lanes>& change) {
+    return velocity - change * k.dot(velocity) + spins.cross(k + change);
 }
 
 template <Wants wants>
@@ -45,7 +43,7 @@ void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
     const double* motion = numbers(in.grains->motion);
     const double* spin = numbers(in.grains->spin);
     out.touching = 0;
-    const Lanes turn(in.at_mid_step ? 0.5 * in.step : 0);
+    const Lanes turn(0.5 * in.turns_for);
     for (int c = 0; c < in.count; c += kLanes) {
         const std::int32_t *i = in.first + c, *j = in.second + c;
         const auto one = load_records(place, 4, i), two = load_records(place, 4, j);
@@ -76,8 +74,8 @@ void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
             }
             const Triple<Lanes> spin_one = triple(load_records(spin, 4, i));
             const Triple<Lanes> spin_two = triple(load_records(spin, 4, j));
-            velocity = of_surfaces(velocity, spin_one * first_arm + spin_two * second_arm, k,
-                                   turn * inverse_distance);
+            const Triple<Lanes> change = (velocity - k * k.dot(velocity)) * (turn * inverse_distance);
+            velocity = of_surfaces(velocity, spin_one * first_arm + spin_two * second_arm, k, change);
             store(first_arm, out.first_arm + c);
             store(second_arm, out.second_arm + c);
             store(Lanes(0.5 * in.step) * (spin_one + spin_two).dot(k), out.twist + c);
@@ -96,6 +94,7 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
     const double* motion = numbers(in.grains->motion);
     const double* spin = numbers(in.grains->spin);
     out.touching = 0;
+    const Lanes turn(0.5 * in.turns_for);
     for (int c = 0; c < in.count; c += kLanes) {
         const std::int32_t *i = in.first + c, *face = in.second + c;
         const auto grain = load_records(place, 4, i);
@@ -124,7 +123,11 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
         if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
             const Triple<Lanes> rate = triple(load_records(spin, 4, i));
-            velocity += (rate * arm).cross(k);
+            // Along a cylinder's wall k turns with the grain about the axis; a plane's does not turn.
+            Triple<Lanes> change =
+                (velocity - k * k.dot(velocity)) * select(round, -turn * inverse, Lanes(0.0));
+            change.z = Lanes(0.0);
+            velocity = of_surfaces(velocity, rate * arm, k, change);
             store(arm, out.first_arm + c);
             store(Lanes(0.5 * in.step) * rate.dot(k), out.twist + c);
             if constexpr (wants == Wants::rolling) put(rate - k * k.dot(rate), in.rolling->rate, c);

@@ -24,7 +24,7 @@ struct GeometryInput {
     Wants wants;
     LeverArms arms;
     double step;            // s
-    bool at_mid_step;       // as LawKernel has it
+    double turns_for;       // s, twice as long as the velocities lie behind the positions
     RollingChunk* rolling;  // set when that is wanted
 };
 

@@ -130,8 +130,15 @@ void ContactPass::each_chunk(const ContactRules& rules, std::size_t group, const
     const Wants wants = of.rolling ? Wants::rolling : wants_of(*of.law);
     for (std::int32_t c = 0; c < list.size(); c += kChunk) {
         const int count = std::min(kChunk, list.size() - c);
-        const GeometryInput in{&grains,    list.first.data() + c, list.second.data() + c, count,    wants,
-                               rules.arms, times.since,           of.law->at_mid_step,    &rolling_};
+        const GeometryInput in{&grains,
+                               list.first.data() + c,
+                               list.second.data() + c,
+                               count,
+                               wants,
+                               rules.arms,
+                               times.since,
+                               of.law->at_mid_step ? times.turns : 0,
+                               &rolling_};
         of.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
         if (count < kChunk) touch_.touching &= (std::uint64_t{1} << count) - 1;  // not the fill
         law(LawInput{count, &touch_, list.mass_of_block(c), list.radius_of_block(c), list.kind.data() + c,
@@ -182,7 +189,7 @@ void ContactPass::observe(const ContactRules& rules, std::size_t group, const Gr
                           const WallState& state, const Seen& seen) const {
     const ContactGroup& of = rules.groups[group];
     const ContactList& list = lists_[group];
-    each_chunk(rules, group, grains, state, {0, 0, 0}, [&](const LawInput& in, std::int32_t c) {
+    each_chunk(rules, group, grains, state, {0, 0, 0, 0}, [&](const LawInput& in, std::int32_t c) {
         const void* history = list.history_of_block(c);
         EnergyChunk energy;
         of.law->observe(in, history, force_, energy);

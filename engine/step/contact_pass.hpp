@@ -38,6 +38,7 @@ class ContactPass {
         double since;  // s, since the last forces
         double ahead;  // steps, from the velocity between the two to that of now
         double acts;   // s, that the forces will act
+        double turns;  // s: `since`, or 0 where positions and velocities are of one time
     };
     void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Times& times);
 

@@ -28,7 +28,7 @@ void StepLoop::restart() {
         rebuild(member, rest);
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
-        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0});
+        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0});
     });
     rebuilds_ = refreshes_ = 0;
     fresh_ = true;
@@ -104,7 +104,8 @@ void StepLoop::evaluate(int member, const Evaluation& at, double step, const Kic
     mine.walls.set(around_.faces, at.before, at.now, at.since);
     team_.barrier();
     renew_contacts(member, at, step, kicks);
-    mine.contacts.compute(rules_, grains_, mine.walls, {at.since, scheme_.ahead, at.acts});
+    mine.contacts.compute(rules_, grains_, mine.walls,
+                          {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since});
     team_.barrier();
 }
 

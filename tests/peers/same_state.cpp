@@ -41,16 +41,18 @@ bool read_frame(std::istream& in, std::int64_t& step, std::vector<Grain>& grains
         if (line == "ITEM: NUMBER OF ATOMS") in >> count;
     }
     if (!in) return false;
-    grains.assign(count, {});
+    std::vector<Grain> read(count);
     for (std::size_t k = 0; k < count; ++k) {
         std::size_t id = 0;
         Grain g;
         in >> id >> g.type;
         for (Vec3* v : {&g.position, &g.velocity, &g.spin}) in >> v->x() >> v->y() >> v->z();
-        grains.at(id - 1) = g;
+        if (!in) throw UserError("the dump ends within a frame");
+        read.at(id - 1) = g;
     }
     std::getline(in, line);
-    return !in.fail();
+    grains = read;
+    return true;
 }
 
 std::string numbers(const Vec3& v) {
@@ -182,6 +184,7 @@ int main(int argc, char** argv) {
             std::vector<Grain> frame;
             while (read_frame(in, step, frame)) {
             }
+            if (frame.empty()) throw UserError(words[1] + ": no frames");
             write_data(words[2], frame);
         } else if (verb == "compare" && words.size() == 3) {
             compare(words[1], words[2]);

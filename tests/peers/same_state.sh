@@ -36,17 +36,21 @@ fix zw all wall/gran hooke/history 1000 285.7 2634 1317 0.5 1 zplane 0 NULL
 fix i all nve/sphere
 END
 }
+run() {
+    lmp -log none -screen none -in "$1" ||
+        { echo "same_state: lmp failed on $folder/$1; run it by hand to see why" >&2; exit 1; }
+}
 columns='id type x y z vx vy vz omegax omegay omegaz'
 
 "$ours" lattice 7 lattice.data
 { setup lattice.data; echo "run 15000
 write_dump all custom falling.dump $columns modify format float %.17g"; } > fall.lammps
-lmp -log none -screen none -in fall.lammps
+run fall.lammps
 "$ours" state falling.dump state.data
 { setup state.data; echo "dump d all custom 20 run.dump $columns
 dump_modify d format float %.17g
 run 400"; } > run.lammps
-lmp -log none -screen none -in run.lammps
+run run.lammps
 "$ours" compare run.dump divergence.csv
 
 cat > divergence.gp << 'END'
@@ -72,7 +76,7 @@ compute contacts all reduce ave c_one
 compute height all reduce ave z
 fix mean all ave/time 1000 10 60000 c_height c_contacts file settled$seed.txt
 run 60000"; } > settle.lammps
-    lmp -log none -screen none -in settle.lammps
+    run settle.lammps
     read -r _ height contacts < <(grep -v '^#' "settled$seed.txt" | tail -1)
     read -r our_height our_contacts < <("$ours" settle "$seed" 60000)
     echo "$seed,$height,$contacts,$our_height,$our_contacts" | tee -a settled.csv

@@ -97,6 +97,8 @@ TEST(Combinations, RunOrAreRefusedWithAReason) {
             }
         }
     }
+    // Of 7 laws, 5 go with 2 frictions that rub and 2 with one, rolling or not, and each with none.
+    EXPECT_EQ(ran, ((5 * 2 + 2 * 1) * 2 + 7) * 5 * 5 * 2);
     EXPECT_EQ(ran + refused, 7 * 4 * 2 * 5 * 5 * 2);
 }
 

@@ -52,6 +52,7 @@ TEST(GrazingImpact, FrictionAddsNoEnergyAtAWall) {
     for (const Laws& laws : {Laws{"plain, slip", N::walton_braun, T::incremental_slip},
                              Laws{"plain, spring", N::walton_braun, T::linear_spring},
                              Laws{"corrected, slip", N::walton_braun_corrected, T::incremental_slip},
+                             Laws{"corrected, spring", N::walton_braun_corrected, T::linear_spring},
                              Laws{"spring-dashpot, slip", N::spring_dashpot, T::incremental_slip},
                              Laws{"spring-dashpot, spring", N::spring_dashpot, T::linear_spring},
                              Laws{"Hertz, Mindlin", N::hertz, T::mindlin}}) {

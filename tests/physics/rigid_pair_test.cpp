@@ -29,7 +29,7 @@ class LedPair {
         grains_.motion[1].velocity = rate.cross(middle * apart) - slip;
         grains_.spin[0].rate = grains_.spin[1].rate = rate;
         const GeometryInput in{&grains_, first_, second_, 1, Wants::spin, LeverArms::contact_plane,
-                               step,     true,   nullptr};
+                               step,     step,   nullptr};
         touch_pairs(in, 0, touch_);
         kernel_.step(
             {1, &touch_, nullptr, nullptr, kind_, &parameters_, step, 0.5, kernel_.history_size, nullptr},

@@ -319,7 +319,7 @@ TEST(StabilityHealth, LooksOftenOnlyWhereGrainsAreTooFast) {
     EXPECT_EQ(steps(plan.impact_speed), 200);
     const double crossing = 2 * kRadius * std::sqrt(2e4 / sphere_mass());
     const std::int64_t few = steps(crossing);
-    EXPECT_GE(few, 1);
+    EXPECT_LT(few, 200);
     EXPECT_LT(static_cast<double>(few) * plan.clock.step * crossing, kRadius);
 }
 

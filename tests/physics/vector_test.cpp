@@ -154,6 +154,7 @@ void compare_at(NormalForce normal, TangentialLaw tangential, const std::vector<
             ASSERT_EQ(force.normal[c], f.normal) << "step " << n << ", contact " << c;
             if (Law::rubs) {
                 ASSERT_EQ(force.tangential[0][c], f.tangential.x) << "step " << n << ", contact " << c;
+                ASSERT_EQ(force.tangential[1][c], f.tangential.y) << "step " << n << ", contact " << c;
                 ASSERT_EQ(force.tangential[2][c], f.tangential.z) << "step " << n << ", contact " << c;
             }
             std::vector<Number> numbers;
@@ -203,6 +204,25 @@ TEST(VectorLaws, AreTheScalarLawsToTheLastBitAtEveryWidth) {
             compare<SD, LinearSpring>(sd, TangentialLaw::linear_spring, kinds);
             compare<SD, Frictionless>(sd, TangentialLaw::none, kinds);
         });
+    }
+}
+
+// Rounding must not act on a contact that does not turn, step after step.
+TEST(VectorLaws, AContactAtRestKeepsItsForceInSinglePrecision) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> one(-1, 1);
+    for (int contact = 0; contact < 40; ++contact) {
+        const Vec3 k = Vec3(one(random), one(random), one(random)).normalized();
+        const Vec3 t = k.cross(Vec3(one(random), one(random), one(random)));
+        const auto rounded = [](const Vec3& v) {
+            return Triple<float>{static_cast<float>(v.x()), static_cast<float>(v.y()),
+                                 static_cast<float>(v.z())};
+        };
+        const Triple<float> normal = rounded(k);
+        Triple<float> force = rounded(t);
+        const float before = force.squared();
+        for (int step = 0; step < 100000; ++step) force = carry_along(force, normal, normal, 0.0f);
+        EXPECT_NEAR(force.squared(), before, 1e-5f * before) << "contact " << contact;
     }
 }
 
