@@ -5,7 +5,7 @@ set grid
 set key outside right top
 set logscale xy
 set format y "10^{%L}"
-methods = "'velocity Verlet' 'with corrections' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
+methods = "'velocity Verlet' 'with corrections' 'mixed precision' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
 pick(method, error, e) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" && $3==%s {print $4\",\"$5\",\"$6}' contacts.csv", method, error, e)
 draw_restitution(e) = sprintf("plot for [m in methods] pick(m, 'restitution', '%s') using 2:3 title m lw 2, 0.005 lc 'gray' dt 2 title 'standard: 0.005'", e)
 
