@@ -195,20 +195,24 @@ do for [form in "svg png"] {
 )" + std::string(convergence_drawing()) +
            R"(    set output 'bed.'.form
     unset logscale
-    set format y '%g'
-    set offsets 0.5, 0.5, 0, 0
+    set format xy '%g'
+    set offsets 0, 0, 0.5, 0.5
+    set yrange [] reverse
     set multiplot layout 2,2 title 'A vibrated bed of 1,000 grains against its reference (an eighth of the default step)'
     unset key
-    set xtics rotate by -45 font ',8'
-    unset xlabel
+    unset ylabel
+    set xtics font ',10'
     do for [k=1:4] {
-        set ylabel word('height temperature contacts mixing', k).', %'
-        plot 'differences.csv' every ::1 using 0:(column(2*k+1)):(column(2*k+2)):xtic(1) with yerrorbars pt 7 lw 2, 0 lc 'gray' notitle
+        set xlabel word('height temperature contacts mixing', k).', difference in %'
+        plot 'differences.csv' every ::1 using (column(2*k+1)):0:(column(2*k+2)):ytic(1) with xerrorbars pt 7 lw 2 notitle
     }
     unset multiplot
     unset offsets
-    set xtics norotate
+    set yrange [] noreverse
+    set ytics auto
     set xtics font ',14'
+    set ylabel
+    set format x '%g'
     set key outside right top
     set logscale xy
     set format y "10^{%L}"
