@@ -13,19 +13,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// The velocity of the step before, for laws with a dashpot.
+// What the step before leaves to laws with a dashpot; all zero for a new contact.
 template <class R, bool kept>
-struct VelocityBefore {
+struct StepBefore {
     template <class Each>
     HWY_INLINE void each(const Each&) {}
 };
 template <class R>
-struct VelocityBefore<R, true> {
-    Triple<R> velocity;  // m/s, at the middle of the last step; zero for a new contact
+struct StepBefore<R, true> {
+    Triple<R> velocity;  // m/s, at its middle
+    R force;             // N, normal, at its end
 
     template <class Each>
     HWY_INLINE void each(const Each& visit) {
-        visit.turning(velocity);
+        visit.turning(velocity), visit(force);
     }
 };
 
@@ -59,7 +60,7 @@ struct ContactLaw {
     struct History {
         typename Normal::template History<R> normal;
         typename Tangential::template History<R> tangential;
-        VelocityBefore<R, has_dashpot> before;
+        StepBefore<R, has_dashpot> before;
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
@@ -82,6 +83,7 @@ struct ContactLaw {
         if constexpr (rubs && !weighs_onset) touch.slip = across(velocity, touch.normal) * step;
         if constexpr (has_dashpot) {
             set_velocity(touch, later(velocity, h.before.velocity, ahead));
+            slow_down(touch, p.normal, h.before.force, ahead * step);
             h.before.velocity = velocity;
         } else if constexpr (uses_velocity) {
             set_velocity(touch, velocity);
@@ -96,6 +98,7 @@ struct ContactLaw {
                     Tangential::force(p.tangential, p.normal, h.tangential, touch, spring) * acts};
         }
         Force<R> f{Normal::force(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
+        if constexpr (has_dashpot) h.before.force = f.normal;
         if constexpr (rubs) {
             f.tangential = Tangential::force(p.tangential, p.normal, h.tangential, touch, f.normal);
         }
@@ -136,6 +139,16 @@ struct ContactLaw {
     static HWY_INLINE Triple<R> later(const Triple<R>& velocity, const Triple<R>& before, R ahead) {
         const auto known = before.squared() > R(0);
         return velocity + select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}) * ahead;
+    }
+
+    // ... but the contact's own force has changed since, and slows the bodies by that over `time`. As the
+    // force depends on the velocity, so this on itself; the dashpot being linear, it can be solved for.
+    template <class R, class P>
+    static HWY_INLINE void slow_down(Touch<R>& touch, const P& p, R force_before, R time) {
+        const R slowing = time / touch.effective_mass;
+        const R elastic = Normal::spring_force(p, touch) - force_before;
+        touch.closing_speed =
+            (touch.closing_speed - slowing * elastic) / (R(1) + slowing * p.normal_damping(touch));
     }
 
     template <class R>

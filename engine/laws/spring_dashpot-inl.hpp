@@ -32,7 +32,8 @@ struct SpringDashpot {
         HWY_INLINE void each(const Each& visit) {
             visit(stiffness), visit(damping), visit(tangential_damping), visit(lowest);
         }
-        // kg/s, of the tangential dashpot.
+        // kg/s, of the dashpots.
+        HWY_INLINE R normal_damping(const Touch<R>& touch) const { return damping * touch.effective_mass; }
         HWY_INLINE R sideways_damping(const Touch<R>& touch) const {
             return tangential_damping * touch.effective_mass;
         }
@@ -55,8 +56,7 @@ struct SpringDashpot {
     }
     template <class R>
     static HWY_INLINE R now(const Parameters<R>& p, const History<R>&, const Touch<R>& touch) {
-        return larger(p.lowest,
-                      spring_force(p, touch) + p.damping * touch.effective_mass * touch.closing_speed);
+        return larger(p.lowest, spring_force(p, touch) + p.normal_damping(touch) * touch.closing_speed);
     }
     template <class R>
     static HWY_INLINE R spring_force(const Parameters<R>& p, const Touch<R>& touch) {

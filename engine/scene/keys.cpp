@@ -255,7 +255,7 @@ void add_run(Keys& keys) {
                          "walton-braun of constant restitution, with velocity-verlet: corrects onset, peak "
                          "and exit of each contact."));
     keys.push_back(integer("run.steps_per_contact", 4, 1000000,
-                           note("12 or more by restitution; 40 with a dashpot; by `accuracy`"),
+                           note("12 or more by restitution; 45 with a dashpot; by `accuracy`"),
                            "Steps in one free impact."));
     keys.push_back(entry("output.trajectory", KeyKind::flag, literal("true"), "Keep trajectory.nc."));
     keys.push_back(quantity("output.trajectory_interval", Dimension::time, positive,

@@ -73,6 +73,14 @@ inline World make_world(PairPlan pair, double step, NormalForce normal = NormalF
     return w;
 }
 
+inline Face ceiling_face(double height) {
+    Face f;
+    f.name = "ceiling";
+    f.point.z() = height;
+    f.normal = Vec3(0, 0, -1);
+    return f;
+}
+
 inline Face floor_face() {
     Face f;
     f.name = "floor";
