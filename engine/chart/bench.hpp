@@ -22,6 +22,21 @@ inline double bench_mass() {
     return sphere_mass_of(bench_radius);
 }
 
+// Walton-Braun with a constant restitution, and incremental slip where it rubs.
+inline PairPlan latching_pair(double stiffness, double restitution, double friction = 0) {
+    PairPlan pair;
+    pair.model = {NormalForce::walton_braun,
+                  friction > 0 ? TangentialLaw::incremental_slip : TangentialLaw::none};
+    pair.restitution = restitution;
+    pair.loading_stiffness = stiffness;
+    pair.unloading_stiffness = stiffness / (restitution * restitution);
+    pair.tangential_ratio = 0.8;
+    pair.tangential_stiffness = 0.8 * stiffness;
+    pair.gamma = 1.0 / 3;
+    pair.friction = friction;
+    return pair;
+}
+
 // On one thread. The loop refers to the rest, so a bench stays where it is.
 struct Bench {
     Plan plan;

@@ -11,15 +11,12 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double radius = 0.002, density = 2500, diameter = 2 * radius;  // m, kg/m3, m
-constexpr double speed = 0.3;                                            // m/s, of each component at first
+constexpr double radius = bench_radius, density = bench_density, diameter = 2 * radius;
+constexpr double speed = 0.3;  // m/s, of each component at first
 
 PairPlan smooth_pair(double stiffness, double restitution) {
-    PairPlan pair;
-    pair.model = {NormalForce::walton_braun_corrected, TangentialLaw::none, false};
-    pair.restitution = restitution;
-    pair.loading_stiffness = stiffness;
-    pair.unloading_stiffness = stiffness / (restitution * restitution);
+    PairPlan pair = latching_pair(stiffness, restitution);
+    pair.model.normal = NormalForce::walton_braun_corrected;
     return pair;
 }
 

@@ -11,7 +11,7 @@
 namespace grainreel::kharaz {
 
 constexpr double restitution = 0.98, friction = 0.092;
-constexpr double radius = 0.0025, speed = 3.85;  // m, m/s
+constexpr double radius = 0.0025, density = 3900, speed = 3.85;  // m, kg/m3, m/s
 
 struct Point {
     double degrees;  // of incidence, from the normal

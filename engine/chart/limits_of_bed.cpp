@@ -33,7 +33,7 @@ double restlessness(double step, int grains) {
                                          fmt::format("run.step={}", step * unit), "start.settle_limit=2"});
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 1);
-    simulation.pack([](const PackingProgress&) { return true; });
+    simulation.pack();
     simulation.advance(plan.steps);
     return simulation.measures().kinetic / (grains * bench_mass() * scene.gravity.norm() * 2 * bench_radius);
 }
@@ -85,7 +85,7 @@ double creep_of(LeverArms arms, int seed, int periods) {
          fmt::format("run.seed={}", seed), fmt::format("run.duration={}", (settled + periods) / frequency)});
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 1);
-    simulation.pack([](const PackingProgress&) { return true; });
+    simulation.pack();
     simulation.advance(settled * plan.clock.steps_per_period);
     const Frame start = simulation.frame();
     simulation.advance(plan.steps);
@@ -120,7 +120,7 @@ Finding hard_shaking(bool quick) {
                             "bed.toml");
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 1);
-        simulation.pack([](const PackingProgress&) { return true; });
+        simulation.pack();
         double largest = 0;
         for (std::int64_t step = 0; step < plan.steps;) {
             step = std::min(plan.steps, step + 20);

@@ -14,11 +14,8 @@ namespace {
 using std::numbers::pi;
 
 PairPlan contact_of(NormalForce law, double e, double effective_mass) {
-    PairPlan pair;
-    pair.model = {law, TangentialLaw::none};
-    pair.loading_stiffness = bench_stiffness;
-    pair.unloading_stiffness = bench_stiffness / (e * e);
-    pair.restitution = e;
+    PairPlan pair = latching_pair(bench_stiffness, e);
+    pair.model.normal = law;
     if (law == NormalForce::spring_dashpot) {
         pair.unloading_stiffness = bench_stiffness;
         pair.normal_damping = 2 * std::sqrt(bench_stiffness / effective_mass) * linear_damping(e, false);

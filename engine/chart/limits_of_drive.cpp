@@ -35,11 +35,7 @@ std::unique_ptr<Bench> on_a_plate(const PairPlan& pair, int steps_a_period, doub
 Finding kick(double ramp) {
     constexpr double e = 0.9, level = 0.9;
     constexpr int steps = 40000, points = 60;
-    PairPlan pair;
-    pair.model = {NormalForce::walton_braun, TangentialLaw::none};
-    pair.loading_stiffness = bench_stiffness;
-    pair.unloading_stiffness = bench_stiffness / (e * e);
-    const auto whole = on_a_plate(pair, steps, level, ramp);
+    const auto whole = on_a_plate(latching_pair(bench_stiffness, e), steps, level, ramp);
     Bench& bench = *whole;
     bench.add(Vec3(0, 0, bench_radius - bench_mass() * gravity / bench_stiffness));
     bench.start();

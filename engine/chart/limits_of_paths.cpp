@@ -17,13 +17,9 @@ constexpr double friction = 0.5, gamma_of_slip = 1.0 / 3;
 
 PairPlan contact_of(TangentialLaw tangential, double mu) {
     const bool hertz = tangential == TangentialLaw::mindlin;
-    PairPlan pair;
+    PairPlan pair = latching_pair(bench_stiffness, 1, mu);
     pair.model = {hertz ? NormalForce::hertz : NormalForce::walton_braun, tangential};
-    pair.loading_stiffness = pair.unloading_stiffness = bench_stiffness;
-    pair.tangential_ratio = 0.8;
-    pair.tangential_stiffness = 0.8 * bench_stiffness;
     pair.gamma = gamma_of_slip;
-    pair.friction = mu;
     pair.modulus = modulus;
     return pair;
 }

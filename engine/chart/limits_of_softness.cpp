@@ -12,13 +12,6 @@ namespace {
 
 using std::numbers::pi;
 
-PairPlan spring() {
-    PairPlan pair;
-    pair.model = {NormalForce::walton_braun, TangentialLaw::none};
-    pair.loading_stiffness = pair.unloading_stiffness = bench_stiffness;
-    return pair;
-}
-
 constexpr double speed = 0.3;  // m/s, of an impact
 
 // ---- a soft bed: the top of a column of elastic grains, shaken so gently that nothing comes apart ----
@@ -34,7 +27,7 @@ double measured_gain(int count, double omega) {
     const double unit = std::sqrt(bench_mass() / bench_stiffness), gravity = 9.81;
     const double period = 2 * pi / omega;
     const int steps = 8 * static_cast<int>(std::ceil(period / (0.05 * unit) / 8));
-    Bench bench(spring(), period / steps);
+    Bench bench(latching_pair(bench_stiffness, 1), period / steps);
     bench.plan.clock.steps_per_period = steps;
     Drive drive;
     drive.present = true;
@@ -107,7 +100,7 @@ double rebound_by_theory(double natural, double omega, double phase) {
 double rebound_measured(double natural, double omega, double phase) {
     const double period = 2 * pi / omega;
     const auto steps = 8 * static_cast<std::int64_t>(std::ceil(period * natural / 0.01 / 8));
-    Bench bench(spring(), period / static_cast<double>(steps));
+    Bench bench(latching_pair(bench_stiffness, 1), period / static_cast<double>(steps));
     bench.plan.clock.steps_per_period = steps;
     bench.plan.clock.initial_phase = phase / (2 * pi);
     Drive drive;

@@ -8,19 +8,12 @@
 namespace grainreel {
 namespace {
 
-PairPlan spring(double stiffness) {
-    PairPlan pair;
-    pair.model = {NormalForce::walton_braun, TangentialLaw::none};
-    pair.loading_stiffness = pair.unloading_stiffness = stiffness;
-    return pair;
-}
-
 // Two equal grains head-on; `speed` over 2 r sqrt(K / m_eff), `step` over sqrt(m_eff / K). The speed after
 // the meeting over that before, below zero where they went through each other.
 double after_head_on(double speed, double step, double phase) {
     const double frequency = std::sqrt(bench_stiffness / (0.5 * bench_mass()));
     const double closing = speed * 2 * bench_radius * frequency, length = step / frequency;
-    Bench bench(spring(bench_stiffness), length);
+    Bench bench(latching_pair(bench_stiffness, 1), length);
     const double apart = bench_radius + 0.5 * phase * closing * length;
     bench.add(Vec3(-apart, 0, 0), Vec3(0.5 * closing, 0, 0));
     bench.add(Vec3(apart, 0, 0), Vec3(-0.5 * closing, 0, 0));
@@ -59,7 +52,7 @@ Finding through_a_wall(bool) {
     finding.usual = 0.02;  // overlap of 1 % of the diameter
     const double frequency = std::sqrt(bench_stiffness / bench_mass());
     const auto depth = [&](double speed) {
-        Bench bench(spring(bench_stiffness), std::numbers::pi / 2 / frequency / steps);
+        Bench bench(latching_pair(bench_stiffness, 1), std::numbers::pi / 2 / frequency / steps);
         bench.add_floor();
         bench.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -speed * 2 * bench_radius * frequency));
         bench.start();
@@ -112,7 +105,7 @@ std::size_t touching_by_search(const Grains& grains, double period) {
 // smallest share of touching pairs and wall contacts that the loop has, over the steps.
 double share_listed(double way, int steps) {
     constexpr double half = 0.012, step = 1e-5;
-    Bench bench(spring(1e-9), step);
+    Bench bench(latching_pair(1e-9, 1), step);
     bench.around.period = 2 * half;
     const double speed = way * bench.around.skin / step;
     Random random(7, Stream::centres);

@@ -21,13 +21,9 @@ double unit() {
 }
 
 PairPlan spring(double restitution, double friction, double tangential_ratio) {
-    PairPlan pair;
-    pair.model = {NormalForce::walton_braun,
-                  friction > 0 ? TangentialLaw::linear_spring : TangentialLaw::none};
-    pair.loading_stiffness = bench_stiffness;
-    pair.unloading_stiffness = bench_stiffness / (restitution * restitution);
+    PairPlan pair = latching_pair(bench_stiffness, restitution, friction);
+    if (friction > 0) pair.model.tangential = TangentialLaw::linear_spring;
     pair.tangential_stiffness = tangential_ratio * bench_stiffness;
-    pair.friction = friction;
     return pair;
 }
 

@@ -15,17 +15,6 @@ double natural_frequency() {  // 1/s
     return std::sqrt(stiffness / (density * sphere_volume(diameter / 2)));
 }
 
-PairPlan spring(double friction) {
-    PairPlan pair;
-    pair.model = {NormalForce::walton_braun,
-                  friction > 0 ? TangentialLaw::incremental_slip : TangentialLaw::none, false};
-    pair.loading_stiffness = pair.unloading_stiffness = stiffness;
-    pair.tangential_stiffness = 0.8 * stiffness;
-    pair.gamma = 1.0 / 3;
-    pair.friction = friction;
-    return pair;
-}
-
 // All grains, centres at random, between walls at +- edge/2 in y and z.
 struct Crowd {
     const JammedPacking& setting;
@@ -33,8 +22,8 @@ struct Crowd {
     double edge = 0;
 
     explicit Crowd(const JammedPacking& packing)
-        : setting(packing), bench(spring(packing.friction), 0.1 / natural_frequency()) {
-        bench.plan.wall = {spring(0)};
+        : setting(packing), bench(latching_pair(stiffness, 1, packing.friction), 0.1 / natural_frequency()) {
+        bench.plan.wall = {latching_pair(stiffness, 1)};
         edge = std::cbrt(setting.grains * sphere_volume(diameter / 2) / setting.solid_fraction);
         const double room = edge / 2 - diameter / 2;
         Random centres(setting.seed, Stream::centres);

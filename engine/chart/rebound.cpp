@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/chart/bench.hpp"
+#include "engine/chart/kharaz.hpp"
 #include "engine/scene/damping.hpp"
 
 namespace grainreel {
@@ -10,8 +11,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double radius = 0.0025, density = 3900, speed = 3.85;  // m, kg/m3, m/s: alumina, Kharaz et al. 2001
-constexpr double depth = 0.001 * radius;                         // m, at normal incidence
+using kharaz::radius, kharaz::density, kharaz::speed;
+constexpr double depth = 0.001 * radius;  // m, at normal incidence
 constexpr int steps_per_contact = 200;
 
 PairPlan pair_of(const ImpactLaw& law, double effective_mass, double effective_radius) {

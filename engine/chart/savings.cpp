@@ -16,14 +16,7 @@ namespace {
 constexpr int side = 20;  // grains along an edge
 
 PairPlan contact() {
-    PairPlan pair;
-    pair.loading_stiffness = bench_stiffness;
-    pair.restitution = 0.9;
-    pair.unloading_stiffness = bench_stiffness / (0.9 * 0.9);
-    pair.tangential_stiffness = 0.8 * bench_stiffness;
-    pair.friction = 0.5;
-    pair.gamma = 1.0 / 3;
-    return pair;
+    return latching_pair(bench_stiffness, 0.9, 0.5);
 }
 
 // A cubic lattice on a floor, six contacts a grain that rub, and a step so short that the lists stay.

@@ -12,25 +12,13 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double diameter = 0.004, radius = diameter / 2, density = 2500;  // m, m, kg/m3
-constexpr double gravity = 9.81, stiffness = 2e3;                          // m/s2, N/m
-constexpr double loose = 0.5, expected = 0.58;                             // solid fractions
-constexpr double sinking = 0.05, way = 0.5 * diameter;                     // over sqrt(g d); m
+constexpr double diameter = 0.004, radius = diameter / 2, density = bench_density;  // m, m, kg/m3
+constexpr double gravity = 9.81, stiffness = 2e3;                                   // m/s2, N/m
+constexpr double loose = 0.5, expected = 0.58;                                      // solid fractions
+constexpr double sinking = 0.05, way = 0.5 * diameter;                              // over sqrt(g d); m
 
 double mass() {
     return density * sphere_volume(radius);
-}
-
-PairPlan contact(double restitution, double friction) {
-    PairPlan pair;
-    pair.model = {NormalForce::walton_braun,
-                  friction > 0 ? TangentialLaw::incremental_slip : TangentialLaw::none, false};
-    pair.loading_stiffness = stiffness;
-    pair.unloading_stiffness = stiffness / (restitution * restitution);
-    pair.tangential_stiffness = 0.8 * stiffness;
-    pair.gamma = 1.0 / 3;
-    pair.friction = friction;
-    return pair;
 }
 
 double step_length() {
@@ -58,7 +46,7 @@ struct Cylinder {
 
 // A loose crowd: random centres, pushed apart without friction or gravity under a lid.
 Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
-    Bench bench(contact(1, 0), step_length());
+    Bench bench(latching_pair(stiffness, 1), step_length());
     cylinder.surround(bench);
     const double height = grains * sphere_volume(radius) / (loose * cylinder.area());
     bench.add_plane(Vec3(0, 0, height), Vec3(0, 0, -1));
@@ -121,8 +109,8 @@ struct Sums {
 SiloLoad load_of(const SiloColumn& column) {
     const Cylinder cylinder(column);
     const int grains = cylinder.grains(column.aspect * cylinder.bore);
-    Bench bench(contact(0.7, column.friction), step_length());
-    bench.plan.wall = {contact(0.7, column.wall_friction)};
+    Bench bench(latching_pair(stiffness, 0.7, column.friction), step_length());
+    bench.plan.wall = {latching_pair(stiffness, 0.7, column.wall_friction)};
     cylinder.surround(bench);
     bench.grains = crowd(cylinder, grains, column.seed);
     for (Motion& m : bench.grains.motion) m.velocity.setZero();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "engine/chart/seed_mean.hpp"
 #include "engine/measure/segregation.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/reader.hpp"
@@ -89,19 +90,12 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
 
 namespace {
 
-struct Sample {
-    double mean = 0, error = 0;  // standard error of the mean
-};
-Sample sample_of(const std::vector<BedRow>& rows, const std::string& setting, double BedResult::*quantity) {
-    double count = 0, sum = 0, squares = 0;
-    for (const BedRow& row : rows) {
-        if (row.setting != setting) continue;
-        count += 1;
-        sum += row.result.*quantity;
-        squares += row.result.*quantity * (row.result.*quantity);
-    }
-    const double mean = sum / count, variance = (squares - sum * mean) / std::max(1.0, count - 1);
-    return {mean, std::sqrt(std::max(0.0, variance) / count)};
+SeedMean over_seeds(const std::vector<BedRow>& rows, const std::string& setting,
+                    double BedResult::*quantity) {
+    std::vector<double> values;
+    for (const BedRow& row : rows)
+        if (row.setting == setting) values.push_back(row.result.*quantity);
+    return mean_of(values);
 }
 
 }  // namespace
@@ -118,8 +112,8 @@ std::vector<BedDifference> bed_differences(const std::vector<BedRow>& rows) {
     }
     for (BedDifference& d : differences) {
         const auto compare = [&](double BedResult::*quantity, double& difference, double& error) {
-            const Sample is = sample_of(rows, d.setting, quantity);
-            const Sample should = sample_of(rows, differences[0].setting, quantity);
+            const SeedMean is = over_seeds(rows, d.setting, quantity);
+            const SeedMean should = over_seeds(rows, differences[0].setting, quantity);
             difference = 100 * (is.mean / should.mean - 1);
             const double own = d.setting == differences[0].setting ? 0 : is.error;
             error = 100 * std::hypot(own, should.error) / should.mean;
@@ -128,8 +122,8 @@ std::vector<BedDifference> bed_differences(const std::vector<BedRow>& rows) {
         compare(&BedResult::temperature, d.temperature, d.temperature_error);
         compare(&BedResult::contacts, d.contacts, d.contacts_error);
         compare(&BedResult::mixing, d.mixing, d.mixing_error);
-        d.cost = sample_of(rows, d.setting, &BedResult::cost).mean /
-                 sample_of(rows, differences[0].setting, &BedResult::cost).mean;
+        d.cost = over_seeds(rows, d.setting, &BedResult::cost).mean /
+                 over_seeds(rows, differences[0].setting, &BedResult::cost).mean;
     }
     return differences;
 }

@@ -4,6 +4,7 @@
 #include "engine/base/text_file.hpp"
 #include "engine/chart/cooling_gas.hpp"
 #include "engine/chart/result_table.hpp"
+#include "engine/chart/seed_mean.hpp"
 #include "engine/chart/validation.hpp"
 
 namespace grainreel {

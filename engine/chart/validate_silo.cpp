@@ -3,6 +3,7 @@
 
 #include "engine/base/text_file.hpp"
 #include "engine/chart/result_table.hpp"
+#include "engine/chart/seed_mean.hpp"
 #include "engine/chart/silo.hpp"
 #include "engine/chart/validation.hpp"
 

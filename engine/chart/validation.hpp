@@ -16,10 +16,4 @@ struct ValidationPart {
 };
 extern const ValidationPart impact_part, packing_part, silo_part, gas_part;
 
-// Mean of a few seeds and its standard error.
-struct SeedMean {
-    double mean = 0, error = 0;
-};
-SeedMean mean_of(const std::vector<double>& values);
-
 }  // namespace grainreel

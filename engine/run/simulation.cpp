@@ -132,6 +132,10 @@ void Simulation::Impl::begin_drive() {
     step = 0;
 }
 
+PackingResult Simulation::pack() {
+    return pack([](const PackingProgress&) { return true; });
+}
+
 PackingResult Simulation::pack(const PackingWatcher& watcher) {
     Impl& m = *impl_;
     PackingResult result;

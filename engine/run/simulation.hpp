@@ -43,6 +43,7 @@ class Simulation {
     // Places the grains (layers, radius growth, settling) or continues from the scene's file. Afterwards
     // step() is 0, or the file's step when the scene keeps its clock.
     PackingResult pack(const PackingWatcher& watcher);
+    PackingResult pack();
 
     // Runs up to step `target`. Throws RunError when the run stopped being healthy.
     void advance(std::int64_t target);

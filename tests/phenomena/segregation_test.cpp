@@ -41,7 +41,7 @@ TEST(SegregationLong, ChangesByMoreThanThreeDeviationsInEverySeed) {
                                        {fmt::format("run.seed={}", seed)});
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 0);
-        simulation.pack([](const PackingProgress&) { return true; });
+        simulation.pack();
         std::vector<double> height, lacey;
         for (std::int64_t at = 0; at <= plan.steps; at += plan.clock.steps_per_period) {
             simulation.advance(at);

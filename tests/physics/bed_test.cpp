@@ -55,7 +55,7 @@ const std::string kFullSettling = "start.settle_limit=\"5 s\"";
 
 Simulation packed(const Scene& scene, const Plan& plan, int threads) {
     Simulation simulation(scene, plan, threads);
-    simulation.pack([](const PackingProgress&) { return true; });
+    simulation.pack();
     return simulation;
 }
 
@@ -119,7 +119,7 @@ TEST(Settling, BringsTheBedToRestOnTheFloor) {
     const Scene scene = scene_of({kFullSettling});
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 1);
-    const PackingResult result = simulation.pack([](const PackingProgress&) { return true; });
+    const PackingResult result = simulation.pack();
     EXPECT_TRUE(result.settled);
     EXPECT_EQ(simulation.step(), 0);
     // Weight rests on the walls: the vertical force between grains and walls is the bed's weight.
@@ -294,7 +294,7 @@ TEST(Health, StopsARunWhoseStepIsTooLong) {
     plan.settle_steps_limit = 0;
     Simulation simulation(scene, plan, 1);
     try {
-        simulation.pack([](const PackingProgress&) { return true; });
+        simulation.pack();
         simulation.advance(100000);
         FAIL() << "the run went on";
     } catch (const RunError& error) {

@@ -59,7 +59,7 @@ std::string run(const std::string& text, const std::vector<std::string>& sets) {
     }
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 1);
-    simulation.pack([](const PackingProgress&) { return true; });
+    simulation.pack();
     const double before = energy(simulation.measures());
     simulation.advance(plan.steps);
     const Measures after = simulation.measures();

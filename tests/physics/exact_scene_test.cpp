@@ -12,7 +12,7 @@ namespace {
 Frame end_of(const Scene& scene) {
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 1);
-    simulation.pack([](const PackingProgress&) { return true; });
+    simulation.pack();
     simulation.advance(plan.steps);
     return simulation.frame();
 }
@@ -42,7 +42,7 @@ TEST(ExactScene, GrainsKeepTheirNumbersAndSizes) {
         const Scene scene = scene_of(text);
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 1);
-        simulation.pack([](const PackingProgress&) { return true; });
+        simulation.pack();
         return simulation.frame();
     }();
     EXPECT_EQ(start.id, (std::vector<std::int32_t>{0, 1}));

@@ -175,7 +175,7 @@ std::string complaint(const std::string& text, const std::vector<std::string>& s
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 1);
     try {
-        simulation.pack([](const PackingProgress&) { return true; });
+        simulation.pack();
         simulation.advance(plan.steps);
     } catch (const RunError& error) {
         return error.what();
