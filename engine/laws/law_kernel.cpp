@@ -2,28 +2,12 @@
 
 #include <algorithm>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "engine/laws/law_kernel.cpp"
+#include "engine/base/error.hpp"
 #include "engine/vector/targets.hpp"
 //
 #include <hwy/highway.h>
 
-HWY_BEFORE_NAMESPACE();
-namespace grainreel::HWY_NAMESPACE {
-
-const char* instructions() {
-    return hwy::TargetName(HWY_TARGET);
-}
-
-}  // namespace grainreel::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "engine/base/error.hpp"
-
 namespace grainreel {
-
-HWY_EXPORT(instructions);
 
 // double_kernels.cpp and mixed_kernels.cpp
 const LawKernel* double_kernel(const ContactModel& model);
@@ -50,10 +34,10 @@ const LawKernel& rolling_kernel(Precision precision) {
 }
 
 std::string vector_instructions() {
-    const std::string name = HWY_DYNAMIC_DISPATCH(instructions)();
+    const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
+    const std::string name = hwy::TargetName(usable & -usable);  // the lowest bit is the best of them
     if (name == "AVX3") return "AVX-512";
     return name == "Scalar" || name == "EMU128" ? "none (plain x86-64)" : name;
 }
 
 }  // namespace grainreel
-#endif
