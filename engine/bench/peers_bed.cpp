@@ -82,8 +82,9 @@ std::vector<Vec3> lattice(int count, double diameter, double side, double& z, Py
 
 }  // namespace
 
-PeersBed peers_bed(std::uint32_t seed, int small_count, int big_count) {
+PeersBed peers_bed(std::uint32_t seed, int small_count, int big_count, double side) {
     PeersBed bed;
+    bed.side = side;
     PythonRandom random(seed);
     double z = 1.2e-3;
     bed.big_ones = lattice(big_count, kPeersBig, bed.side, z, random);

@@ -19,7 +19,7 @@ struct PeersBed {
 
 // The lattices from which it falls, with random shifts (7 is the seed of the peers' own files), to the eight
 // digits that those have.
-PeersBed peers_bed(std::uint32_t seed = 7, int small_count = 9000, int big_count = 1125);
+PeersBed peers_bed(std::uint32_t seed = 7, int small_count = 9000, int big_count = 1125, double side = 0.02);
 
 // Their diameters in m.
 constexpr double kPeersSmall = 0.001, kPeersBig = 0.002;

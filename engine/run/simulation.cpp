@@ -14,6 +14,7 @@
 #include "engine/measure/measure.hpp"
 #include "engine/measure/segregation.hpp"
 #include "engine/run/health.hpp"
+#include "engine/run/surroundings.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/restart.hpp"
@@ -26,25 +27,6 @@
 namespace grainreel {
 
 namespace {
-
-constexpr double kSkinShare = 0.4;  // of the smallest radius
-
-double smallest_radius(const Scene& scene) {
-    double smallest = scene.species[0].diameter.smallest;
-    for (const Species& s : scene.species) smallest = std::min(smallest, s.diameter.smallest);
-    return 0.5 * smallest;
-}
-
-Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
-    Surroundings around;
-    around.faces = container_faces(scene.container, scene.drive);
-    for (const Face& face : free_faces(scene.walls)) around.faces.push_back(face);
-    around.motion = WallMotion(scene.drive, plan.clock);
-    around.gravity = scene.gravity;
-    around.period = period_of_depth(scene.container);
-    around.skin = kSkinShare * smallest_radius(scene);
-    return around;
-}
 
 double solid_fraction(const Container& container, const Grains& grains) {
     std::vector<double> heights;

@@ -163,7 +163,7 @@ History* behind_law(const ContactGroup& group, History* history) {
 }  // namespace
 
 void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state,
-                          const Times& times) {
+                          const Times& times, CostClock& clock) {
     for (std::size_t g = 0; g < lists_.size(); ++g) {
         const ContactGroup& group = rules.groups[g];
         ContactList& list = lists_[g];
@@ -172,6 +172,7 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
             group.law->step(in, history, force_);
             if (group.rolling)
                 group.rolling->step(for_rolling(group, in), behind_law(group, history), force_);
+            clock.lap(group.of_pairs ? Cost::contacts : Cost::walls);
             const ChunkOfContacts chunk{list.first.data() + c,
                                         list.second.data() + c,
                                         in.count,
@@ -181,6 +182,7 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
                                         group.rolling ? &rolling_ : nullptr};
             group.of_pairs ? add_pairs(chunk, loads_, begin_, end_, grains)
                            : add_walls(chunk, loads_, state, times.acts, grains);
+            clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
         });
     }
 }

@@ -11,6 +11,7 @@
 #include "engine/step/contact_geometry.hpp"
 #include "engine/step/contact_list.hpp"
 #include "engine/step/contact_rules.hpp"
+#include "engine/step/cost_clock.hpp"
 #include "engine/step/loads.hpp"
 #include "engine/step/neighbours.hpp"
 
@@ -40,7 +41,8 @@ class ContactPass {
         double acts;   // s, that the forces will act
         double turns;  // s: `since`, or 0 where positions and velocities are of one time
     };
-    void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Times& times);
+    void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Times& times,
+                 CostClock& clock);
 
     // Shows every contact of a group under an own grain that touches: its bodies, and where to find it in the
     // chunks.

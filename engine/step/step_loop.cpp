@@ -18,6 +18,7 @@ StepLoop::StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& g
 
 void StepLoop::restart() {
     const Pose rest = around_.motion.at(-1);
+    CostClock idle;
     for (Member& m : members_) {
         m.contacts = {};
         m.reach = {};
@@ -28,7 +29,7 @@ void StepLoop::restart() {
         rebuild(member, rest);
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
-        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0});
+        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, idle);
     });
     rebuilds_ = refreshes_ = 0;
     fresh_ = true;
@@ -52,6 +53,7 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
 // positions and velocities between the two barriers of a step, while nobody writes them.
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
     const FlushDenormals flush;
+    members_[member].clock.start();
     for (std::int64_t n = from; n < to; ++n) {
         for (std::size_t stage = 0; stage < scheme_.stages.size(); ++stage) {
             const Evaluation at = evaluation(n, stage, step);
@@ -62,6 +64,7 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
         }
     }
     end_run(member, step, kicks);
+    members_[member].clock.lap(Cost::integrate);
 }
 
 StepLoop::Evaluation StepLoop::evaluation(std::int64_t n, std::size_t stage, double step) const {
@@ -79,6 +82,20 @@ StepLoop::Evaluation StepLoop::evaluation(std::int64_t n, std::size_t stage, dou
     at.before = goes_on ? around_.motion.at(n - 1, all) : around_.motion.at(n, before);
     at.since = step * (scheme_.stages[stage].drift + (goes_on ? scheme_.closing_drift : 0));
     return at;
+}
+
+void StepLoop::time_costs() {
+    for (Member& m : members_) m.clock.turn_on();
+}
+
+std::array<double, kCosts> StepLoop::cost_shares() const {
+    std::array<double, kCosts> shares{};
+    double all = 0;
+    for (const Member& m : members_) {
+        for (int s = 0; s < kCosts; ++s) shares[s] += m.clock.spent()[s], all += m.clock.spent()[s];
+    }
+    for (double& share : shares) share /= all;
+    return shares;
 }
 
 // From the last forces to where the next are wanted. What the last run left done is not done again.
@@ -101,12 +118,16 @@ void StepLoop::move(int member, bool first, std::size_t stage, double step, Kick
 
 void StepLoop::evaluate(int member, const Evaluation& at, double step, const KickInput& kicks) {
     Member& mine = members_[member];
+    mine.clock.lap(Cost::integrate);
     mine.walls.set(around_.faces, at.before, at.now, at.since);
     team_.barrier();
+    mine.clock.lap(Cost::other);
     renew_contacts(member, at, step, kicks);
+    mine.clock.lap(Cost::neighbours);
     mine.contacts.compute(rules_, grains_, mine.walls,
-                          {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since});
+                          {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since}, mine.clock);
     team_.barrier();
+    mine.clock.lap(Cost::other);
 }
 
 void StepLoop::end_run(int member, double step, KickInput& kicks) {

@@ -5,6 +5,7 @@
 // second partner by rising index of the first, as first partner by rising index of the second, walls last.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
@@ -70,6 +71,10 @@ class StepLoop {
 
     std::int64_t rebuilds() const { return rebuilds_; }
     std::int64_t refreshes() const { return refreshes_; }
+    // From now on run() notes which stage takes how long; shares of all that time, summed over the threads.
+    void time_costs();
+    std::array<double, kCosts> cost_shares() const;
+
     std::size_t listed_pairs() const { return lists_.pairs.size(); }
 
   private:
@@ -90,6 +95,7 @@ class StepLoop {
         std::vector<KeptContacts> kept;  // by group
         NeighbourList part;              // of the pair search
         Reach reach;
+        CostClock clock;
         Vec3 fastest{0, 0, 0};  // m/s, largest components of its grains against the bed's free flight
         double farthest = 0;    // m, from where they were listed
     };

@@ -6,6 +6,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/plan.hpp"
 #include "engine/scene/reader.hpp"
+#include "render/cli/bench.hpp"
 #include "render/cli/chart.hpp"
 #include "render/cli/check.hpp"
 #include "render/cli/movie.hpp"
@@ -31,6 +32,8 @@ int run(const grainreel::Options& options, grainreel::Reporter& reporter) {
                 return grainreel::make_movie(options, reporter);
             case grainreel::Options::Verb::chart:
                 return grainreel::make_chart(options, reporter);
+            case grainreel::Options::Verb::bench:
+                return grainreel::run_bench(options, reporter);
             case grainreel::Options::Verb::check:
                 break;
         }

@@ -137,6 +137,38 @@ void add_chart(CLI::App& app, Options& options) {
     verb.callback([&options] { options.verb = Options::Verb::chart; });
 }
 
+void add_bench(CLI::App& app, Options& options) {
+    CLI::App& verb = *app.add_subcommand("bench", "Time the engine on a bed of known kind");
+    std::string about;
+    std::vector<std::string> names;
+    for (const BenchCase& bench : bench_cases()) {
+        names.push_back(bench.name);
+        about += fmt::format("{}{} ({})", about.empty() ? "" : "; ", bench.name, bench.about);
+    }
+    verb.add_option("CASE", options.bench, about)->required()->check(CLI::IsMember(names))->type_name("CASE");
+    verb.add_option("--threads", options.bench_request.threads, "Threads [as many as there are processors]")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    verb.add_option_function<std::string>(
+            "--precision",
+            [&options](const std::string& word) {
+                options.bench_request.precision = word == "mixed" ? Precision::mixed : Precision::full;
+            },
+            "double or mixed [double]")
+        ->check(CLI::IsMember({"double", "mixed"}))
+        ->type_name("WHICH");
+    verb.add_option("--particles", options.bench_request.particles, "Grains [by the case]")
+        ->check(CLI::Range(100, 10000000))
+        ->type_name("N");
+    verb.add_option("--repeat", options.bench_request.repeats, "Run it all so often and give medians [1]")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("K");
+    verb.add_flag("--json", options.json, "One JSON object in place of a table");
+    add_reporting(verb, options);
+    verb.footer("Results go to stdout, progress to stderr.");
+    verb.callback([&options] { options.verb = Options::Verb::bench; });
+}
+
 }  // namespace
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {
@@ -155,6 +187,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     add_movie(app, options);
     add_check(app, options);
     add_chart(app, options);
+    add_bench(app, options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

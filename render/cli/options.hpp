@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/bench/bench_run.hpp"
 #include "render/cli/reporter.hpp"
 
 namespace grainreel {
 
 struct Options {
-    enum class Verb { movie, check, chart };
+    enum class Verb { movie, check, chart, bench };
     Verb verb = Verb::movie;
     std::filesystem::path scene;
     // What --set, then --size, --fps, --duration, --threads and --seed say, as assignments for the scene's
@@ -25,6 +26,9 @@ struct Options {
     bool frames = false;
     std::string chart;   // which, with `chart`
     bool quick = false;  // of charts
+    std::string bench;   // which case, with `bench`
+    BenchRequest bench_request;
+    bool json = false;  // of bench
     ReporterOptions report;
 
     std::string command;  // as typed, for run.json

@@ -1,0 +1,43 @@
+// The beds that `grainreel bench` times.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/scene/plan.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+struct BenchBed {
+    Plan plan;
+    Surroundings around;
+    Grains grains;
+};
+
+struct BenchPhase {
+    std::string name;
+    std::int64_t steps;
+};
+
+struct BenchCase {
+    std::string name, about;
+    int particles;                    // unless others are asked for
+    std::int64_t first_step;          // of the first phase; the drive starts at 0
+    std::int64_t lead;                // steps before it that are not timed
+    double lead_drag;                 // 1/s, during these
+    std::vector<BenchPhase> phases;
+    BenchBed (*bed)(int particles);
+    // The pattern repeats in x and y: more grains than `particles` are copies of a bed, side by side, with
+    // walls around all of them. 0 where more grains make another bed.
+    double (*side_of_copies)(const BenchBed& bed) = nullptr;
+};
+const std::vector<BenchCase>& bench_cases();
+
+// k x k copies side by side, centred as the bed is; its walls in x and y, which stand at +- side / 2, around
+// them all.
+BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k);
+
+}  // namespace grainreel

@@ -1,0 +1,29 @@
+#include "engine/run/surroundings.hpp"
+
+#include <algorithm>
+
+namespace grainreel {
+namespace {
+
+constexpr double kSkinShare = 0.4;  // of the smallest radius
+
+double smallest_radius(const Scene& scene) {
+    double smallest = scene.species[0].diameter.smallest;
+    for (const Species& s : scene.species) smallest = std::min(smallest, s.diameter.smallest);
+    return 0.5 * smallest;
+}
+
+}  // namespace
+
+Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
+    Surroundings around;
+    around.faces = container_faces(scene.container, scene.drive);
+    for (const Face& face : free_faces(scene.walls)) around.faces.push_back(face);
+    around.motion = WallMotion(scene.drive, plan.clock);
+    around.gravity = scene.gravity;
+    around.period = period_of_depth(scene.container);
+    around.skin = kSkinShare * smallest_radius(scene);
+    return around;
+}
+
+}  // namespace grainreel

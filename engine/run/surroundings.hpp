@@ -1,0 +1,12 @@
+// The surroundings of a scene's grains: walls and their motion, gravity, the reach of the neighbour lists.
+#pragma once
+
+#include "engine/scene/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+Surroundings make_surroundings(const Scene& scene, const Plan& plan);
+
+}  // namespace grainreel

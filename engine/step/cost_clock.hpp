@@ -1,0 +1,45 @@
+// Where a thread's time goes. Off unless asked for; then a look at the processor's counter a chunk of contacts.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+
+namespace grainreel {
+
+// neighbours: lists and cells. contacts: geometry and laws of pairs. gather: their forces into the grains'
+// loads. walls: all of that for walls. integrate: kicks and drifts. other: waiting for threads, and the rest.
+enum class Cost { neighbours, contacts, walls, gather, integrate, other };
+constexpr int kCosts = 6;
+
+class CostClock {
+  public:
+    // Counts from nothing.
+    void turn_on() { on_ = true, spent_.fill(0); }
+    void start() {
+        if (on_) last_ = ticks();
+    }
+    // All since start() or the last lap() went into this.
+    void lap(Cost cost) {
+        if (!on_) return;
+        const std::uint64_t now = ticks();
+        spent_[static_cast<int>(cost)] += static_cast<double>(now - last_);
+        last_ = now;
+    }
+    const std::array<double, kCosts>& spent() const { return spent_; }  // in ticks of no known length
+
+  private:
+    static std::uint64_t ticks() {
+#if defined(__x86_64__)
+        return __builtin_ia32_rdtsc();
+#else
+        return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+#endif
+    }
+
+    bool on_ = false;
+    std::uint64_t last_ = 0;
+    std::array<double, kCosts> spent_{};
+};
+
+}  // namespace grainreel
