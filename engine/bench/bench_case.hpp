@@ -24,10 +24,10 @@ struct BenchPhase {
 
 struct BenchCase {
     std::string name, about;
-    int particles;                    // unless others are asked for
-    std::int64_t first_step;          // of the first phase; the drive starts at 0
-    std::int64_t lead;                // steps before it that are not timed
-    double lead_drag;                 // 1/s, during these
+    int particles;            // unless others are asked for
+    std::int64_t first_step;  // of the first phase; the drive starts at 0
+    std::int64_t lead;        // steps before it that are not timed
+    double lead_drag;         // 1/s, during these
     std::vector<BenchPhase> phases;
     BenchBed (*bed)(int particles);
     // The pattern repeats in x and y: more grains than `particles` are copies of a bed, side by side, with

@@ -32,7 +32,8 @@ struct Running {
     std::unique_ptr<StepLoop> loop;
     std::int64_t step = 0;
 
-    Running(BenchBed start, int threads, std::int64_t first) : bed(std::move(start)), team(threads), step(first) {
+    Running(BenchBed start, int threads, std::int64_t first)
+        : bed(std::move(start)), team(threads), step(first) {
         loop = std::make_unique<StepLoop>(bed.plan, bed.around, bed.grains, team);
         loop->restart();
     }
@@ -96,7 +97,8 @@ class BenchRun {
     }
 
     // Timed, where there is a report.
-    bool advance(Running& run, std::int64_t steps, const std::string& what, double drag, PhaseReport* report) {
+    bool advance(Running& run, std::int64_t steps, const std::string& what, double drag,
+                 PhaseReport* report) {
         if (report) run.loop->time_costs();
         double taken = 0;
         for (std::int64_t done = 0; done < steps;) {

@@ -21,14 +21,14 @@ struct BenchRequest {
 
 struct PhaseReport {
     std::string name;
-    std::int64_t steps = 0;               // timed
-    std::vector<double> particle_steps;   // a second, of each repetition
-    std::int64_t listed = 0;              // pairs in the neighbour lists at its end
-    std::int64_t touching = 0;            // pairs
+    std::int64_t steps = 0;              // timed
+    std::vector<double> particle_steps;  // a second, of each repetition
+    std::int64_t listed = 0;             // pairs in the neighbour lists at its end
+    std::int64_t touching = 0;           // pairs
     std::array<double, kCosts> stage{};  // ns of a thread for a step of a grain, of the median repetition
 
-    double median() const;                                    // particle steps a second
-    double spread() const;                                    // (largest - smallest) / median
+    double median() const;  // particle steps a second
+    double spread() const;  // (largest - smallest) / median
 };
 
 struct BenchReport {

@@ -43,26 +43,20 @@ double side(const BenchBed& bed) {
 }
 
 BenchCase like_the_peers(const std::string& name, const std::string& about, BenchBed (*bed)(int)) {
-    return {name,
-            about,
-            all,
-            -60000,
-            0,
-            0,
-            {{"settled", 60000}, {"rising", 10000}, {"vibrated", 20000}},
-            bed,
-            side};
+    return {name, about, all, -60000, 0, 0, {{"settled", 60000}, {"rising", 10000}, {"vibrated", 20000}},
+            bed,  side};
 }
 
 }  // namespace
 
 std::vector<BenchCase> peers_cases() {
-    return {like_the_peers("bed10k", "the peers' bed: spring-dashpot with friction, in three phases",
-                           [](int n) { return bed_of(n, peers_plan()); }),
-            like_the_peers("bed10k-walton-braun", "the same with Walton-Braun, corrected, and incremental slip",
-                           [](int n) { return bed_of(n, walton_braun(TangentialLaw::incremental_slip)); }),
-            like_the_peers("frictionless", "the same with Walton-Braun, corrected, without friction",
-                           [](int n) { return bed_of(n, walton_braun(TangentialLaw::none)); })};
+    return {
+        like_the_peers("bed10k", "the peers' bed: spring-dashpot with friction, in three phases",
+                       [](int n) { return bed_of(n, peers_plan()); }),
+        like_the_peers("bed10k-walton-braun", "the same with Walton-Braun, corrected, and incremental slip",
+                       [](int n) { return bed_of(n, walton_braun(TangentialLaw::incremental_slip)); }),
+        like_the_peers("frictionless", "the same with Walton-Braun, corrected, without friction",
+                       [](int n) { return bed_of(n, walton_braun(TangentialLaw::none)); })};
 }
 
 }  // namespace grainreel

@@ -59,11 +59,10 @@ BenchBed bed_of(const Scene& scene) {
 // More grains: a deeper hopper.
 BenchBed wedge(int particles) {
     const double share = particles / 1620.0;
-    const Scene scene = read_scene_text(
-        wedge_scene(), "wedge.toml",
-        {fmt::format("species[0].count={}", std::lround(1500 * share)),
-         fmt::format("species[1].count={}", std::lround(120 * share)),
-         fmt::format("container.depth={}", 0.058 * share)});
+    const Scene scene = read_scene_text(wedge_scene(), "wedge.toml",
+                                        {fmt::format("species[0].count={}", std::lround(1500 * share)),
+                                         fmt::format("species[1].count={}", std::lround(120 * share)),
+                                         fmt::format("container.depth={}", 0.058 * share)});
     BenchBed bed = bed_of(scene);
     bed.grains = place_in_layers(scene);
     Team team(1);
@@ -76,8 +75,7 @@ BenchBed wedge(int particles) {
 constexpr double small = 0.001, apart = 1.1 * small, wide = 0.044;  // m
 
 BenchBed sea(int particles, double big) {
-    const Scene scene = read_scene_text(
-        fmt::format(R"(
+    const Scene scene = read_scene_text(fmt::format(R"(
 [[species]]
 name = "small"
 count = {}
@@ -102,8 +100,8 @@ g_level = 3
 [run]
 duration = 1
 )",
-                    particles, small, big, wide, wide),
-        "intruder.toml", {});
+                                                    particles, small, big, wide, wide),
+                                        "intruder.toml", {});
     BenchBed bed = bed_of(scene);
     const int across = static_cast<int>(wide / apart);
     const Vec3 centre(0, 0, big / 2 + 5 * apart);
@@ -150,8 +148,9 @@ duration = 1
     const auto speed = [&] { return random.between(-0.5, 0.5); };
     for (int site = 0; site < particles; ++site) {
         const Vec3 corner(-edge / 2, -edge / 2, 0);
-        const Vec3 at = corner + edge / across * Vec3(site % across + 0.5, site / across % across + 0.5,
-                                                      site / (across * across) + 0.5);
+        const Vec3 at = corner + edge / across *
+                                     Vec3(site % across + 0.5, site / across % across + 0.5,
+                                          site / (across * across) + 0.5);
         bed.grains.add(site, 0, at, small / 2, 2500);
         bed.grains.motion.back().velocity = Vec3(speed(), speed(), speed());
     }

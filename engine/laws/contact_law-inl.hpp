@@ -145,10 +145,9 @@ struct ContactLaw {
     // force depends on the velocity, so this on itself; the dashpot being linear, it can be solved for.
     template <class R, class P>
     static HWY_INLINE void slow_down(Touch<R>& touch, const P& p, R force_before, R time) {
-        const R slowing = time / touch.effective_mass;
-        const R elastic = Normal::spring_force(p, touch) - force_before;
+        const R mass = touch.effective_mass, elastic = Normal::spring_force(p, touch) - force_before;
         touch.closing_speed =
-            (touch.closing_speed - slowing * elastic) / (R(1) + slowing * p.normal_damping(touch));
+            (mass * touch.closing_speed - time * elastic) / (mass + time * p.normal_damping(touch));
     }
 
     template <class R>

@@ -37,6 +37,20 @@ HWY_INLINE Triple<Lanes> of_surfaces(const Triple<Lanes>& velocity, const Triple
     return velocity - change * k.dot(velocity) + spins.cross(k + change);
 }
 
+std::uint64_t pairs_that_touch(const Grains& grains, const std::int32_t* i, const std::int32_t* j, int count,
+                               double period) {
+    const double* place = numbers(grains.place);
+    std::uint64_t touching = 0;
+    for (int c = 0; c < count; c += kLanes) {
+        const auto one = load_records(place, 4, i + c), two = load_records(place, 4, j + c);
+        Triple<Lanes> apart = triple(two) - triple(one);
+        if (period > 0) apart.x = nearest(apart.x, Lanes(period));
+        const Lanes reach = Lanes(one.d) + Lanes(two.d);
+        touching |= bits(apart.squared() < reach * reach) << c;
+    }
+    return touching;
+}
+
 template <Wants wants>
 void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
@@ -59,9 +73,14 @@ void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
         const Lanes inverse_distance = Lanes(1.0) / distance;
         const Triple<Lanes> k = apart * inverse_distance;
         put(k, out.normal, c);
-        if constexpr (wants == Wants::overlap) continue;
+        if (in.radius)
+            store(Lanes(1.0) / (Lanes(1.0) / radius_one + Lanes(1.0) / radius_two), out.effective_radius + c);
+        if (wants == Wants::overlap && !in.mass) continue;
 
         const auto motion_one = load_records(motion, 4, i), motion_two = load_records(motion, 4, j);
+        if (in.mass) store(Lanes(1.0) / (Lanes(motion_one.d) + Lanes(motion_two.d)), out.effective_mass + c);
+        if constexpr (wants == Wants::overlap) continue;
+
         Triple<Lanes> velocity = triple(motion_one) - triple(motion_two);
         if constexpr (wants >= Wants::spin) {
             // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which
@@ -88,6 +107,40 @@ void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
     }
 }
 
+// A grain and a wall, plane or round.
+struct AtWall {
+    Triple<Lanes> out_from_axis;
+    Lanes from_axis, distance, radius;
+    LanesMask round;
+};
+HWY_INLINE AtWall at_wall(const double* place, const WallState& walls, const std::int32_t* i,
+                          const std::int32_t* face, Triple<Lanes>& into) {
+    const auto grain = load_records(place, 4, i);
+    const auto plane = load_records(numbers(walls.faces), 8, face);
+    const auto cylinder = load_records(numbers(walls.faces) + 4, 8, face);
+    const Triple<Lanes> centre = triple(grain);
+    into = triple(plane);
+    AtWall w;
+    w.radius = Lanes(grain.d);
+    w.out_from_axis = centre - triple(cylinder);
+    w.out_from_axis.z = Lanes(0.0);
+    w.from_axis = root(w.out_from_axis.squared());
+    w.round = Lanes(cylinder.d) > Lanes(0.0);
+    w.distance = select(w.round, Lanes(cylinder.d) - w.from_axis, into.dot(centre) - Lanes(plane.d));
+    return w;
+}
+
+std::uint64_t walls_that_touch(const Grains& grains, const std::int32_t* i, const std::int32_t* face,
+                               int count, const WallState& walls) {
+    std::uint64_t touching = 0;
+    Triple<Lanes> into;
+    for (int c = 0; c < count; c += kLanes) {
+        const AtWall w = at_wall(numbers(grains.place), walls, i + c, face + c, into);
+        touching |= bits(w.distance < w.radius) << c;
+    }
+    return touching;
+}
+
 template <Wants wants>
 void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
@@ -97,17 +150,9 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
     const Lanes turn(0.5 * in.turns_for);
     for (int c = 0; c < in.count; c += kLanes) {
         const std::int32_t *i = in.first + c, *face = in.second + c;
-        const auto grain = load_records(place, 4, i);
-        const auto plane = load_records(numbers(walls.faces), 8, face);
-        const auto cylinder = load_records(numbers(walls.faces) + 4, 8, face);
-        const Triple<Lanes> centre = triple(grain), into = triple(plane);
-        Triple<Lanes> out_from_axis = centre - triple(cylinder);
-        out_from_axis.z = Lanes(0.0);
-        const Lanes from_axis = root(out_from_axis.squared());
-        const auto round = Lanes(cylinder.d) > Lanes(0.0);
-        const Lanes distance =
-            select(round, Lanes(cylinder.d) - from_axis, into.dot(centre) - Lanes(plane.d));
-        const Lanes radius(grain.d), overlap = radius - distance;
+        Triple<Lanes> into;
+        const auto [out_from_axis, from_axis, distance, radius, round] = at_wall(place, walls, i, face, into);
+        const Lanes overlap = radius - distance;
         store(overlap, out.overlap + c);
         const LanesMask touching = overlap > Lanes(0.0);
         if (none(touching)) continue;
@@ -116,10 +161,14 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
         const Lanes inverse = select(from_axis > Lanes(0.0), Lanes(1.0) / from_axis, Lanes(0.0));
         const Triple<Lanes> k = select(round, out_from_axis * inverse, -into);
         put(k, out.normal, c);
+        if (in.radius) store(Lanes(1.0) / (Lanes(1.0) / radius), out.effective_radius + c);
+        if (wants == Wants::overlap && !in.mass) continue;
+
+        const auto motion_one = load_records(motion, 4, i);
+        if (in.mass) store(Lanes(1.0) / Lanes(motion_one.d), out.effective_mass + c);
         if constexpr (wants == Wants::overlap) continue;
 
-        Triple<Lanes> velocity =
-            triple(load_records(motion, 4, i)) - triple(load_records(numbers(walls.motion), 8, face));
+        Triple<Lanes> velocity = triple(motion_one) - triple(load_records(numbers(walls.motion), 8, face));
         if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
             const Triple<Lanes> rate = triple(load_records(spin, 4, i));
@@ -168,8 +217,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace grainreel {
 
+HWY_EXPORT(pairs_that_touch);
+HWY_EXPORT(walls_that_touch);
 HWY_EXPORT(pairs);
 HWY_EXPORT(walls);
+
+std::uint64_t touching_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
+                             int count, double period) {
+    return HWY_DYNAMIC_DISPATCH(pairs_that_touch)(grains, first, second, count, period);
+}
+
+std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
+                             int count, const WallState& walls) {
+    return HWY_DYNAMIC_DISPATCH(walls_that_touch)(grains, first, second, count, walls);
+}
 
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out) {
     HWY_DYNAMIC_DISPATCH(pairs)(in, period, out);

@@ -23,10 +23,17 @@ struct GeometryInput {
     int count;                           // at most kChunk; rounded up to a multiple of kBlock all can be read
     Wants wants;
     LeverArms arms;
-    double step;            // s
-    double turns_for;       // s, twice as long as the velocities lie behind the positions
-    RollingChunk* rolling;  // set when that is wanted
+    double step;                        // s
+    double turns_for;                   // s, twice as long as the velocities lie behind the positions
+    RollingChunk* rolling;              // set when that is wanted
+    bool mass = false, radius = false;  // effective ones are wanted
 };
+
+// A bit a contact, of at most kChunk of which whole registers can be read: do they overlap?
+std::uint64_t touching_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
+                             int count, double period);
+std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
+                             int count, const WallState& walls);
 
 // period: m, of x; 0 for none.
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out);

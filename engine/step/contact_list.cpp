@@ -1,8 +1,5 @@
 #include "engine/step/contact_list.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace grainreel {
 
 void KeptContacts::append(const KeptContacts& more) {
@@ -11,45 +8,36 @@ void KeptContacts::append(const KeptContacts& more) {
     history.insert(history.end(), more.history.begin(), more.history.end());
 }
 
+void ContactList::renumber(std::int32_t slots, int history_size, std::size_t number_size) {
+    row_of_slot_.assign(slots, HistoryRows::kNone);
+    rows_.shape(history_size, number_size);
+}
+
 void ContactList::begin() {
-    old_slot_.swap(slot_);
-    std::swap(old_history_, history_);
-    old_size_ = size_;
     slot_.clear();
     first.clear();
     second.clear();
 }
 
-void ContactList::fill_up() {
+void ContactList::end() {
     size_ = static_cast<std::int32_t>(first.size());
     while (first.size() % kBlock != 0) add(slot_.back(), first.back(), second.back());
-    kind.resize(first.size());
-    mass_.resize(first.size() / kBlock);
-    radius_.resize(first.size() / kBlock);
+    touched_.assign((size_ + 63) / 64, 0);
+    for (std::int32_t c = 0; c < size_; ++c)
+        touched_[c / 64] |= std::uint64_t{row(c) != HistoryRows::kNone} << c % 64;
     found_ = 0;
-}
-
-void ContactList::end(bool carry_histories, int history_size, std::size_t number_size) {
-    fill_up();
-    history_.reset(first.size(), history_size, number_size);
-    if (!carry_histories) return;
-    std::int32_t old = 0;
-    for (std::int32_t c = 0; c < size_; ++c) {
-        while (old < old_size_ && old_slot_[old] < slot_[c]) ++old;
-        if (old == old_size_ || old_slot_[old] != slot_[c]) continue;
-        for (int k = 0; k < history_size; ++k) history_.set(c, k, old_history_.get(old, k));
-    }
 }
 
 void ContactList::keep(KeptContacts& kept, std::int32_t begin) const {
     for (std::int32_t c = 0; c < size_; ++c) {
-        if (first[c] < begin) continue;
+        const std::int32_t from = row(c);
+        if (first[c] < begin || from == HistoryRows::kNone) continue;
         bool any = false;
-        for (int k = 0; k < history_.numbers() && !any; ++k) any = history_.get(c, k) != 0;
+        for (int k = 0; k < rows_.numbers() && !any; ++k) any = rows_.get(from, k) != 0;
         if (!any) continue;
         kept.first.push_back(first[c]);
         kept.second.push_back(second[c]);
-        for (int k = 0; k < history_.numbers(); ++k) kept.history.push_back(history_.get(c, k));
+        for (int k = 0; k < rows_.numbers(); ++k) kept.history.push_back(rows_.get(from, k));
     }
 }
 
@@ -59,7 +47,9 @@ bool ContactList::restore(std::int32_t i, std::int32_t j, const double* numbers)
     std::int32_t c = found_;
     while (c < size_ && first[c] == i && second[c] != j) ++c;
     if (c == size_ || first[c] != i) return false;
-    for (int k = 0; k < history_.numbers(); ++k) history_.set(c, k, numbers[k]);
+    const std::int32_t to = row_to_write(c);
+    for (int k = 0; k < rows_.numbers(); ++k) rows_.set(to, k, numbers[k]);
+    touched_[c / 64] |= std::uint64_t{1} << c % 64;
     return true;
 }
 

@@ -1,11 +1,12 @@
-// The contacts a thread works on: listed pairs so close that they may touch before the next refresh, with
-// their histories, ready for the laws. The same list serves grains near walls.
+// Listed pairs of one law so close that they may touch before the next refresh, and the histories of those
+// that do. The same list serves grains near walls.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
-#include "engine/step/histories.hpp"
+#include "engine/step/history_rows.hpp"
 
 namespace grainreel {
 
@@ -23,32 +24,44 @@ struct KeptContacts {
     void append(const KeptContacts& more);
 };
 
+// A slot is a contact's place among the thread's listed pairs, or its listed grains at walls. Histories
+// belong to slots, so that a refresh leaves them where they are.
 class ContactList {
   public:
-    // All of equal length, a multiple of kBlock: the last contact is repeated to fill it. By rising first.
+    // By rising slot. Filled up to a multiple of kBlock, so that whole registers can be read.
     std::vector<std::int32_t> first, second;  // of a wall contact: grain, face
-    std::vector<std::int32_t> kind;           // row of the law's parameters
+    std::vector<std::int32_t> kind;           // row of the law's parameters; empty where there is only one
 
-    std::int32_t size() const { return size_; }                                      // without the fill
-    std::int32_t filled() const { return static_cast<std::int32_t>(first.size()); }  // with it
+    std::int32_t size() const { return size_; }  // without the fill
 
-    // Of the block of contacts that starts with `contact`, laid out as LawKernel and LawInput have it.
-    void* history_of_block(std::int32_t contact) { return history_.of_block(contact); }
-    const void* history_of_block(std::int32_t contact) const { return history_.of_block(contact); }
-    const double* mass_of_block(std::int32_t contact) const { return mass_[contact / kBlock].value; }
-    const double* radius_of_block(std::int32_t contact) const { return radius_[contact / kBlock].value; }
-    void set_effective(std::int32_t contact, double mass, double radius) {
-        mass_[contact / kBlock].value[contact % kBlock] = mass;
-        radius_[contact / kBlock].value[contact % kBlock] = radius;
-    }
+    // New neighbour lists with so many slots: no contact has a history.
+    void renumber(std::int32_t slots, int history_size, std::size_t number_size);
 
-    // A new list: begin(), then add() by rising slot, then end(). A slot is the contact's place in the
-    // neighbour list; where that is the same as at the last refresh, histories follow their slot.
+    // A new list: begin(), then add() or leave() for each slot, rising, then end().
     void begin();
     void add(std::int32_t slot, std::int32_t i, std::int32_t j) {
         slot_.push_back(slot), first.push_back(i), second.push_back(j);
     }
-    void end(bool carry_histories, int history_size, std::size_t number_size);
+    void leave(std::int32_t slot) {
+        if (row_of_slot_[slot] != HistoryRows::kNone) give_back(slot);
+    }
+    void end();
+
+    // Of the 64 contacts from c on, a multiple of 64: which touch now; the others lose their histories.
+    void note_touching(std::int32_t c, std::uint64_t touching) {
+        for (std::uint64_t ended = touched_[c / 64] & ~touching; ended != 0; ended &= ended - 1)
+            leave(slot_[c + std::countr_zero(ended)]);
+        touched_[c / 64] = touching;
+    }
+    // The contact's row of history; one of zeros where it has none.
+    std::int32_t row(std::int32_t c) const { return row_of_slot_[slot_[c]]; }
+    std::int32_t row_to_write(std::int32_t c) {
+        std::int32_t& row = row_of_slot_[slot_[c]];
+        if (row == HistoryRows::kNone) row = rows_.take();
+        return row;
+    }
+    HistoryRows& rows() { return rows_; }
+    const HistoryRows& rows() const { return rows_; }
 
     // Appends the contacts that have a history and whose first grain is no lower than `begin`.
     void keep(KeptContacts& kept, std::int32_t begin) const;
@@ -56,13 +69,15 @@ class ContactList {
     bool restore(std::int32_t i, std::int32_t j, const double* numbers);
 
   private:
-    void fill_up();
+    void give_back(std::int32_t slot) {
+        rows_.give_back(row_of_slot_[slot]);
+        row_of_slot_[slot] = HistoryRows::kNone;
+    }
 
     std::int32_t size_ = 0;
-    std::vector<std::int32_t> slot_, old_slot_;
-    Histories history_, old_history_;
-    std::vector<Block> mass_, radius_;  // kg, m: effective ones
-    std::int32_t old_size_ = 0;
+    std::vector<std::int32_t> slot_, row_of_slot_;
+    std::vector<std::uint64_t> touched_;  // a bit a contact: it has a history
+    HistoryRows rows_;
     std::int32_t found_ = 0;  // where restore() looks first: contacts come back in nearly their old order
 };
 

@@ -1,7 +1,7 @@
-// The contact pass of one thread: all contacts of its own grains, chunk by chunk through geometry and law,
-// into the loads of its grains. A contact between grains of two threads is computed by both, each for its own
-// grain: cheaper than handing forces over, and every grain sums its contacts in one order, whatever the
-// threads.
+// The contact pass of one thread: of all near pairs of its own grains those that touch, packed into chunks,
+// through geometry and law into the loads of its grains. A contact between grains of two threads is computed
+// by both, each for its own grain: cheaper than handing forces over, and every grain sums its contacts in one
+// order, whatever the threads.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,11 @@ namespace grainreel {
 class ContactPass {
   public:
     // Sets the thread's own grains [begin, end) and finds its pairs in the new neighbour lists.
-    void own(const NeighbourLists& lists, std::int32_t begin, std::int32_t end);
+    void own(const ContactRules& rules, const NeighbourLists& lists, std::int32_t begin, std::int32_t end);
 
-    // Takes from the neighbour lists what may touch within `skin` (m). Histories are carried when the
-    // neighbour lists are those of the last refresh.
+    // Takes from the neighbour lists, those of own(), what may touch within `skin` (m).
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
-                 const std::vector<Face>& faces, const Pose& pose, double skin, bool carry_histories);
+                 const std::vector<Face>& faces, const Pose& pose, double skin);
 
     // The contacts under own grains that have a history, by group.
     void keep(std::vector<KeptContacts>& kept) const;
@@ -52,18 +51,38 @@ class ContactPass {
                  const Seen& seen) const;
 
   private:
-    template <class Law>
-    void each_chunk(const ContactRules& rules, std::size_t group, const Grains& grains,
-                    const WallState& state, const Times& times, const Law& law) const;
-    void add_pairs_within(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
-                          double skin);
+    // Contacts that touch, on their way through geometry and law.
+    struct Chunk {
+        int count = 0;
+        alignas(64) std::int32_t first[kChunk], second[kChunk], kind[kChunk], row[kChunk];
+
+        void fill_up();
+        int filled() const { return (count + kBlock - 1) / kBlock * kBlock; }
+    };
+
+    void list_pairs_within(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
+                           double skin);
+    void list_walls_within(const ContactRules& rules, const Grains& grains,
+                           const std::vector<WallNeighbour>& list, const std::vector<Face>& faces,
+                           const Pose& pose, double skin);
+    std::uint64_t which_touch(const ContactRules& rules, std::size_t group, const Grains& grains,
+                              const WallState& state, std::int32_t c) const;
+    template <class TouchingFrom, class Row, class Work>
+    void pack(const ContactList& list, const TouchingFrom& touching_from, const Row& row,
+              const Work& work) const;
+    LawInput prepare(const ContactRules& rules, std::size_t group, const Grains& grains,
+                     const WallState& state, const Times& times) const;
+    void compute_chunk(const ContactRules& rules, std::size_t group, Grains& grains, const WallState& state,
+                       const Times& times, CostClock& clock);
 
     std::vector<ContactList> lists_;    // one a group
     std::int32_t begin_ = 0, end_ = 0;  // the own grains
     struct Pair {
-        std::int32_t slot, first;
+        std::int32_t first, second;
     };
     std::vector<Pair> incoming_;  // listed pairs of an earlier thread's grain and an own one
+    mutable Chunk chunk_;
+    mutable Histories history_;  // of the chunk
     mutable TouchChunk touch_;
     mutable ForceChunk force_;
     mutable RollingChunk rolling_;

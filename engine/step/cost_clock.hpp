@@ -1,4 +1,5 @@
-// Where a thread's time goes. Off unless asked for; then a look at the processor's counter a chunk of contacts.
+// Where a thread's time goes. Off unless asked for; then a look at the processor's counter a chunk of
+// contacts.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Histories of contacts as the kernels want them: in blocks of kBlock contacts, within a block number by
-// number. The numbers are doubles, or floats with mixed precision.
+// Histories of a chunk of contacts as the kernels want them: in blocks of kBlock contacts, within a block
+// number by number. The numbers are doubles, or floats with mixed precision.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,12 @@ namespace grainreel {
 
 class Histories {
   public:
-    // For so many contacts (a multiple of kBlock), `numbers` each, all zero.
-    void reset(std::size_t contacts, int numbers, std::size_t number_size) {
+    // For kChunk contacts of so many numbers. What stays of another shape is of no use.
+    void shape(int numbers, std::size_t number_size) {
         numbers_ = numbers;
         size_ = number_size;
-        lines_.assign((contacts * numbers * size_ + sizeof(Line) - 1) / sizeof(Line), Line{});
+        const std::size_t lines = (kChunk * numbers_ * size_ + sizeof(Line) - 1) / sizeof(Line);
+        if (lines > lines_.size()) lines_.resize(lines);
     }
     int numbers() const { return numbers_; }  // of a contact
 

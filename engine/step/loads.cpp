@@ -1,7 +1,5 @@
 #include "engine/step/loads.hpp"
 
-#include <bit>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/step/loads.cpp"
 #include "engine/vector/targets.hpp"
@@ -27,7 +25,6 @@ HWY_INLINE void fill(const ChunkOfContacts& chunk, LoadChunk& out) {
     constexpr std::size_t second = sizeof(Load) / sizeof(double);
     double* loads = reinterpret_cast<double*>(out.contact);
     for (int c = 0; c < chunk.count; c += kLanes) {
-        if (!chunk.touch->any_touching(c, kLanes)) continue;
         double* to = loads + stride * c;
         const Triple<Lanes> k = take(chunk.touch->normal, c);
         Triple<Lanes> whole = k * load(chunk.force->normal + c);
@@ -45,8 +42,7 @@ HWY_INLINE void fill(const ChunkOfContacts& chunk, LoadChunk& out) {
 // What resists rolling comes on top of the torques.
 void add_rolling(const ChunkOfContacts& chunk, LoadChunk& out) {
     if (!chunk.rolling) return;
-    for (std::uint64_t left = chunk.touch->touching; left != 0; left &= left - 1) {
-        const int c = std::countr_zero(left);
+    for (int c = 0; c < chunk.count; ++c) {
         const auto& torque = chunk.rolling->torque;
         const Vec3 on_second(torque[0][c], torque[1][c], torque[2][c]);
         out.contact[c].on_first.torque -= on_second;
@@ -73,20 +69,12 @@ void pairs_of(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t beg
               Grains& grains) {
     fill<rubs>(chunk, scratch);
     if (rubs) add_rolling(chunk, scratch);
-    constexpr int n = kNumbers<rubs>;
-    for (std::uint64_t left = chunk.touch->touching; left != 0;) {
-        int c = std::countr_zero(left);
-        const std::int32_t i = chunk.first[c];
-        Load& first = grains.load[i < begin ? begin : i];
-        Record<n> sum = record_at<n>(numbers(first));
-        do {
-            sum = sum + record_at<n>(numbers(scratch.contact[c].on_first));
-            const std::int32_t j = chunk.second[c];  // above i, so never the one being summed
-            if (j >= begin && j < end) add_one<rubs>(scratch.contact[c].on_second, grains.load[j]);
-            left &= left - 1;
-            c = std::countr_zero(left);
-        } while (left != 0 && chunk.first[c] == i);
-        if (i >= begin) put(sum, numbers(first));
+    const auto own = [&](std::int32_t i) -> Load& {
+        return i >= begin && i < end ? grains.load[i] : scratch.of_others;
+    };
+    for (int c = 0; c < chunk.count; ++c) {
+        add_one<rubs>(scratch.contact[c].on_first, own(chunk.first[c]));
+        add_one<rubs>(scratch.contact[c].on_second, own(chunk.second[c]));
     }
 }
 
@@ -100,8 +88,7 @@ template <bool rubs>
 void walls_of(const ChunkOfContacts& chunk, LoadChunk& scratch, Grains& grains) {
     fill<rubs>(chunk, scratch);
     if (rubs) add_rolling(chunk, scratch);
-    for (std::uint64_t left = chunk.touch->touching; left != 0; left &= left - 1) {
-        const int c = std::countr_zero(left);
+    for (int c = 0; c < chunk.count; ++c) {
         add_one<rubs>(scratch.contact[c].on_first, grains.load[chunk.first[c]]);
     }
 }
@@ -127,8 +114,7 @@ void add_pairs(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t be
 void add_walls(const ChunkOfContacts& chunk, LoadChunk& scratch, const WallState& state, double step,
                Grains& grains) {
     HWY_DYNAMIC_DISPATCH(walls)(chunk, scratch, grains);
-    for (std::uint64_t left = chunk.touch->touching; left != 0; left &= left - 1) {
-        const int c = std::countr_zero(left);
+    for (int c = 0; c < chunk.count; ++c) {
         const Vec3& velocity = state.motion[chunk.second[c]].at_end;
         grains.wall_work[chunk.first[c]] += scratch.contact[c].on_first.force.dot(velocity) * step;
     }

@@ -15,9 +15,10 @@ struct LoadChunk {
         Load on_first, on_second;
     };
     Contact contact[kChunk];
+    Load of_others;  // what goes to grains of other threads, which nobody reads
 };
 
-// A chunk's contacts, in order of their first grain.
+// A chunk's contacts; all of them touch.
 struct ChunkOfContacts {
     const std::int32_t *first, *second;  // of a wall contact: grain, face
     int count;

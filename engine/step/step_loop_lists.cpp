@@ -6,9 +6,8 @@ namespace grainreel {
 // The thread's own contacts, out of the neighbour lists.
 void StepLoop::refresh(int member, bool same_lists) {
     Member& mine = members_[member];
-    if (!same_lists) mine.contacts.own(lists_, share_[member], share_[member + 1]);
-    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin,
-                          same_lists);
+    if (!same_lists) mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
+    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
 }
 
 // New order, new neighbour lists, new contacts, histories carried over: called by all members.

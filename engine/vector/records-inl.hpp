@@ -25,10 +25,13 @@ HWY_INLINE Four<Doubles> load_records(const double* base, std::size_t stride, co
     return {hn::Load(d, at), hn::Load(d, at + 1), hn::Load(d, at + 2), hn::Load(d, at + 3)};
 }
 
-HWY_INLINE void store_records(const Four<Doubles>& f, double* base, std::size_t) {
-    const Doubles d;
-    hn::Store(f.a, d, base), hn::Store(f.b, d, base + 1);
-    hn::Store(f.c, d, base + 2), hn::Store(f.d, d, base + 3);
+template <class D>
+HWY_INLINE void store_records_at(const Four<D>& f, double* base, std::size_t stride,
+                                 const std::int32_t* index) {
+    const D d;
+    double* at = base + stride * static_cast<std::size_t>(*index);
+    hn::Store(f.a, d, at), hn::Store(f.b, d, at + 1);
+    hn::Store(f.c, d, at + 2), hn::Store(f.d, d, at + 3);
 }
 
 #else
@@ -58,14 +61,10 @@ HWY_INLINE void store_halves(D, hn::Vec<D> row, double* low, double* high) {
     hn::Store(hn::UpperHalf(half, row), half, high);
 }
 
-// Records index[0] .. index[lanes - 1] of `stride` doubles each, their first four numbers. base and stride
-// aligned to 32 bytes.
+// Four numbers each from as many addresses as there are lanes, aligned to 32 bytes.
 template <class D = Doubles>
-HWY_INLINE Four<D> load_records(const double* base, std::size_t stride, const std::int32_t* index) {
+HWY_INLINE Four<D> load_records_at(const double* const* at) {
     const D d;
-    const double* at[hn::MaxLanes(D())];
-    for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k)
-        at[k] = base + stride * static_cast<std::size_t>(index[k]);
     if constexpr (hn::MaxLanes(D()) == 8) {
         return transposed(d, Four<D>{both_halves(d, at[0], at[4]), both_halves(d, at[1], at[5]),
                                      both_halves(d, at[2], at[6]), both_halves(d, at[3], at[7])});
@@ -80,29 +79,46 @@ HWY_INLINE Four<D> load_records(const double* base, std::size_t stride, const st
     }
 }
 
-// The other way, to records that lie one behind the other.
+// Records index[0] .. index[lanes - 1] of `stride` doubles each, their first four numbers.
 template <class D = Doubles>
-HWY_INLINE void store_records(const Four<D>& f, double* base, std::size_t stride) {
+HWY_INLINE Four<D> load_records(const double* base, std::size_t stride, const std::int32_t* index) {
+    const double* at[hn::MaxLanes(D())];
+    for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k)
+        at[k] = base + stride * static_cast<std::size_t>(index[k]);
+    return load_records_at<D>(at);
+}
+
+// The other way.
+template <class D>
+HWY_INLINE void store_records_at(const Four<D>& f, double* base, std::size_t stride,
+                                 const std::int32_t* index) {
     const D d;
+    double* at[hn::MaxLanes(D())];
+    for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k)
+        at[k] = base + stride * static_cast<std::size_t>(index[k]);
     if constexpr (hn::MaxLanes(D()) == 8) {
         const Four<D> r = transposed(d, f);
-        store_halves(d, r.a, base, base + 4 * stride);
-        store_halves(d, r.b, base + stride, base + 5 * stride);
-        store_halves(d, r.c, base + 2 * stride, base + 6 * stride);
-        store_halves(d, r.d, base + 3 * stride, base + 7 * stride);
+        store_halves(d, r.a, at[0], at[4]), store_halves(d, r.b, at[1], at[5]);
+        store_halves(d, r.c, at[2], at[6]), store_halves(d, r.d, at[3], at[7]);
     } else if constexpr (hn::MaxLanes(D()) == 4) {
         const Four<D> r = transposed(d, f);
-        hn::Store(r.a, d, base), hn::Store(r.b, d, base + stride);
-        hn::Store(r.c, d, base + 2 * stride), hn::Store(r.d, d, base + 3 * stride);
+        hn::Store(r.a, d, at[0]), hn::Store(r.b, d, at[1]);
+        hn::Store(r.c, d, at[2]), hn::Store(r.d, d, at[3]);
     } else {
-        hn::Store(hn::InterleaveLower(d, f.a, f.b), d, base);
-        hn::Store(hn::InterleaveLower(d, f.c, f.d), d, base + 2);
-        hn::Store(hn::InterleaveUpper(d, f.a, f.b), d, base + stride);
-        hn::Store(hn::InterleaveUpper(d, f.c, f.d), d, base + stride + 2);
+        hn::Store(hn::InterleaveLower(d, f.a, f.b), d, at[0]);
+        hn::Store(hn::InterleaveLower(d, f.c, f.d), d, at[0] + 2);
+        hn::Store(hn::InterleaveUpper(d, f.a, f.b), d, at[1]);
+        hn::Store(hn::InterleaveUpper(d, f.c, f.d), d, at[1] + 2);
     }
 }
 
 #endif
+
+// To records that lie one behind the other.
+HWY_INLINE void store_records(const Four<Doubles>& f, double* base, std::size_t stride) {
+    constexpr std::int32_t in_order[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    store_records_at(f, base, stride, in_order);
+}
 
 }  // namespace grainreel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

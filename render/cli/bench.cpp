@@ -16,7 +16,7 @@ namespace {
 
 constexpr int signal_base = 128;
 constexpr const char* stage_names[kCosts] = {"neighbours", "contacts",  "walls",
-                                              "gather",     "integrate", "other"};
+                                             "gather",     "integrate", "other"};
 const char* precision_name(Precision precision) {
     return precision == Precision::mixed ? "mixed" : "double";
 }
@@ -48,7 +48,8 @@ std::string as_json(const BenchReport& report) {
 
 std::string as_table(const BenchReport& report) {
     std::string text = fmt::format(
-        "{}: {} grains, {} thread{}, {}, vectors {}, {:.0f} bytes a grain, state {:016x}\n\n{:<10}{:>8}{:>12}{:>8}",
+        "{}: {} grains, {} thread{}, {}, vectors {}, {:.0f} bytes a grain, state "
+        "{:016x}\n\n{:<10}{:>8}{:>12}{:>8}",
         report.name, report.particles, report.threads, report.threads == 1 ? "" : "s",
         precision_name(report.precision), vector_instructions(), report.bytes_per_particle, report.state_hash,
         "phase", "steps", "M steps/s", "spread");
@@ -62,15 +63,16 @@ std::string as_table(const BenchReport& report) {
         text += fmt::format("{:>10.2f}{:>10.2f}\n", static_cast<double>(phase.listed) / n,
                             static_cast<double>(phase.touching) / n);
     }
-    return text + "\nM steps/s: million grain-steps a second; ns: of a thread, a step and grain; pairs a grain";
+    return text +
+           "\nM steps/s: million grain-steps a second; ns: of a thread, a step and grain; pairs a grain";
 }
 
 }  // namespace
 
 int run_bench(const Options& options, Reporter& reporter) {
     const auto& cases = bench_cases();
-    const auto found = std::find_if(cases.begin(), cases.end(),
-                                    [&](const BenchCase& c) { return c.name == options.bench; });
+    const auto found =
+        std::find_if(cases.begin(), cases.end(), [&](const BenchCase& c) { return c.name == options.bench; });
     GRAINREEL_CHECK(found != cases.end());
     const auto begin = std::chrono::steady_clock::now();
     const BenchOutcome outcome =

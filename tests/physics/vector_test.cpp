@@ -131,7 +131,7 @@ void compare_at(NormalForce normal, TangentialLaw tangential, const std::vector<
     Crowd crowd(kinds.size());
     ForceChunk force;
     Histories history;
-    history.reset(kChunk, kernel.history_size, kernel.number_size);
+    history.shape(kernel.history_size, kernel.number_size);
     std::vector<typename Law::template History<Number>> expected(kChunk);
     const double step = 1e-6;
     for (int n = 0; n < 200; ++n) {
