@@ -16,6 +16,7 @@ struct alignas(64) TouchChunk {
     double velocity[3][kChunk] = {};                         // m/s, of i's surface against j's
     double twist[kChunk] = {};                               // rad
     double first_arm[kChunk] = {}, second_arm[kChunk] = {};  // m, from the centres to where T acts
+    double inverse_distance[kChunk] = {};                    // 1/m, of the centres of a pair
     double effective_mass[kChunk] = {};                      // kg
     double effective_radius[kChunk] = {};                    // m
     std::uint64_t touching = 0;  // a bit a contact: overlap > 0. Last: it would shift the arrays

@@ -51,60 +51,74 @@ std::uint64_t pairs_that_touch(const Grains& grains, const std::int32_t* i, cons
     return touching;
 }
 
-template <Wants wants>
-void pairs_chunk(const GeometryInput& in, double period, TouchChunk& out) {
+HWY_INLINE Triple<Lanes> triple_at(const double (*from)[kChunk], int c) {
+    return {load(from[0] + c), load(from[1] + c), load(from[2] + c)};
+}
+
+// A chunk goes through in sweeps, as many as its law wants: places, velocities, spins. (One sweep for all was
+// no faster.)
+void sweep_places(const GeometryInput& in, double period, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
-    const double* motion = numbers(in.grains->motion);
-    const double* spin = numbers(in.grains->spin);
     out.touching = 0;
-    const Lanes turn(0.5 * in.turns_for);
     for (int c = 0; c < in.count; c += kLanes) {
-        const std::int32_t *i = in.first + c, *j = in.second + c;
-        const auto one = load_records(place, 4, i), two = load_records(place, 4, j);
+        const auto one = load_records(place, 4, in.first + c), two = load_records(place, 4, in.second + c);
         Triple<Lanes> apart = triple(two) - triple(one);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
-        const Lanes radius_one(one.d), radius_two(two.d);
-        const Lanes distance = root(apart.squared()), overlap = radius_one + radius_two - distance;
+        const Lanes radius_one(one.d), radius_two(two.d), squared = apart.squared();
+        const Lanes distance = root(squared), overlap = radius_one + radius_two - distance;
+        const Lanes inverse_distance = distance * (Lanes(1.0) / squared);  // need not wait for the root
         store(overlap, out.overlap + c);
-        const LanesMask touching = overlap > Lanes(0.0);
-        if (none(touching)) continue;
-        out.touching |= bits(touching) << c;
-
-        const Lanes inverse_distance = Lanes(1.0) / distance;
-        const Triple<Lanes> k = apart * inverse_distance;
-        put(k, out.normal, c);
+        out.touching |= bits(overlap > Lanes(0.0)) << c;
+        put(apart * inverse_distance, out.normal, c);
         if (in.radius)
             store(Lanes(1.0) / (Lanes(1.0) / radius_one + Lanes(1.0) / radius_two), out.effective_radius + c);
-        if (wants == Wants::overlap && !in.mass) continue;
-
-        const auto motion_one = load_records(motion, 4, i), motion_two = load_records(motion, 4, j);
-        if (in.mass) store(Lanes(1.0) / (Lanes(motion_one.d) + Lanes(motion_two.d)), out.effective_mass + c);
-        if constexpr (wants == Wants::overlap) continue;
-
-        Triple<Lanes> velocity = triple(motion_one) - triple(motion_two);
-        if constexpr (wants >= Wants::spin) {
-            // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which
-            // is what keeps angular momentum. The original program took the radii.
-            Lanes first_arm = radius_one, second_arm = radius_two;
-            if (in.arms == LeverArms::contact_plane) {
-                first_arm = Lanes(0.5) * (distance + (radius_one - radius_two) * (radius_one + radius_two) *
-                                                         inverse_distance);
-                second_arm = distance - first_arm;
-            }
-            const Triple<Lanes> spin_one = triple(load_records(spin, 4, i));
-            const Triple<Lanes> spin_two = triple(load_records(spin, 4, j));
-            const Triple<Lanes> change = (velocity - k * k.dot(velocity)) * (turn * inverse_distance);
-            velocity = of_surfaces(velocity, spin_one * first_arm + spin_two * second_arm, k, change);
-            store(first_arm, out.first_arm + c);
-            store(second_arm, out.second_arm + c);
-            store(Lanes(0.5 * in.step) * (spin_one + spin_two).dot(k), out.twist + c);
-            if constexpr (wants == Wants::rolling) {
-                const Triple<Lanes> rolling = spin_one - spin_two;
-                put(rolling - k * k.dot(rolling), in.rolling->rate, c);
-            }
+        if (in.wants < Wants::spin) continue;
+        // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is
+        // what keeps angular momentum. The original program took the radii.
+        Lanes first_arm = radius_one, second_arm = radius_two;
+        if (in.arms == LeverArms::contact_plane) {
+            first_arm = Lanes(0.5) *
+                        (distance + (radius_one - radius_two) * (radius_one + radius_two) * inverse_distance);
+            second_arm = distance - first_arm;
         }
-        put(velocity, out.velocity, c);
+        store(first_arm, out.first_arm + c);
+        store(second_arm, out.second_arm + c);
+        store(inverse_distance, out.inverse_distance + c);
     }
+}
+
+void sweep_velocities(const GeometryInput& in, TouchChunk& out) {
+    const double* motion = numbers(in.grains->motion);
+    for (int c = 0; c < in.count; c += kLanes) {
+        const auto one = load_records(motion, 4, in.first + c), two = load_records(motion, 4, in.second + c);
+        put(triple(one) - triple(two), out.velocity, c);
+        if (in.mass) store(Lanes(1.0) / (Lanes(one.d) + Lanes(two.d)), out.effective_mass + c);
+    }
+}
+
+void sweep_spins(const GeometryInput& in, TouchChunk& out) {
+    const double* spin = numbers(in.grains->spin);
+    const Lanes turn(0.5 * in.turns_for), half_step(0.5 * in.step);
+    for (int c = 0; c < in.count; c += kLanes) {
+        const Triple<Lanes> one = triple(load_records(spin, 4, in.first + c));
+        const Triple<Lanes> two = triple(load_records(spin, 4, in.second + c));
+        const Triple<Lanes> k = triple_at(out.normal, c), velocity = triple_at(out.velocity, c);
+        const Lanes turning = turn * load(out.inverse_distance + c);
+        const Triple<Lanes> change = (velocity - k * k.dot(velocity)) * turning;
+        const Triple<Lanes> spins = one * load(out.first_arm + c) + two * load(out.second_arm + c);
+        put(of_surfaces(velocity, spins, k, change), out.velocity, c);
+        store(half_step * (one + two).dot(k), out.twist + c);
+        if (in.wants == Wants::rolling) {
+            const Triple<Lanes> rolling = one - two;
+            put(rolling - k * k.dot(rolling), in.rolling->rate, c);
+        }
+    }
+}
+
+void pairs(const GeometryInput& in, double period, TouchChunk& out) {
+    sweep_places(in, period, out);
+    if (in.wants >= Wants::velocity || in.mass) sweep_velocities(in, out);
+    if (in.wants >= Wants::spin) sweep_spins(in, out);
 }
 
 // A grain and a wall, plane or round.
@@ -182,19 +196,6 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
             if constexpr (wants == Wants::rolling) put(rate - k * k.dot(rate), in.rolling->rate, c);
         }
         put(velocity, out.velocity, c);
-    }
-}
-
-void pairs(const GeometryInput& in, double period, TouchChunk& out) {
-    switch (in.wants) {
-        case Wants::overlap:
-            return pairs_chunk<Wants::overlap>(in, period, out);
-        case Wants::velocity:
-            return pairs_chunk<Wants::velocity>(in, period, out);
-        case Wants::spin:
-            return pairs_chunk<Wants::spin>(in, period, out);
-        case Wants::rolling:
-            return pairs_chunk<Wants::rolling>(in, period, out);
     }
 }
 

@@ -13,6 +13,10 @@ void ContactList::renumber(std::int32_t slots, int history_size, std::size_t num
     rows_.shape(history_size, number_size);
 }
 
+std::int32_t ContactList::take_row(std::int32_t slot) {
+    return row_of_slot_[slot] = rows_.take();
+}
+
 void ContactList::begin() {
     slot_.clear();
     first.clear();

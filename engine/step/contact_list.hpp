@@ -56,9 +56,8 @@ class ContactList {
     // The contact's row of history; one of zeros where it has none.
     std::int32_t row(std::int32_t c) const { return row_of_slot_[slot_[c]]; }
     std::int32_t row_to_write(std::int32_t c) {
-        std::int32_t& row = row_of_slot_[slot_[c]];
-        if (row == HistoryRows::kNone) row = rows_.take();
-        return row;
+        const std::int32_t slot = slot_[c];
+        return row_of_slot_[slot] != HistoryRows::kNone ? row_of_slot_[slot] : take_row(slot);
     }
     HistoryRows& rows() { return rows_; }
     const HistoryRows& rows() const { return rows_; }
@@ -69,6 +68,7 @@ class ContactList {
     bool restore(std::int32_t i, std::int32_t j, const double* numbers);
 
   private:
+    std::int32_t take_row(std::int32_t slot);
     void give_back(std::int32_t slot) {
         rows_.give_back(row_of_slot_[slot]);
         row_of_slot_[slot] = HistoryRows::kNone;

@@ -222,12 +222,9 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
             list.note_touching(c, touching);
             return touching;
         };
-        const auto row = [&](std::int32_t c) {
-            const std::int32_t taken = list.row_to_write(c);
-            list.rows().prefetch(taken);
-            return taken;
-        };
-        pack(list, touching_from, row, [&] { compute_chunk(rules, g, grains, state, times, clock); });
+        pack(
+            list, touching_from, [&](std::int32_t c) { return list.row_to_write(c); },
+            [&] { compute_chunk(rules, g, grains, state, times, clock); });
     }
 }
 

@@ -142,9 +142,11 @@ void HistoryRows::bring(const std::int32_t* row, int count, Histories& chunk) co
     const void* rows = lines_.data();
     void* to = chunk.of_block(0);
     if (size_ == sizeof(float)) {
-        HWY_DYNAMIC_DISPATCH(bring_floats)(static_cast<const float*>(rows), stride_, row, count, static_cast<float*>(to));
+        HWY_DYNAMIC_DISPATCH(bring_floats)
+        (static_cast<const float*>(rows), stride_, row, count, static_cast<float*>(to));
     } else {
-        HWY_DYNAMIC_DISPATCH(bring_all_doubles)(static_cast<const double*>(rows), stride_, row, count, static_cast<double*>(to));
+        HWY_DYNAMIC_DISPATCH(bring_all_doubles)
+        (static_cast<const double*>(rows), stride_, row, count, static_cast<double*>(to));
     }
 }
 
@@ -152,9 +154,11 @@ void HistoryRows::put_back(const std::int32_t* row, int count, const Histories& 
     void* rows = lines_.data();
     const void* from = chunk.of_block(0);
     if (size_ == sizeof(float)) {
-        HWY_DYNAMIC_DISPATCH(put_floats)(static_cast<float*>(rows), stride_, row, count, static_cast<const float*>(from));
+        HWY_DYNAMIC_DISPATCH(put_floats)
+        (static_cast<float*>(rows), stride_, row, count, static_cast<const float*>(from));
     } else {
-        HWY_DYNAMIC_DISPATCH(put_all_doubles)(static_cast<double*>(rows), stride_, row, count, static_cast<const double*>(from));
+        HWY_DYNAMIC_DISPATCH(put_all_doubles)
+        (static_cast<double*>(rows), stride_, row, count, static_cast<const double*>(from));
     }
 }
 

@@ -16,8 +16,8 @@ namespace grainreel {
 class HistoryRows {
   public:
     static constexpr int kMostNumbers = 24;
-    static constexpr std::int32_t kNone = 0;      // a row of zeros, for contacts without a history
-    static constexpr std::int32_t kScratch = 1;   // one that nobody reads, for the fill of a chunk
+    static constexpr std::int32_t kNone = 0;     // a row of zeros, for contacts without a history
+    static constexpr std::int32_t kScratch = 1;  // one that nobody reads, for the fill of a chunk
 
     // Rows of so many numbers, at most kMostNumbers; all are free.
     void shape(int numbers, std::size_t number_size) {
@@ -47,12 +47,6 @@ class HistoryRows {
         free_.push_back(row);
     }
 
-    // Soon to be brought.
-    void prefetch(std::int32_t row) const {
-        __builtin_prefetch(at(row));
-        __builtin_prefetch(at(row + 1) - 1);
-    }
-
     double get(std::int32_t row, int k) const {
         return size_ == sizeof(float) ? number<float>(row, k) : number<double>(row, k);
     }
@@ -65,19 +59,23 @@ class HistoryRows {
         }
     }
 
-    // Rows row[0] .. row[count - 1], count a multiple of kBlock, to and from a chunk of at least as many numbers
-    // a contact as a row has with its fill (chunk_numbers()).
+    // Rows row[0] .. row[count - 1], count a multiple of kBlock, to and from a chunk of at least as many
+    // numbers a contact as a row has with its fill (chunk_numbers()).
     void bring(const std::int32_t* row, int count, Histories& chunk) const;
     void put_back(const std::int32_t* row, int count, const Histories& chunk);
     int chunk_numbers() const { return static_cast<int>(stride_); }
 
-    std::size_t bytes() const { return lines_.capacity() * sizeof(Line) + free_.capacity() * sizeof(free_[0]); }
+    std::size_t bytes() const {
+        return lines_.capacity() * sizeof(Line) + free_.capacity() * sizeof(free_[0]);
+    }
 
   private:
     struct alignas(64) Line {
         std::byte bytes[64];
     };
-    std::byte* at(std::int32_t row) { return reinterpret_cast<std::byte*>(lines_.data()) + row * stride_ * size_; }
+    std::byte* at(std::int32_t row) {
+        return reinterpret_cast<std::byte*>(lines_.data()) + row * stride_ * size_;
+    }
     const std::byte* at(std::int32_t row) const {
         return reinterpret_cast<const std::byte*>(lines_.data()) + row * stride_ * size_;
     }
