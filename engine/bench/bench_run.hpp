@@ -16,6 +16,7 @@ struct BenchRequest {
     int threads = 0;    // 0: as many as there are processors
     int particles = 0;  // 0: as many as the case has
     int repeats = 1;
+    bool quick = false;  // a tenth of all steps
     Precision precision = Precision::full;
 };
 

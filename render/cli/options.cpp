@@ -163,6 +163,7 @@ void add_bench(CLI::App& app, Options& options) {
     verb.add_option("--repeat", options.bench_request.repeats, "Run it all so often and give medians [1]")
         ->check(CLI::Range(1, 1000))
         ->type_name("K");
+    verb.add_flag("--quick", options.bench_request.quick, "A tenth of the steps");
     verb.add_flag("--json", options.json, "One JSON object in place of a table");
     add_reporting(verb, options);
     verb.footer("Results go to stdout, progress to stderr.");
