@@ -29,8 +29,8 @@ nlohmann::json json_of(std::vector<std::string> words) {
 
 TEST(Bench, CostsAddUpToTheStep) {
     for (const int threads : {1, 2}) {
-        const auto r =
-            json_of({"gas", "--particles", "500", "--threads", std::to_string(threads), "--repeat", "2", "--quick"});
+        const auto r = json_of(
+            {"gas", "--particles", "500", "--threads", std::to_string(threads), "--repeat", "2", "--quick"});
         EXPECT_EQ(r["case"], "gas");
         EXPECT_EQ(r["particles"], 500);
         EXPECT_EQ(r["threads"], threads);
@@ -59,7 +59,8 @@ TEST(Bench, CostsAddUpToTheStep) {
 TEST(Bench, HashTellsRunsApartAndThreadsNot) {
     const auto one = json_of({"bed10k", "--particles", "100", "--threads", "1", "--quick"});
     const auto two = json_of({"bed10k", "--particles", "100", "--threads", "2", "--quick"});
-    const auto mixed = json_of({"bed10k", "--particles", "100", "--threads", "1", "--precision", "mixed", "--quick"});
+    const auto mixed =
+        json_of({"bed10k", "--particles", "100", "--threads", "1", "--precision", "mixed", "--quick"});
     EXPECT_EQ(one["state_hash"], two["state_hash"]);
     EXPECT_NE(one["state_hash"], mixed["state_hash"]);
     EXPECT_EQ(one["phases"].size(), 3u);
