@@ -37,7 +37,7 @@ Change change_of(const std::vector<double>& values) {
 TEST(SegregationLong, ChangesByMoreThanThreeDeviationsInEverySeed) {
     std::vector<double> signs_height, signs_lacey;
     for (int seed = 1; seed <= 3; ++seed) {
-        const Scene scene = read_scene(std::string(GRAINREEL_SOURCE) + "/scenes/wedge_segregation.toml",
+        const Scene scene = read_scene(fmt::format("{}/scenes/wedge_segregation.toml", GRAINREEL_SOURCE),
                                        {fmt::format("run.seed={}", seed)});
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 0);
