@@ -7,9 +7,11 @@
 namespace grainreel {
 
 DrivenContact::DrivenContact(const PairPlan& pair)
-    : law_(law_kernel(pair.model)), parameters_(law_.parameters({pair})), history_(law_.history_size) {
-    std::fill(std::begin(mass_.value), std::end(mass_.value), 0.5 * bench_mass());
-    std::fill(std::begin(radius_.value), std::end(radius_.value), 0.5 * bench_radius);
+    : law_(law_kernel(pair.model)), parameters_(law_.parameters({pair})) {
+    history_.shape(law_.history_size, law_.number_size);
+    history_.resize(1);
+    std::fill_n(touch_.effective_mass, kBlock, 0.5 * bench_mass());
+    std::fill_n(touch_.effective_radius, kBlock, 0.5 * bench_radius);
 }
 
 void DrivenContact::move(const Move& move) {
@@ -24,12 +26,10 @@ void DrivenContact::move(const Move& move) {
     LawInput in{};
     in.count = 1;
     in.touch = &touch_;
-    in.effective_mass = mass_.value;
-    in.effective_radius = radius_.value;
     in.parameters = &parameters_;
     in.step = step;
     in.history_stride = law_.history_size;
-    law_.step(in, history_.data()->value, force_);
+    law_.step(in, history_.of_block(0), force_);
 }
 
 }  // namespace grainreel

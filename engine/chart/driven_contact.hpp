@@ -1,10 +1,8 @@
 // One contact led along a path by hand, through the same law that the step loop uses.
 #pragma once
 
-#include <vector>
-
 #include "engine/laws/law_kernel.hpp"
-#include "engine/step/contact_list.hpp"
+#include "engine/step/histories.hpp"
 
 namespace grainreel {
 
@@ -29,8 +27,7 @@ class DrivenContact {
   private:
     const LawKernel& law_;
     LawParameters parameters_;
-    std::vector<Block> history_;
-    Block mass_{}, radius_{};
+    Histories history_;
     TouchChunk touch_;
     ForceChunk force_;
 };

@@ -110,8 +110,8 @@ HWY_INLINE Touch<L> touch_at(const LawInput& in, int c) {
     t.twist = L(0.0);
     if constexpr (Law::rubs) t.twist = load_as<L>(chunk.twist + c);
     t.effective_mass = t.effective_radius = L(0.0);
-    if constexpr (Law::uses_mass) t.effective_mass = load_as<L>(in.effective_mass + c);
-    if constexpr (Law::uses_radius) t.effective_radius = load_as<L>(in.effective_radius + c);
+    if constexpr (Law::uses_mass) t.effective_mass = load_as<L>(chunk.effective_mass + c);
+    if constexpr (Law::uses_radius) t.effective_radius = load_as<L>(chunk.effective_radius + c);
     t.closing_speed = t.step = L(0.0);
     t.slip = t.slip_velocity = {L(0.0), L(0.0), L(0.0)};
     return t;

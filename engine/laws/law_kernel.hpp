@@ -31,9 +31,7 @@ struct LawParameters {
 struct LawInput {
     int count;  // of contacts, at most kChunk; rounded up to a multiple of kBlock all can be read
     const TouchChunk* touch;
-    const double* effective_mass;    // kg, aligned to 64 bytes; read only by laws that use it
-    const double* effective_radius;  // m, likewise
-    const std::int32_t* kind;        // of each contact; not read where there is only one
+    const std::int32_t* kind;  // of each contact; not read where there is only one
     const LawParameters* parameters;
     double step;            // s, between the last forces and these
     double ahead;           // steps from the known velocity to the time of the force

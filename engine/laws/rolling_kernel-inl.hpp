@@ -24,7 +24,7 @@ void step_rolling(const LawInput& in, void* history, ForceChunk& out) {
         const Triple<L> torque =
             RollingSpring::torque(parameters_at<RollingSpring, L>(in, c), h,
                                   triple_at<L>(in.touch->normal, c), load_as<L>(in.touch->twist + c), angle,
-                                  load_as<L>(in.effective_radius + c), load_as<L>(out.normal + c));
+                                  load_as<L>(in.touch->effective_radius + c), load_as<L>(out.normal + c));
         h.each(StoreHistory<L>(touching, kept));
         put_where(touching, torque, in.rolling->torque, c);
     }
@@ -43,7 +43,7 @@ void observe_rolling(const LawInput& in, const void* history, ForceChunk&, Energ
         RollingSpring::History<L> h;
         h.each(LoadHistory<L>(numbers + place_in_history(c, in.history_stride)));
         const L stored = RollingSpring::stored_energy(parameters_at<RollingSpring, L>(in, c), h,
-                                                      load_as<L>(in.effective_radius + c));
+                                                      load_as<L>(in.touch->effective_radius + c));
         const L power = h.torque.dot(triple_at<L>(in.rolling->rate, c));
         put_where(touching, h.torque, in.rolling->torque, c);
         add_where(touching, stored, energy.stored + c);

@@ -6,8 +6,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "engine/step/loads.hpp"
-
 namespace grainreel {
 
 namespace {
@@ -20,25 +18,66 @@ bool near(const Grains& grains, std::int32_t i, std::int32_t j, double period, d
     return apart.squaredNorm() < limit * limit;
 }
 
-// Rows of the parameters, where contacts differ in them.
-void note_kinds(ContactList& list, const Grains& grains, const ContactGroup& group, std::int32_t species) {
-    list.kind.clear();
-    if (!group.needs_rows()) return;
-    for (std::size_t c = 0; c < list.first.size(); ++c) {
-        const std::int32_t i = list.first[c], j = list.second[c];
-        const std::int32_t kind =
-            group.of_pairs ? grains.species[i] * species + grains.species[j] : grains.species[i];
-        list.kind.push_back(group.row[kind]);
-    }
-}
-
 // Where the wall neighbours of grains from `begin` on start in their list.
 std::int32_t first_wall_slot(const std::vector<WallNeighbour>& list, std::int32_t begin) {
     const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
     return static_cast<std::int32_t>(std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin());
 }
 
+// Of a contact whose bodies change places.
+void turn_history(const ContactGroup& group, Histories& histories, std::int32_t c) {
+    for (int k = 0; k < group.history_size(); ++k) {
+        if (group.turns(k)) histories.set(c, k, -histories.get(c, k));
+    }
+}
+
 }  // namespace
+
+int owner_of(const Shares& shares, std::int32_t grain) {
+    return static_cast<int>(std::upper_bound(shares.begin() + 1, shares.end() - 1, grain) -
+                            (shares.begin() + 1));
+}
+
+void ContactPass::renumber(const ContactRules& rules, int member, const Renumbering& to,
+                           std::vector<KeptContacts>& leaving) {
+    leaving.resize(tables_.size());
+    for (std::size_t g = 0; g < tables_.size(); ++g) {
+        leaving[g].clear();
+        renumber_group(rules.groups[g], member, to, tables_[g], leaving[g]);
+    }
+}
+
+void ContactPass::renumber_group(const ContactGroup& group, int member, const Renumbering& to,
+                                 ContactTable& table, KeptContacts& leaving) {
+    const bool pairs = group.of_pairs;
+    for (std::int32_t c = 0; c < table.size(); ++c) {
+        if (!table.touches(c)) continue;
+        const std::int32_t i = table.first()[c], j = table.second()[c];
+        std::int32_t a = to.index[i], b = pairs ? to.index[j] : j;
+        const int had = owner_of(to.before, i), had_too = pairs ? owner_of(to.before, j) : had;
+        if (pairs && a > b) {
+            std::swap(a, b);
+            turn_history(group, table.histories(), c);
+        }
+        table.renumber(c, a, b);
+        const int wants = owner_of(to.after, a), wants_too = pairs ? owner_of(to.after, b) : wants;
+        if (had == member) {  // of the two threads that had it, this one hands it over
+            const auto is_new = [&](int thread) { return thread != had && thread != had_too; };
+            if (is_new(wants)) table.keep(c, wants, leaving);
+            if (wants_too != wants && is_new(wants_too)) table.keep(c, wants_too, leaving);
+        }
+        if (wants != member && wants_too != member) table.drop(c);
+    }
+    table.forget_order();
+}
+
+void ContactPass::take(int member, const std::vector<KeptContacts>& leaving) {
+    for (std::size_t g = 0; g < leaving.size(); ++g) {
+        for (std::size_t k = 0; k < leaving[g].size(); ++k) {
+            if (leaving[g].tag[k] == member) tables_[g].take(leaving[g], k);
+        }
+    }
+}
 
 void ContactPass::own(const ContactRules& rules, const NeighbourLists& lists, std::int32_t begin,
                       std::int32_t end) {
@@ -48,33 +87,23 @@ void ContactPass::own(const ContactRules& rules, const NeighbourLists& lists, st
     const NeighbourList& list = lists.pairs;
     for (std::int32_t i = std::max(0, begin - list.farthest_partner); i < begin; ++i) {
         for (std::int32_t at = list.start[i]; at < list.start[i + 1]; ++at) {
-            if (list.partner[at] >= begin && list.partner[at] < end)
-                incoming_.push_back({i, list.partner[at]});
+            if (owns(list.partner[at])) incoming_.push_back({i, list.partner[at]});
         }
     }
-    const auto incoming = static_cast<std::int32_t>(incoming_.size());
-    const std::int32_t pairs = incoming + list.start[end] - list.start[begin];
-    const std::int32_t walls = first_wall_slot(lists.walls, end) - first_wall_slot(lists.walls, begin);
-    lists_.resize(rules.groups.size());
-    for (std::size_t g = 0; g < lists_.size(); ++g) {
-        const ContactGroup& group = rules.groups[g];
-        lists_[g].renumber(group.of_pairs ? pairs : walls, group.history_size(), group.number_size());
-    }
+    if (tables_.size() == rules.groups.size()) return;
+    tables_.resize(rules.groups.size());
+    for (std::size_t g = 0; g < tables_.size(); ++g)
+        tables_[g].shape(rules.groups[g].history_size(), rules.groups[g].number_size());
 }
 
-// Slots count the pairs of earlier threads' grains first, then those under own grains.
-void ContactPass::list_pairs_within(const ContactRules& rules, const Grains& grains,
-                                    const NeighbourList& list, double skin) {
+void ContactPass::list_near_pairs(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
+                                  double skin) {
     const bool one_group = rules.one_group_of_pairs();
-    std::int32_t slot = 0;
     const auto sort_in = [&](std::int32_t i, std::int32_t j) {
+        if (!near(grains, i, j, rules.period, skin)) return;
         const std::int32_t group =
             one_group ? 0 : rules.group_of_pair[grains.species[i] * rules.species + grains.species[j]];
-        if (near(grains, i, j, rules.period, skin))
-            lists_[group].add(slot, i, j);
-        else
-            lists_[group].leave(slot);
-        ++slot;
+        tables_[group].offer(i, j);
     };
     for (const Pair& pair : incoming_) sort_in(pair.first, pair.second);
     for (std::int32_t i = begin_; i < end_; ++i) {
@@ -83,94 +112,84 @@ void ContactPass::list_pairs_within(const ContactRules& rules, const Grains& gra
     }
 }
 
-void ContactPass::list_walls_within(const ContactRules& rules, const Grains& grains,
-                                    const std::vector<WallNeighbour>& list, const std::vector<Face>& faces,
-                                    const Pose& pose, double skin) {
-    const std::int32_t first = first_wall_slot(list, begin_), last = first_wall_slot(list, end_);
-    for (std::int32_t at = first; at < last; ++at) {
+void ContactPass::list_near_walls(const ContactRules& rules, const Grains& grains,
+                                  const std::vector<WallNeighbour>& list, const std::vector<Face>& faces,
+                                  const Pose& pose, double skin) {
+    const std::int32_t last = first_wall_slot(list, end_);
+    for (std::int32_t at = first_wall_slot(list, begin_); at < last; ++at) {
         const auto [grain, face] = list[at];
         const Place& place = grains.place[grain];
-        ContactList& of = lists_[rules.group_of_wall[grains.species[grain]]];
         const Vec3 moved = faces[face].displacement(pose);
         if (distance_to(faces[face], moved, place.position).distance < place.radius + skin)
-            of.add(at - first, grain, face);
-        else
-            of.leave(at - first);
+            tables_[rules.group_of_wall[grains.species[grain]]].offer(grain, face);
     }
+}
+
+void ContactPass::list_candidates(const ContactRules& rules, const Grains& grains,
+                                  const NeighbourLists& lists, const std::vector<Face>& faces,
+                                  const Pose& pose, double skin) {
+    for (ContactTable& table : tables_) table.begin_candidates();
+    list_near_pairs(rules, grains, lists.pairs, skin);
+    list_near_walls(rules, grains, lists.walls, faces, pose, skin);
+    for (ContactTable& table : tables_) table.end_candidates();
 }
 
 void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                           const std::vector<Face>& faces, const Pose& pose, double skin) {
-    for (ContactList& list : lists_) list.begin();
-    list_pairs_within(rules, grains, lists.pairs, skin);
-    list_walls_within(rules, grains, lists.walls, faces, pose, skin);
-    for (std::size_t g = 0; g < lists_.size(); ++g) {
-        lists_[g].end();
-        note_kinds(lists_[g], grains, rules.groups[g], rules.species);
-    }
+    for (ContactTable& table : tables_) table.sort();
+    list_candidates(rules, grains, lists, faces, pose, skin);
 }
 
 void ContactPass::keep(std::vector<KeptContacts>& kept) const {
-    kept.resize(lists_.size());
-    for (std::size_t g = 0; g < lists_.size(); ++g) {
+    kept.resize(tables_.size());
+    for (std::size_t g = 0; g < tables_.size(); ++g) {
+        const ContactTable& table = tables_[g];
         kept[g].clear();
-        lists_[g].keep(kept[g], begin_);
-    }
-}
-
-void ContactPass::restore(const ContactRules& rules, std::size_t group, const KeptContacts& kept,
-                          const std::vector<std::int32_t>& index) {
-    const ContactGroup& of = rules.groups[group];
-    const auto own = [&](std::int32_t grain) { return grain >= begin_ && grain < end_; };
-    const int numbers = of.history_size();
-    std::vector<double> turned(numbers);
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-        std::int32_t i = index[kept.first[k]], j = of.of_pairs ? index[kept.second[k]] : kept.second[k];
-        if (!own(i) && !(of.of_pairs && own(j))) continue;
-        const double sign = of.of_pairs && i > j ? -1 : 1;
-        if (sign < 0) std::swap(i, j);
-        for (int h = 0; h < numbers; ++h) {
-            const double value = kept.history[k * numbers + h];
-            turned[h] = of.turns(h) ? sign * value : value;
+        for (std::int32_t c = 0; c < table.size(); ++c) {
+            if (table.first()[c] >= begin_) table.keep(c, table.age(c), kept[g]);
         }
-        // A contact not found has parted since the last step.
-        lists_[group].restore(i, j, turned.data());
     }
 }
 
-// Whole registers are read: the last contact is repeated, but for its history.
-void ContactPass::Chunk::fill_up() {
-    for (int c = count; c % kBlock != 0; ++c) {
-        first[c] = first[c - 1];
-        second[c] = second[c - 1];
-        kind[c] = kind[c - 1];
-        row[c] = HistoryRows::kScratch;
+void ContactPass::restore(const ContactRules& rules, const std::vector<KeptContacts>& kept,
+                          std::int32_t steps) {
+    std::vector<std::int32_t> ages;
+    for (std::size_t g = 0; g < tables_.size(); ++g) {
+        ages.clear();
+        for (std::size_t k = 0; k < kept[g].size(); ++k) {
+            if (!owns(kept[g].first[k]) && !(rules.groups[g].of_pairs && owns(kept[g].second[k]))) continue;
+            tables_[g].take(kept[g], k);
+            ages.push_back(kept[g].tag[k]);
+        }
+        tables_[g].restore(ages, steps);
     }
 }
 
-// Sets touch_ and history_ for the chunk; what its laws take.
-LawInput ContactPass::prepare(const ContactRules& rules, std::size_t group, const Grains& grains,
-                              const WallState& state, const Times& times) const {
-    const ContactGroup& of = rules.groups[group];
-    const HistoryRows& rows = lists_[group].rows();
-    chunk_.fill_up();
+// Sets touch_ for the chunk; what its laws take.
+LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
+                              const WallState& state, const Times& times, const Chunk& chunk) const {
     const GeometryInput in{&grains,
-                           chunk_.first,
-                           chunk_.second,
-                           chunk_.count,
-                           of.rolling ? Wants::rolling : wants_of(*of.law),
+                           chunk.first,
+                           chunk.second,
+                           chunk.count,
+                           group.rolling ? Wants::rolling : wants_of(*group.law),
                            rules.arms,
                            times.since,
-                           of.law->at_mid_step ? times.turns : 0,
+                           group.law->at_mid_step ? times.turns : 0,
                            &rolling_,
-                           of.law->uses_mass,
-                           of.law->uses_radius || of.rolling};
-    of.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
-    if (chunk_.count < kChunk) touch_.touching &= (std::uint64_t{1} << chunk_.count) - 1;  // not the fill
-    history_.shape(rows.chunk_numbers(), of.number_size());
-    rows.bring(chunk_.row, chunk_.filled(), history_);
-    return {chunk_.count,   &touch_,     touch_.effective_mass, touch_.effective_radius, chunk_.kind,
-            &of.parameters, times.since, times.ahead,           rows.chunk_numbers(),    &rolling_};
+                           group.law->uses_mass,
+                           group.law->uses_radius || group.rolling};
+    group.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
+    if (chunk.count < kChunk) touch_.touching &= (std::uint64_t{1} << chunk.count) - 1;  // not the fill
+    if (group.needs_rows()) {
+        for (int c = 0; c < chunk.count; ++c) {
+            const std::int32_t one = grains.species[chunk.first[c]];
+            kind_[c] =
+                group.row[group.of_pairs ? one * rules.species + grains.species[chunk.second[c]] : one];
+        }
+    }
+    return {chunk.count,          &touch_,  kind_, &group.parameters, times.since, times.ahead,
+            group.history_size(), &rolling_};
 }
 
 namespace {
@@ -188,101 +207,95 @@ History* behind_law(const ContactGroup& group, History* history) {
 
 }  // namespace
 
-// Packs what touches of a list into chunk_, and calls work() whenever that is full, and at the end.
-template <class TouchingFrom, class Row, class Work>
-void ContactPass::pack(const ContactList& list, const TouchingFrom& touching_from, const Row& row,
-                       const Work& work) const {
-    const std::int32_t *first = list.first.data(), *second = list.second.data();
-    const std::int32_t* kind = list.kind.empty() ? nullptr : list.kind.data();
-    Chunk& to = chunk_;
-    int count = 0;
-    for (std::int32_t begin = 0; begin < list.size(); begin += kChunk) {
-        for (std::uint64_t left = touching_from(begin); left != 0; left &= left - 1) {
-            const std::int32_t c = begin + std::countr_zero(left);
-            to.first[count] = first[c];
-            to.second[count] = second[c];
-            to.kind[count] = kind ? kind[c] : 0;
-            to.row[count] = row(c);
-            if (++count < kChunk) continue;
-            to.count = count;
-            work();
-            count = 0;
-        }
+std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactGroup& group,
+                                       const Grains& grains, const WallState& state, const Chunk& chunk) {
+    const std::uint64_t touching =
+        group.of_pairs ? touching_pairs(grains, chunk.first, chunk.second, chunk.count, rules.period)
+                       : touching_walls(grains, chunk.first, chunk.second, chunk.count, state);
+    return chunk.count < kChunk ? touching & ((std::uint64_t{1} << chunk.count) - 1) : touching;
+}
+
+// work(c, bits): of the 64 candidates from c on, those that touch.
+template <class Work>
+void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
+                                          const ContactTable& table, const Grains& grains,
+                                          const WallState& state, const Work& work) {
+    for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
+        const Chunk chunk{table.near_first() + c, table.near_second() + c,
+                          std::min(kChunk, table.candidates() - c)};
+        work(c, which_touch(rules, group, grains, state, chunk));
     }
-    to.count = count;
-    work();
 }
 
 void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state,
                           const Times& times, CostClock& clock) {
-    for (std::size_t g = 0; g < lists_.size(); ++g) {
-        ContactList& list = lists_[g];
-        const auto touching_from = [&](std::int32_t c) {
-            const std::uint64_t touching = which_touch(rules, g, grains, state, c);
-            list.note_touching(c, touching);
-            return touching;
-        };
-        pack(
-            list, touching_from, [&](std::int32_t c) { return list.row_to_write(c); },
-            [&] { compute_chunk(rules, g, grains, state, times, clock); });
+    for (std::size_t g = 0; g < tables_.size(); ++g) {
+        ContactTable& table = tables_[g];
+        const Step in{rules, rules.groups[g], grains, state, times};
+        table.begin_step();
+        each_touching_candidate(rules, in.group, table, grains, state,
+                                [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
+        table.end_step();
+        for (std::int32_t c = 0; c < table.size(); c += kChunk) compute_chunk(in, table, c, clock);
     }
 }
 
-void ContactPass::compute_chunk(const ContactRules& rules, std::size_t group, Grains& grains,
-                                const WallState& state, const Times& times, CostClock& clock) {
-    const ContactGroup& of = rules.groups[group];
-    if (chunk_.count > 0) {
-        const LawInput in = prepare(rules, group, grains, state, times);
-        void* history = history_.of_block(0);
-        of.law->step(in, history, force_);
-        if (of.rolling) of.rolling->step(for_rolling(of, in), behind_law(of, history), force_);
-        lists_[group].rows().put_back(chunk_.row, chunk_.filled(), history_);
-    }
-    clock.lap(of.of_pairs ? Cost::contacts : Cost::walls);
-    if (chunk_.count > 0) {
-        const ChunkOfContacts chunk{chunk_.first,
-                                    chunk_.second,
-                                    chunk_.count,
-                                    &touch_,
-                                    &force_,
-                                    of.law->rubs,
-                                    of.rolling ? &rolling_ : nullptr};
-        of.of_pairs ? add_pairs(chunk, loads_, begin_, end_, grains)
-                    : add_walls(chunk, loads_, state, times.acts, grains);
-    }
-    clock.lap(of.of_pairs ? Cost::gather : Cost::walls);
+void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_t c, CostClock& clock) {
+    const ContactGroup& group = in.group;
+    const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, table.size() - c)};
+    const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk);
+    table.note_touching(c, touch_.touching);
+    void* history = table.histories().of_block(c);
+    group.law->step(law, history, force_);
+    if (group.rolling) group.rolling->step(for_rolling(group, law), behind_law(group, history), force_);
+    clock.lap(group.of_pairs ? Cost::contacts : Cost::walls);
+    const ChunkOfContacts forces{chunk.first,
+                                 chunk.second,
+                                 chunk.count,
+                                 &touch_,
+                                 &force_,
+                                 group.law->rubs,
+                                 group.rolling ? &rolling_ : nullptr};
+    group.of_pairs ? add_pairs(forces, loads_, begin_, end_, in.grains)
+                   : add_walls(forces, loads_, in.walls, in.times.acts, in.grains);
+    clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
 }
 
-std::uint64_t ContactPass::which_touch(const ContactRules& rules, std::size_t group, const Grains& grains,
-                                       const WallState& state, std::int32_t c) const {
-    const ContactList& list = lists_[group];
-    const int count = std::min(kChunk, list.size() - c);
-    const std::int32_t *first = list.first.data() + c, *second = list.second.data() + c;
-    const std::uint64_t touching = rules.groups[group].of_pairs
-                                       ? touching_pairs(grains, first, second, count, rules.period)
-                                       : touching_walls(grains, first, second, count, state);
-    return count < kChunk ? touching & ((std::uint64_t{1} << count) - 1) : touching;
+void ContactPass::show(const ContactGroup& group, const LawInput& in, const void* history, const Chunk& chunk,
+                       const Seen& seen) const {
+    EnergyChunk energy;
+    group.law->observe(in, history, force_, energy);
+    if (group.rolling)
+        group.rolling->observe(for_rolling(group, in), behind_law(group, history), force_, energy);
+    for (int k = 0; k < chunk.count; ++k) {
+        if ((touch_.touching >> k & 1) && chunk.first[k] >= begin_)
+            seen(chunk.first[k], chunk.second[k], k, touch_, force_, energy);
+    }
 }
 
-void ContactPass::observe(const ContactRules& rules, std::size_t group, const Grains& grains,
+void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains& grains,
                           const WallState& state, const Seen& seen) const {
-    const ContactGroup& of = rules.groups[group];
-    const ContactList& list = lists_[group];
-    const auto look = [&] {
-        if (chunk_.count == 0) return;
-        const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0});
-        const void* history = history_.of_block(0);
-        EnergyChunk energy;
-        of.law->observe(in, history, force_, energy);
-        if (of.rolling) of.rolling->observe(for_rolling(of, in), behind_law(of, history), force_, energy);
-        for (int k = 0; k < in.count; ++k) {
-            if ((touch_.touching >> k & 1) && chunk_.first[k] >= begin_)
-                seen(chunk_.first[k], chunk_.second[k], k, touch_, force_, energy);
+    const ContactGroup& group = rules.groups[g];
+    const ContactTable& table = tables_[g];
+    for (std::int32_t c = 0; c < table.size(); c += kChunk) {
+        const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, table.size() - c)};
+        const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk);
+        show(group, in, table.histories().of_block(c), chunk, seen);
+    }
+    // Where positions have moved on since the forces, some touch that had none yet.
+    Histories none;
+    none.shape(group.history_size(), group.number_size());
+    none.resize(kBlock);
+    each_touching_candidate(rules, group, table, grains, state, [&](std::int32_t c, std::uint64_t touching) {
+        for (std::uint64_t left = touching & ~table.admitted(c); left != 0; left &= left - 1) {
+            std::int32_t first[kBlock], second[kBlock];
+            std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);
+            std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
+            const Chunk chunk{first, second, 1};
+            show(group, prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk), none.of_block(0), chunk,
+                 seen);
         }
-    };
-    pack(
-        list, [&](std::int32_t c) { return which_touch(rules, group, grains, state, c); },
-        [&](std::int32_t c) { return list.row(c); }, look);
+    });
 }
 
 }  // namespace grainreel

@@ -1,7 +1,7 @@
-// The contact pass of one thread: of all near pairs of its own grains those that touch, packed into chunks,
-// through geometry and law into the loads of its grains. A contact between grains of two threads is computed
-// by both, each for its own grain: cheaper than handing forces over, and every grain sums its contacts in one
-// order, whatever the threads.
+// The contact pass of one thread: the contacts of its own grains, a chunk at a time, through geometry and law
+// into the loads of its grains. A contact between grains of two threads is computed by both, each for its own
+// grain: cheaper than handing forces over, and every grain sums its contacts in one order, whatever the
+// threads.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,49 @@
 #include <vector>
 
 #include "engine/step/contact_geometry.hpp"
-#include "engine/step/contact_list.hpp"
 #include "engine/step/contact_rules.hpp"
+#include "engine/step/contact_table.hpp"
 #include "engine/step/cost_clock.hpp"
 #include "engine/step/loads.hpp"
 #include "engine/step/neighbours.hpp"
 
 namespace grainreel {
 
+// Thread t owns the grains [share[t], share[t + 1]).
+using Shares = std::vector<std::int32_t>;
+int owner_of(const Shares& shares, std::int32_t grain);
+
+// Grains in a new order, and shared out anew.
+struct Renumbering {
+    const std::vector<std::int32_t>& index;  // the new one of each old one
+    const Shares &before, &after;
+};
+
 class ContactPass {
   public:
+    // New numbers for all contacts; those that another thread has to do with from now on, and had not, go to
+    // `leaving` by group, tagged with it.
+    void renumber(const ContactRules& rules, int member, const Renumbering& to,
+                  std::vector<KeptContacts>& leaving);
+    // The other end of that.
+    void take(int member, const std::vector<KeptContacts>& leaving);
+
     // Sets the thread's own grains [begin, end) and finds its pairs in the new neighbour lists.
     void own(const ContactRules& rules, const NeighbourLists& lists, std::int32_t begin, std::int32_t end);
 
-    // Takes from the neighbour lists, those of own(), what may touch within `skin` (m).
+    // Drops contacts that have parted, and takes from the neighbour lists, those of own(), what may come to
+    // touch within `skin` (m).
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                  const std::vector<Face>& faces, const Pose& pose, double skin);
 
-    // The contacts under own grains that have a history, by group.
+    // For checkpoints: the contacts under own grains by group, and how many steps ago their order began.
     void keep(std::vector<KeptContacts>& kept) const;
-    // Takes back those of one group that have to do with an own grain, numbered as the grains are now.
-    void restore(const ContactRules& rules, std::size_t group, const KeptContacts& kept,
-                 const std::vector<std::int32_t>& index);
+    std::int32_t steps_since_refresh() const { return tables_[0].step(); }
+    // Takes back what has to do with own grains.
+    void restore(const ContactRules& rules, const std::vector<KeptContacts>& kept, std::int32_t steps);
+    // As refresh(), but contacts stay as they are.
+    void list_candidates(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
+                         const std::vector<Face>& faces, const Pose& pose, double skin);
 
     // One step of all laws: adds the forces of pairs, then of walls, to the loads of the own grains, and the
     // moving walls' work to them.
@@ -51,41 +72,49 @@ class ContactPass {
                  const Seen& seen) const;
 
   private:
-    // Contacts that touch, on their way through geometry and law.
+    // Contacts that stand side by side in a table, or were packed.
     struct Chunk {
-        int count = 0;
-        alignas(64) std::int32_t first[kChunk], second[kChunk], kind[kChunk], row[kChunk];
-
-        void fill_up();
-        int filled() const { return (count + kBlock - 1) / kBlock * kBlock; }
+        const std::int32_t *first, *second;
+        int count;
+    };
+    struct Step {
+        const ContactRules& rules;
+        const ContactGroup& group;
+        Grains& grains;
+        const WallState& walls;
+        const Times& times;
     };
 
-    void list_pairs_within(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
-                           double skin);
-    void list_walls_within(const ContactRules& rules, const Grains& grains,
-                           const std::vector<WallNeighbour>& list, const std::vector<Face>& faces,
-                           const Pose& pose, double skin);
-    std::uint64_t which_touch(const ContactRules& rules, std::size_t group, const Grains& grains,
-                              const WallState& state, std::int32_t c) const;
-    template <class TouchingFrom, class Row, class Work>
-    void pack(const ContactList& list, const TouchingFrom& touching_from, const Row& row,
-              const Work& work) const;
-    LawInput prepare(const ContactRules& rules, std::size_t group, const Grains& grains,
-                     const WallState& state, const Times& times) const;
-    void compute_chunk(const ContactRules& rules, std::size_t group, Grains& grains, const WallState& state,
-                       const Times& times, CostClock& clock);
+    bool owns(std::int32_t grain) const { return grain >= begin_ && grain < end_; }
+    void list_near_pairs(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
+                         double skin);
+    void list_near_walls(const ContactRules& rules, const Grains& grains,
+                         const std::vector<WallNeighbour>& list, const std::vector<Face>& faces,
+                         const Pose& pose, double skin);
+    void renumber_group(const ContactGroup& group, int member, const Renumbering& to, ContactTable& table,
+                        KeptContacts& leaving);
+    static std::uint64_t which_touch(const ContactRules& rules, const ContactGroup& group,
+                                     const Grains& grains, const WallState& state, const Chunk& chunk);
+    template <class Work>
+    static void each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
+                                        const ContactTable& table, const Grains& grains,
+                                        const WallState& state, const Work& work);
+    LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
+                     const WallState& state, const Times& times, const Chunk& chunk) const;
+    void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, CostClock& clock);
+    void show(const ContactGroup& group, const LawInput& in, const void* history, const Chunk& chunk,
+              const Seen& seen) const;
 
-    std::vector<ContactList> lists_;    // one a group
+    std::vector<ContactTable> tables_;  // one a group
     std::int32_t begin_ = 0, end_ = 0;  // the own grains
     struct Pair {
         std::int32_t first, second;
     };
     std::vector<Pair> incoming_;  // listed pairs of an earlier thread's grain and an own one
-    mutable Chunk chunk_;
-    mutable Histories history_;  // of the chunk
     mutable TouchChunk touch_;
     mutable ForceChunk force_;
     mutable RollingChunk rolling_;
+    mutable std::int32_t kind_[kChunk] = {};  // of the chunk's contacts; where there is only one, 0
     LoadChunk loads_;
 };
 

@@ -1,5 +1,5 @@
-// Histories of a chunk of contacts as the kernels want them: in blocks of kBlock contacts, within a block
-// number by number. The numbers are doubles, or floats with mixed precision.
+// Histories of contacts as the laws' kernels want them: in blocks of kBlock contacts, within a block number
+// by number. The numbers are doubles, or floats with mixed precision.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +13,30 @@ namespace grainreel {
 
 class Histories {
   public:
-    // For kChunk contacts of so many numbers. What stays of another shape is of no use.
+    // So many numbers a contact; no contact yet.
     void shape(int numbers, std::size_t number_size) {
         numbers_ = numbers;
         size_ = number_size;
-        const std::size_t lines = (kChunk * numbers_ * size_ + sizeof(Line) - 1) / sizeof(Line);
-        if (lines > lines_.size()) lines_.resize(lines);
+        lines_.clear();
     }
     int numbers() const { return numbers_; }  // of a contact
+    // Room for so many contacts; new ones hold zeros.
+    void resize(std::int32_t contacts) {
+        const std::size_t blocks = (contacts + kBlock - 1) / kBlock;
+        lines_.resize((blocks * kBlock * numbers_ * size_ + sizeof(Line) - 1) / sizeof(Line));
+    }
 
     double get(std::int32_t contact, int k) const {
         return size_ == sizeof(float) ? read<float>(contact, k) : read<double>(contact, k);
     }
     void set(std::int32_t contact, int k, double value) {
         size_ == sizeof(float) ? write(contact, k, static_cast<float>(value)) : write(contact, k, value);
+    }
+    void clear(std::int32_t contact) {
+        for (int k = 0; k < numbers_; ++k) set(contact, k, 0);
+    }
+    void copy(std::int32_t from, std::int32_t to) {
+        size_ == sizeof(float) ? copy_numbers<float>(from, to) : copy_numbers<double>(from, to);
     }
 
     // What LawKernel takes, for the block that starts with `contact`.
@@ -40,7 +50,8 @@ class Histories {
     std::byte* bytes() { return reinterpret_cast<std::byte*>(lines_.data()); }
     const std::byte* bytes() const { return reinterpret_cast<const std::byte*>(lines_.data()); }
     std::size_t place(std::int32_t contact, int k) const {
-        return ((contact / kBlock * numbers_ + k) * kBlock + contact % kBlock) * size_;
+        return ((contact / kBlock * static_cast<std::size_t>(numbers_) + k) * kBlock + contact % kBlock) *
+               size_;
     }
     template <class Number>
     Number read(std::int32_t contact, int k) const {
@@ -51,6 +62,14 @@ class Histories {
     template <class Number>
     void write(std::int32_t contact, int k, Number value) {
         std::memcpy(bytes() + place(contact, k), &value, sizeof(Number));
+    }
+    template <class Number>
+    void copy_numbers(std::int32_t from, std::int32_t to) {
+        const std::byte* source = bytes() + place(from, 0);
+        std::byte* target = bytes() + place(to, 0);
+        for (int k = 0; k < numbers_; ++k)
+            std::memcpy(target + k * kBlock * sizeof(Number), source + k * kBlock * sizeof(Number),
+                        sizeof(Number));
     }
 
     int numbers_ = 0;

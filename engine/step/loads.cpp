@@ -64,11 +64,27 @@ HWY_INLINE void add_one(Load& what, Load& to) {
     put(record_at<n>(numbers(to)) + record_at<n>(numbers(what)), numbers(to));
 }
 
+bool all_between(const ChunkOfContacts& chunk, std::int32_t begin, std::int32_t end) {
+    std::int32_t outside = 0;
+    for (int c = 0; c < chunk.count; ++c) {
+        outside |= (chunk.first[c] - begin) | (end - 1 - chunk.first[c]);
+        outside |= (chunk.second[c] - begin) | (end - 1 - chunk.second[c]);
+    }
+    return outside >= 0;  // no difference is negative
+}
+
 template <bool rubs>
 void pairs_of(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t begin, std::int32_t end,
               Grains& grains) {
     fill<rubs>(chunk, scratch);
     if (rubs) add_rolling(chunk, scratch);
+    if (all_between(chunk, begin, end)) {
+        for (int c = 0; c < chunk.count; ++c) {
+            add_one<rubs>(scratch.contact[c].on_first, grains.load[chunk.first[c]]);
+            add_one<rubs>(scratch.contact[c].on_second, grains.load[chunk.second[c]]);
+        }
+        return;
+    }
     const auto own = [&](std::int32_t i) -> Load& {
         return i >= begin && i < end ? grains.load[i] : scratch.of_others;
     };

@@ -153,7 +153,7 @@ void StepLoop::renew_contacts(int member, const Evaluation& at, double step, con
         if (member == 0) listed_step_ = at.time;
         mine.reach.drift.setZero();
     } else {
-        refresh(member, true);
+        mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
     }
     if (member == 0) ++refreshes_;
 }

@@ -92,8 +92,8 @@ class StepLoop {
     struct alignas(64) Member {
         ContactPass contacts;
         WallState walls;
-        std::vector<KeptContacts> kept;  // by group
-        NeighbourList part;              // of the pair search
+        std::vector<KeptContacts> leaving;  // for other threads, by group
+        NeighbourList part;                 // of the pair search
         Reach reach;
         CostClock clock;
         Vec3 fastest{0, 0, 0};  // m/s, largest components of its grains against the bed's free flight
@@ -119,7 +119,6 @@ class StepLoop {
     bool lists_expired(const Member& mine, const Pose& now, const Vec3& drift) const;
     double farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const;
     void set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame, double step) const;
-    void refresh(int member, bool same_lists);
     void rebuild(int member, const Pose& pose);
     void note_listing(const Pose& pose);
     void share_out();
@@ -127,7 +126,7 @@ class StepLoop {
                      const ForceChunk& force, const EnergyChunk& energy) const;
     std::vector<KeptContacts> all_kept() const;
     template <class Loop, class Kept, class ReachType, class Each>
-    static void transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& each);
+    static void transfer(Loop& loop, Kept& kept, std::int32_t& steps, ReachType& reach, const Each& each);
 
     const Surroundings& around_;
     Grains& grains_;
@@ -137,7 +136,7 @@ class StepLoop {
     Cells cells_;
     NeighbourLists lists_;
     std::vector<Member> members_;
-    std::vector<std::int32_t> share_;      // thread t owns the grains [share_[t], share_[t + 1])
+    Shares share_, last_share_;
     std::vector<std::int32_t> new_index_;  // of the grains before the last reordering
 
     // Where and how the grains and walls were when the lists were made.

@@ -3,18 +3,9 @@
 
 namespace grainreel {
 
-// The thread's own contacts, out of the neighbour lists.
-void StepLoop::refresh(int member, bool same_lists) {
-    Member& mine = members_[member];
-    if (!same_lists) mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
-    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
-}
-
 // New order, new neighbour lists, new contacts, histories carried over: called by all members.
 void StepLoop::rebuild(int member, const Pose& pose) {
     Member& mine = members_[member];
-    mine.contacts.keep(mine.kept);
-    team_.barrier();
     if (member == 0) {
         const auto& order = spatial_order(cells_, grains_, around_.skin, around_.period);
         grains_.reorder(order);
@@ -37,11 +28,11 @@ void StepLoop::rebuild(int member, const Pose& pose) {
         ++rebuilds_;
     }
     team_.barrier();
-    refresh(member, false);
-    for (const Member& m : members_) {
-        for (std::size_t g = 0; g < m.kept.size(); ++g)
-            mine.contacts.restore(rules_, g, m.kept[g], new_index_);
-    }
+    mine.contacts.renumber(rules_, member, {new_index_, last_share_, share_}, mine.leaving);
+    team_.barrier();
+    mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
+    for (const Member& m : members_) mine.contacts.take(member, m.leaving);
+    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
 }
 
 void StepLoop::note_listing(const Pose& pose) {
@@ -60,6 +51,7 @@ void StepLoop::share_out() {
     const std::int32_t n = static_cast<std::int32_t>(grains_.size());
     const std::vector<std::int32_t>& start = lists_.pairs.start;
     const std::int64_t all = 3 * std::int64_t{n} + start[n];
+    last_share_ = share_;
     share_.assign(team_.size() + 1, n);
     share_[0] = 0;
     std::int32_t i = 0;

@@ -1,5 +1,7 @@
 // What the step loop shows of its contacts, and what it saves.
+#include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "engine/base/binary.hpp"
 #include "engine/step/step_loop.hpp"
@@ -45,20 +47,45 @@ ContactView StepLoop::view(bool rubs, std::int32_t first, std::int32_t second, i
     return v;
 }
 
-// Contacts with a history in one order, whoever works on them: by rising first grain.
+namespace {
+
+// The order in which contacts are computed.
+KeptContacts in_order(const KeptContacts& kept, int numbers) {
+    std::vector<std::int32_t> order(kept.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](std::int32_t c) {
+        return std::tuple(ContactTable::began(kept.tag[c]), kept.first[c], kept.second[c]);
+    };
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
+    KeptContacts sorted;
+    for (const std::int32_t c : order) {
+        sorted.first.push_back(kept.first[c]);
+        sorted.second.push_back(kept.second[c]);
+        sorted.tag.push_back(kept.tag[c]);
+        const auto history = kept.history.begin() + static_cast<std::ptrdiff_t>(c) * numbers;
+        sorted.history.insert(sorted.history.end(), history, history + numbers);
+    }
+    return sorted;
+}
+
+}  // namespace
+
+// All contacts in one order, whoever works on them.
 std::vector<KeptContacts> StepLoop::all_kept() const {
     std::vector<KeptContacts> all(rules_.groups.size()), part;
     for (const Member& m : members_) {
         m.contacts.keep(part);
         for (std::size_t g = 0; g < part.size(); ++g) all[g].append(part[g]);
     }
+    for (std::size_t g = 0; g < all.size(); ++g) all[g] = in_order(all[g], rules_.groups[g].history_size());
     return all;
 }
 
 // Everything saved, in its order.
 template <class Loop, class Kept, class ReachType, class Each>
-void StepLoop::transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& each) {
-    for (auto& group : kept) each(group.first), each(group.second), each(group.history);
+void StepLoop::transfer(Loop& loop, Kept& kept, std::int32_t& steps, ReachType& reach, const Each& each) {
+    for (auto& group : kept) each(group.first), each(group.second), each(group.tag), each(group.history);
+    each(steps);
     each(loop.lists_.pairs.start), each(loop.lists_.pairs.partner);
     each(loop.lists_.pairs.farthest_partner);
     each(loop.lists_.walls);
@@ -68,23 +95,25 @@ void StepLoop::transfer(Loop& loop, Kept& kept, ReachType& reach, const Each& ea
 
 void StepLoop::save(std::ostream& out) const {
     const std::vector<KeptContacts> kept = all_kept();
-    transfer(*this, kept, members_[0].reach, Writing{out});
+    std::int32_t steps = members_[0].contacts.steps_since_refresh();
+    transfer(*this, kept, steps, members_[0].reach, Writing{out});
 }
 
 void StepLoop::load(std::istream& in) {
     std::vector<KeptContacts> kept(rules_.groups.size());
     Reach reach;
-    transfer(*this, kept, reach, Reading{in});
+    std::int32_t steps = 0;
+    transfer(*this, kept, steps, reach, Reading{in});
     if (!in) return;  // the caller says so
     fresh_ = false;
     share_out();
-    std::vector<std::int32_t> same(grains_.size());
-    std::iota(same.begin(), same.end(), 0);
     for (int member = 0; member < team_.size(); ++member) {
-        members_[member].reach = reach;
-        refresh(member, false);
-        for (std::size_t g = 0; g < kept.size(); ++g)
-            members_[member].contacts.restore(rules_, g, kept[g], same);
+        Member& mine = members_[member];
+        mine.reach = reach;
+        mine.contacts = {};
+        mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
+        mine.contacts.restore(rules_, kept, steps);
+        mine.contacts.list_candidates(rules_, grains_, lists_, around_.faces, reach.pose, reach.skin);
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include "engine/laws/law_kernel.hpp"
 #include "engine/step/contact_geometry.hpp"
-#include "engine/step/contact_list.hpp"
+#include "engine/step/histories.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -14,8 +14,9 @@ class LedPair {
   public:
     explicit LedPair(TangentialLaw tangential)
         : kernel_(law_kernel({NormalForce::walton_braun, tangential, false})),
-          parameters_(kernel_.parameters({walton_braun_pair(0.9, 0.5)})),
-          history_(static_cast<std::size_t>(kernel_.history_size), Block{}) {
+          parameters_(kernel_.parameters({walton_braun_pair(0.9, 0.5)})) {
+        history_.shape(kernel_.history_size, kernel_.number_size);
+        history_.resize(1);
         grains_.add(0, 0, Vec3(0, 0, 0), kRadius, kDensity);
         grains_.add(1, 0, Vec3(1.59 * kRadius, 0, 0), 0.6 * kRadius, kDensity);
     }
@@ -31,16 +32,15 @@ class LedPair {
         const GeometryInput in{&grains_, first_, second_, 1, Wants::spin, LeverArms::contact_plane,
                                step,     step,   nullptr};
         touch_pairs(in, 0, touch_);
-        kernel_.step(
-            {1, &touch_, nullptr, nullptr, kind_, &parameters_, step, 0.5, kernel_.history_size, nullptr},
-            history_[0].value, force_);
+        kernel_.step({1, &touch_, kind_, &parameters_, step, 0.5, kernel_.history_size, nullptr},
+                     history_.of_block(0), force_);
         return {force_.tangential[0][0], force_.tangential[1][0], force_.tangential[2][0]};
     }
 
   private:
     const LawKernel& kernel_;
     const LawParameters parameters_;
-    std::vector<Block> history_;
+    Histories history_;
     Grains grains_;
     TouchChunk touch_;
     ForceChunk force_;

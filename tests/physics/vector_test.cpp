@@ -16,7 +16,7 @@
 #include "engine/laws/walton_braun_corrected-inl.hpp"
 #include "engine/laws/walton_braun_speed-inl.hpp"
 #include "engine/laws/walton_braun_table-inl.hpp"
-#include "engine/step/contact_list.hpp"
+#include "engine/step/histories.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -74,8 +74,8 @@ class Crowd {
   public:
     explicit Crowd(std::size_t kinds) {
         for (int c = 0; c < kChunk; ++c) {
-            mass[c / kBlock].value[c % kBlock] = 1e-4 * (1.5 + one());
-            radius[c / kBlock].value[c % kBlock] = 1e-3 * (1.5 + one());
+            touch.effective_mass[c] = 1e-4 * (1.5 + one());
+            touch.effective_radius[c] = 1e-3 * (1.5 + one());
             kind[c] = static_cast<std::int32_t>(c % kinds);
             const Vec3 k = Vec3(one(), one(), one()).normalized();
             for (int a = 0; a < 3; ++a) touch.normal[a][c] = k[a];
@@ -101,8 +101,8 @@ class Crowd {
         t.normal = triple<Number>(touch.normal, c);
         t.overlap = static_cast<Number>(touch.overlap[c]);
         t.twist = static_cast<Number>(touch.twist[c]);
-        t.effective_mass = static_cast<Number>(mass[c / kBlock].value[c % kBlock]);
-        t.effective_radius = static_cast<Number>(radius[c / kBlock].value[c % kBlock]);
+        t.effective_mass = static_cast<Number>(touch.effective_mass[c]);
+        t.effective_radius = static_cast<Number>(touch.effective_radius[c]);
         return t;
     }
     template <class Number>
@@ -112,7 +112,6 @@ class Crowd {
     }
 
     TouchChunk touch;
-    Block mass[kChunk / kBlock], radius[kChunk / kBlock];
     std::int32_t kind[kChunk];
 
   private:
@@ -132,12 +131,12 @@ void compare_at(NormalForce normal, TangentialLaw tangential, const std::vector<
     ForceChunk force;
     Histories history;
     history.shape(kernel.history_size, kernel.number_size);
+    history.resize(kChunk);
     std::vector<typename Law::template History<Number>> expected(kChunk);
     const double step = 1e-6;
     for (int n = 0; n < 200; ++n) {
         crowd.move(n);
-        kernel.step({kChunk, &crowd.touch, crowd.mass[0].value, crowd.radius[0].value, crowd.kind,
-                     &parameters, step, 0.5, kernel.history_size, nullptr},
+        kernel.step({kChunk, &crowd.touch, crowd.kind, &parameters, step, 0.5, kernel.history_size, nullptr},
                     history.of_block(0), force);
         for (int c = 0; c < kChunk; ++c) {
             auto& h = expected[c];

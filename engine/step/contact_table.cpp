@@ -1,0 +1,175 @@
+#include "engine/step/contact_table.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace grainreel {
+
+void KeptContacts::append(const KeptContacts& more) {
+    first.insert(first.end(), more.first.begin(), more.first.end());
+    second.insert(second.end(), more.second.begin(), more.second.end());
+    tag.insert(tag.end(), more.tag.begin(), more.tag.end());
+    history.insert(history.end(), more.history.begin(), more.history.end());
+}
+
+void ContactTable::shape(int history_size, std::size_t number_size) {
+    *this = {};
+    histories_.shape(history_size, number_size);
+}
+
+// A contact without a history that is taken to touch.
+void ContactTable::add(std::int32_t i, std::int32_t j) {
+    const std::size_t room = (size_ + kBlock) / kBlock * kBlock;
+    if (first_.size() < room) {
+        first_.resize(room);
+        second_.resize(room);
+        histories_.resize(static_cast<std::int32_t>(room));
+    }
+    if (touching_.size() * 64 < room) touching_.push_back(0);
+    histories_.clear(size_);
+    first_[size_] = i;
+    second_[size_] = j;
+    touching_[size_ / 64] |= std::uint64_t{1} << size_ % 64;
+    ++size_;
+}
+
+// What stands behind the last contact repeats it, so that all that is read makes sense.
+void ContactTable::fill_up() {
+    for (std::size_t c = size_; c < first_.size(); ++c) {
+        first_[c] = size_ > 0 ? first_[c - 1] : 0;
+        second_[c] = size_ > 0 ? second_[c - 1] : 0;
+    }
+}
+
+void ContactTable::sort() {
+    order_contacts();
+    const auto stay = static_cast<std::int32_t>(order_.size());
+    permute();
+    size_ = sorted_ = stay;
+    step_ = 0;
+    batches_.clear();
+    const std::size_t room = (size_ + kBlock - 1) / kBlock * kBlock;
+    first_.resize(room);
+    second_.resize(room);
+    histories_.resize(static_cast<std::int32_t>(room));
+    touching_.assign((room + 63) / 64, 0);
+    for (std::int32_t c = 0; c < size_; ++c) touching_[c / 64] |= std::uint64_t{1} << c % 64;
+    fill_up();
+}
+
+// The contacts that touch, sorted, into order_. The few that began lately are merged into the others.
+void ContactTable::order_contacts() {
+    order_.clear();
+    tail_.clear();
+    for (std::int32_t c = 0; c < size_; ++c) {
+        if (touches(c)) (c < sorted_ ? order_ : tail_).push_back(c);
+    }
+    const auto less = [this](std::int32_t a, std::int32_t b) { return before(a, b); };
+    std::sort(tail_.begin(), tail_.end(), less);
+    std::ptrdiff_t old = std::ssize(order_) - 1, young = std::ssize(tail_) - 1;
+    order_.resize(order_.size() + tail_.size());
+    for (std::ptrdiff_t to = std::ssize(order_) - 1; young >= 0; --to)
+        order_[to] = old >= 0 && less(tail_[young], order_[old]) ? order_[old--] : tail_[young--];
+}
+
+// Puts contact order_[c] at c, for all c of order_, in place: along the cycles of the permutation that has
+// the rest behind them.
+void ContactTable::permute() {
+    tail_.assign(size_, 0);
+    for (const std::int32_t c : order_) tail_[c] = 1;
+    for (std::int32_t c = 0; c < size_; ++c) {
+        if (!tail_[c]) order_.push_back(c);
+    }
+    std::vector<double> lifted(histories_.numbers());
+    for (std::int32_t begin = 0; begin < size_; ++begin) {
+        if (order_[begin] == begin) continue;
+        const std::int32_t i = first_[begin], j = second_[begin];
+        for (int k = 0; k < histories_.numbers(); ++k) lifted[k] = histories_.get(begin, k);
+        std::int32_t to = begin;
+        for (std::int32_t from = order_[to]; from != begin; from = order_[to]) {
+            first_[to] = first_[from];
+            second_[to] = second_[from];
+            histories_.copy(from, to);
+            order_[to] = to;
+            to = from;
+        }
+        first_[to] = i;
+        second_[to] = j;
+        for (int k = 0; k < histories_.numbers(); ++k) histories_.set(to, k, lifted[k]);
+        order_[to] = to;
+    }
+}
+
+void ContactTable::begin_candidates() {
+    near_first_.clear();
+    near_second_.clear();
+    cursor_ = 0;
+}
+
+bool ContactTable::holds(std::int32_t i, std::int32_t j) {
+    while (cursor_ < sorted_ && first_[cursor_] < i) ++cursor_;
+    for (std::int32_t c = cursor_; c < sorted_ && first_[c] == i; ++c) {
+        if (second_[c] == j) return true;
+    }
+    for (std::int32_t c = sorted_; c < size_; ++c) {  // of a loaded checkpoint only
+        if (first_[c] == i && second_[c] == j) return true;
+    }
+    return false;
+}
+
+void ContactTable::end_candidates() {
+    candidates_ = static_cast<std::int32_t>(near_first_.size());
+    while (near_first_.size() % kBlock != 0) {
+        near_first_.push_back(near_first_.back());
+        near_second_.push_back(near_second_.back());
+    }
+    admitted_.assign((candidates_ + 63) / 64, 0);
+}
+
+void ContactTable::add_candidates(std::int32_t c, std::uint64_t which) {
+    admitted_[c / 64] |= which;
+    if (batches_.empty() || batches_.back().step != step_) batches_.push_back({size_, step_});
+    for (; which != 0; which &= which - 1) {
+        const std::int32_t at = c + std::countr_zero(which);
+        add(near_first_[at], near_second_[at]);
+    }
+}
+
+void ContactTable::end_step() {
+    if (!batches_.empty() && batches_.back().step == step_) fill_up();
+}
+
+void ContactTable::keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const {
+    kept.first.push_back(first_[c]);
+    kept.second.push_back(second_[c]);
+    kept.tag.push_back(tag);
+    for (int k = 0; k < histories_.numbers(); ++k) kept.history.push_back(histories_.get(c, k));
+}
+
+void ContactTable::take(const KeptContacts& kept, std::size_t k) {
+    add(kept.first[k], kept.second[k]);
+    const int numbers = histories_.numbers();
+    for (int h = 0; h < numbers; ++h) histories_.set(size_ - 1, h, kept.history[k * numbers + h]);
+}
+
+std::int32_t ContactTable::age(std::int32_t c) const {
+    const auto later = [](std::int32_t at, const Batch& batch) { return at < batch.from; };
+    const auto batch = std::upper_bound(batches_.begin(), batches_.end(), c, later);
+    const std::int32_t began = batch == batches_.begin() ? 0 : std::prev(batch)->step;
+    return touches(c) ? began : ~began;
+}
+
+void ContactTable::restore(const std::vector<std::int32_t>& ages, std::int32_t step) {
+    for (std::int32_t c = 0; c < size_; ++c) {
+        const std::int32_t step_of_c = began(ages[c]);
+        if (step_of_c == 0)
+            ++sorted_;
+        else if (batches_.empty() || batches_.back().step != step_of_c)
+            batches_.push_back({c, step_of_c});
+        if (ages[c] < 0) drop(c);
+    }
+    fill_up();
+    step_ = step;
+}
+
+}  // namespace grainreel

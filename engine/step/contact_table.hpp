@@ -1,0 +1,112 @@
+// The contacts of one law under one thread, in the order in which they are computed: first by rising first
+// and second body, then, behind these, those that began since the last sort(). A contact that has parted
+// keeps its place, without a force or a history, until then. Beside them the candidates: pairs so close that
+// they may touch before the next refresh. The same table serves grains at walls.
+//
+// Why not one list of all near pairs, whose histories stay where they are: a law wants what touches side by
+// side, and packing that anew each step cost a third of the contact pass (docs/performance.md).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/step/histories.hpp"
+
+namespace grainreel {
+
+// Contacts as they are handed from thread to thread, and to checkpoints.
+struct KeptContacts {
+    std::vector<std::int32_t> first, second;  // of a wall contact: grain, face
+    std::vector<std::int32_t> tag;            // the thread it is for; to checkpoints: ContactTable::age()
+    std::vector<double> history;              // contact by contact
+
+    std::size_t size() const { return first.size(); }
+    void clear() { first.clear(), second.clear(), tag.clear(), history.clear(); }
+    void append(const KeptContacts& more);
+};
+
+class ContactTable {
+  public:
+    // No contacts; histories of so many numbers.
+    void shape(int history_size, std::size_t number_size);
+
+    // The contacts from 0 to size(), and some more to fill a block, so that whole registers can be read.
+    std::int32_t size() const { return size_; }
+    const std::int32_t* first() const { return first_.data(); }
+    const std::int32_t* second() const { return second_.data(); }
+    Histories& histories() { return histories_; }
+    const Histories& histories() const { return histories_; }
+    // Of the 64 from c on, a multiple of 64: those that touch.
+    std::uint64_t touching(std::int32_t c) const { return touching_[c / 64]; }
+    void note_touching(std::int32_t c, std::uint64_t touching) { touching_[c / 64] = touching; }
+
+    // Drops what does not touch and sorts the rest; candidates are void.
+    void sort();
+
+    // New candidates: begin_candidates(), then offer() pairs by rising i, then end_candidates(). A pair that
+    // has its place among the contacts is none.
+    void begin_candidates();
+    void offer(std::int32_t i, std::int32_t j) {
+        if (!holds(i, j)) near_first_.push_back(i), near_second_.push_back(j);
+    }
+    void end_candidates();
+    std::int32_t candidates() const { return candidates_; }
+    const std::int32_t* near_first() const { return near_first_.data(); }
+    const std::int32_t* near_second() const { return near_second_.data(); }
+
+    // One step's beginning contacts: begin_step(), admit() for each 64 candidates, end_step().
+    void begin_step() { ++step_; }
+    void admit(std::int32_t c, std::uint64_t touching) {
+        if (const std::uint64_t news = touching & ~admitted_[c / 64]; news != 0) add_candidates(c, news);
+    }
+    void end_step();
+    // Of the 64 candidates from c on: those that have become contacts.
+    std::uint64_t admitted(std::int32_t c) const { return admitted_[c / 64]; }
+
+    // Renumbers the bodies of contact c; one that the thread no longer has to do with is dropped by sort().
+    void renumber(std::int32_t c, std::int32_t i, std::int32_t j) { first_[c] = i, second_[c] = j; }
+    void forget_order() { sorted_ = 0; }
+    void drop(std::int32_t c) { touching_[c / 64] &= ~(std::uint64_t{1} << c % 64); }
+    bool touches(std::int32_t c) const { return touching_[c / 64] >> c % 64 & 1; }
+
+    // Appends contact c to `kept`, or takes contact k of it.
+    void keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const;
+    void take(const KeptContacts& kept, std::size_t k);
+    // For checkpoints: at which step since the last sort() contact c began, ~ that if it has parted. After
+    // all were taken, in the order of that, first and second: what they are to be told.
+    std::int32_t age(std::int32_t c) const;
+    static std::int32_t began(std::int32_t age) { return age < 0 ? ~age : age; }
+    void restore(const std::vector<std::int32_t>& ages, std::int32_t step);
+    std::int32_t step() const { return step_; }
+
+  private:
+    void add(std::int32_t i, std::int32_t j);
+    void add_candidates(std::int32_t c, std::uint64_t which);
+    bool holds(std::int32_t i, std::int32_t j);
+    bool before(std::int32_t a, std::int32_t b) const {
+        return first_[a] != first_[b] ? first_[a] < first_[b] : second_[a] < second_[b];
+    }
+    void order_contacts();
+    void permute();
+    void fill_up();
+
+    std::int32_t size_ = 0, sorted_ = 0;
+    std::vector<std::int32_t> first_, second_;
+    Histories histories_;
+    std::vector<std::uint64_t> touching_;  // a bit a contact
+
+    std::int32_t candidates_ = 0;
+    std::vector<std::int32_t> near_first_, near_second_;
+    std::vector<std::uint64_t> admitted_;  // a bit a candidate
+    std::int32_t cursor_ = 0;              // where offered pairs are looked for
+
+    struct Batch {
+        std::int32_t from, step;
+    };
+    std::vector<Batch> batches_;  // of contacts that began since the last sort
+    std::int32_t step_ = 0;
+
+    std::vector<std::int32_t> order_, tail_;
+};
+
+}  // namespace grainreel
