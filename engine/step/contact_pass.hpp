@@ -115,7 +115,7 @@ class ContactPass {
     mutable ForceChunk force_;
     mutable RollingChunk rolling_;
     mutable std::int32_t kind_[kChunk] = {};  // of the chunk's contacts; where there is only one, 0
-    LoadChunk loads_;
+    LoadScratch loads_;
 };
 
 }  // namespace grainreel

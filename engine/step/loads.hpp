@@ -9,16 +9,13 @@
 
 namespace grainreel {
 
-// What the contacts of a chunk do to their two bodies. Without friction only forces are set.
-struct LoadChunk {
-    struct Contact {
-        Load on_first, on_second;
-    };
-    Contact contact[kChunk];
-    Load of_others;  // what goes to grains of other threads, which nobody reads
+// For add_pairs() and add_walls() to work in.
+struct LoadScratch {
+    Load of_others;                         // what goes to grains of other threads, which nobody reads
+    alignas(64) double force[3][kChunk]{};  // N, on walls
 };
 
-// A chunk's contacts; all of them touch.
+// A chunk's contacts.
 struct ChunkOfContacts {
     const std::int32_t *first, *second;  // of a wall contact: grain, face
     int count;
@@ -29,10 +26,10 @@ struct ChunkOfContacts {
 };
 
 // Adds them to the loads of those of their grains that lie in [begin, end).
-void add_pairs(const ChunkOfContacts& chunk, LoadChunk& scratch, std::int32_t begin, std::int32_t end,
+void add_pairs(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
                Grains& grains);
 // Of grains and walls: to the grains' loads, and what moving walls do to the work.
-void add_walls(const ChunkOfContacts& chunk, LoadChunk& scratch, const WallState& walls, double step,
+void add_walls(const ChunkOfContacts& chunk, LoadScratch& scratch, const WallState& walls, double step,
                Grains& grains);
 
 }  // namespace grainreel

@@ -1,5 +1,4 @@
-// Four doubles a record in memory, one number a lane in registers: loads and stores records that lie
-// anywhere.
+// Four doubles a record in memory, one number a lane in registers: loads records that lie anywhere.
 #if defined(GRAINREEL_VECTOR_RECORDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_RECORDS_INL
 #undef GRAINREEL_VECTOR_RECORDS_INL
@@ -7,7 +6,7 @@
 #define GRAINREEL_VECTOR_RECORDS_INL
 #endif
 
-#include "engine/vector/lanes-inl.hpp"
+#include "engine/vector/record-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -15,6 +14,11 @@ namespace grainreel::HWY_NAMESPACE {
 template <class D>
 struct Four {
     hn::Vec<D> a, b, c, d;
+};
+
+// As many records as there are lanes.
+struct Rows {
+    Record<4> row[kLanes];
 };
 
 #if HWY_TARGET == HWY_SCALAR
@@ -25,13 +29,8 @@ HWY_INLINE Four<Doubles> load_records(const double* base, std::size_t stride, co
     return {hn::Load(d, at), hn::Load(d, at + 1), hn::Load(d, at + 2), hn::Load(d, at + 3)};
 }
 
-template <class D>
-HWY_INLINE void store_records_at(const Four<D>& f, double* base, std::size_t stride,
-                                 const std::int32_t* index) {
-    const D d;
-    double* at = base + stride * static_cast<std::size_t>(*index);
-    hn::Store(f.a, d, at), hn::Store(f.b, d, at + 1);
-    hn::Store(f.c, d, at + 2), hn::Store(f.d, d, at + 3);
+HWY_INLINE Rows rows_of(const Four<Doubles>& f) {
+    return {{{{f.a, f.b, f.c, f.d}}}};
 }
 
 #else
@@ -52,13 +51,6 @@ template <class D>
 HWY_INLINE hn::Vec<D> both_halves(D d, const double* low, const double* high) {
     const hn::Half<D> half;
     return hn::Combine(d, hn::Load(half, high), hn::Load(half, low));
-}
-
-template <class D>
-HWY_INLINE void store_halves(D, hn::Vec<D> row, double* low, double* high) {
-    const hn::Half<D> half;
-    hn::Store(hn::LowerHalf(half, row), half, low);
-    hn::Store(hn::UpperHalf(half, row), half, high);
 }
 
 // Four numbers each from as many addresses as there are lanes, aligned to 32 bytes.
@@ -88,37 +80,32 @@ HWY_INLINE Four<D> load_records(const double* base, std::size_t stride, const st
     return load_records_at<D>(at);
 }
 
-// The other way.
+// The other way, into registers.
 template <class D>
-HWY_INLINE void store_records_at(const Four<D>& f, double* base, std::size_t stride,
-                                 const std::int32_t* index) {
+HWY_INLINE Rows rows_of(const Four<D>& f) {
     const D d;
-    double* at[hn::MaxLanes(D())];
-    for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k)
-        at[k] = base + stride * static_cast<std::size_t>(index[k]);
+    Rows rows;
     if constexpr (hn::MaxLanes(D()) == 8) {
         const Four<D> r = transposed(d, f);
-        store_halves(d, r.a, at[0], at[4]), store_halves(d, r.b, at[1], at[5]);
-        store_halves(d, r.c, at[2], at[6]), store_halves(d, r.d, at[3], at[7]);
+        const hn::Half<D> half;
+        rows.row[0].part[0] = hn::LowerHalf(half, r.a), rows.row[4].part[0] = hn::UpperHalf(half, r.a);
+        rows.row[1].part[0] = hn::LowerHalf(half, r.b), rows.row[5].part[0] = hn::UpperHalf(half, r.b);
+        rows.row[2].part[0] = hn::LowerHalf(half, r.c), rows.row[6].part[0] = hn::UpperHalf(half, r.c);
+        rows.row[3].part[0] = hn::LowerHalf(half, r.d), rows.row[7].part[0] = hn::UpperHalf(half, r.d);
     } else if constexpr (hn::MaxLanes(D()) == 4) {
         const Four<D> r = transposed(d, f);
-        hn::Store(r.a, d, at[0]), hn::Store(r.b, d, at[1]);
-        hn::Store(r.c, d, at[2]), hn::Store(r.d, d, at[3]);
+        rows.row[0].part[0] = r.a, rows.row[1].part[0] = r.b;
+        rows.row[2].part[0] = r.c, rows.row[3].part[0] = r.d;
     } else {
-        hn::Store(hn::InterleaveLower(d, f.a, f.b), d, at[0]);
-        hn::Store(hn::InterleaveLower(d, f.c, f.d), d, at[0] + 2);
-        hn::Store(hn::InterleaveUpper(d, f.a, f.b), d, at[1]);
-        hn::Store(hn::InterleaveUpper(d, f.c, f.d), d, at[1] + 2);
+        rows.row[0].part[0] = hn::InterleaveLower(d, f.a, f.b);
+        rows.row[0].part[1] = hn::InterleaveLower(d, f.c, f.d);
+        rows.row[1].part[0] = hn::InterleaveUpper(d, f.a, f.b);
+        rows.row[1].part[1] = hn::InterleaveUpper(d, f.c, f.d);
     }
+    return rows;
 }
 
 #endif
-
-// To records that lie one behind the other.
-HWY_INLINE void store_records(const Four<Doubles>& f, double* base, std::size_t stride) {
-    constexpr std::int32_t in_order[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    store_records_at(f, base, stride, in_order);
-}
 
 }  // namespace grainreel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
