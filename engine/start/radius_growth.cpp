@@ -62,7 +62,7 @@ struct Growing {
 void first_radii(Growing& g, double reach) {
     Cells cells;
     NeighbourList list;
-    g.grains.reorder(spatial_order(cells, g.grains, reach, g.around.period));
+    put_in_order(cells, g.grains, reach, g.around.period);
     list_pairs(cells, g.grains, reach, g.around.period, 0, static_cast<std::int32_t>(g.grains.size()), list);
     std::vector<double> allowed(g.grains.size());
     for (std::size_t i = 0; i < allowed.size(); ++i) {

@@ -1,7 +1,8 @@
 #include "engine/step/cells.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace grainreel {
 
@@ -11,12 +12,13 @@ constexpr double kMostBoxesPerGrain = 8;  // an empty tall container must not co
 
 }  // namespace
 
-void Cells::lay(const std::vector<Place>& place, double width, double period) {
-    const std::size_t n = place.size();
-    Vec3 low = place[0].position, high = low;
-    for (const Place& p : place) {
-        low = low.cwiseMin(p.position);
-        high = high.cwiseMax(p.position);
+void Grid::lay(const std::vector<Place>& place, const std::vector<std::int32_t>& members, double width,
+               double period) {
+    const std::size_t n = members.size();
+    Vec3 low = place[members[0]].position, high = low;
+    for (const std::int32_t i : members) {
+        low = low.cwiseMin(place[i].position);
+        high = high.cwiseMax(place[i].position);
     }
     periodic_ = period > 0;
     if (periodic_) {
@@ -40,46 +42,56 @@ void Cells::lay(const std::vector<Place>& place, double width, double period) {
     const std::int64_t total = index(0, 0, count_[2]);
     start_.assign(total + 1, 0);
     box_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto b = box_of(place[i].position);
-        box_[i] = static_cast<std::int32_t>(index(b[0], b[1], b[2]));
-        ++start_[box_[i] + 1];
+    for (std::size_t m = 0; m < n; ++m) {
+        box_[m] = box_of(place[members[m]].position);
+        ++start_[box_[m] + 1];
     }
-    for (std::int64_t b = 0; b < total; ++b) start_[b + 1] += start_[b];
-    order_.resize(n);
-    std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
-    for (std::size_t i = 0; i < n; ++i) order_[next[box_[i]]++] = static_cast<std::int32_t>(i);
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    in_order_.resize(n);
+    next_.assign(start_.begin(), start_.end() - 1);
+    for (std::size_t m = 0; m < n; ++m) in_order_[next_[box_[m]]++] = members[m];
 }
 
-std::array<int, 3> Cells::box_of(const Vec3& position) const {
-    std::array<int, 3> box{};
-    for (int a = 0; a < 3; ++a) {
-        box[a] =
-            std::clamp(static_cast<int>((position[a] - origin_[a]) * inverse_width_[a]), 0, count_[a] - 1);
-    }
-    return box;
+std::int32_t Grid::box_of(const Vec3& position) const {
+    std::array<int, 3> at{};
+    for (int a = 0; a < 3; ++a)
+        at[a] = std::clamp(box(position[a] - origin_[a], inverse_width_[a], a), 0, count_[a] - 1);
+    return static_cast<std::int32_t>(index(at[0], at[1], at[2]));
 }
 
-int Cells::partners_after(const Vec3& position, std::int32_t i, std::array<Range, 14>& ranges) const {
-    const auto [x, y, z] = box_of(position);
-    int found = 0;
-    const auto add = [&](int x0, int x1, int row_y, int row_z) {
-        const std::int32_t first = std::max(start_[index(x0, row_y, row_z)], i + 1);
-        const std::int32_t last = start_[index(x1, row_y, row_z) + 1];
-        if (first < last) ranges[found++] = {first, last};
-    };
-    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, count_[0] - 1);
-    for (int dz = 0; dz <= 1; ++dz) {
-        if (z + dz >= count_[2]) continue;
-        for (int dy = dz == 0 ? 0 : -1; dy <= 1; ++dy) {
-            if (y + dy < 0 || y + dy >= count_[1]) continue;
-            add(x0, x1, y + dy, z + dz);
-            if (!periodic_ || count_[0] < 3) continue;  // with fewer boxes x-1 .. x+1 are all there are
-            if (x == 0) add(count_[0] - 1, count_[0] - 1, y + dy, z + dz);
-            if (x == count_[0] - 1) add(0, 0, y + dy, z + dz);
-        }
+// Octave by octave of radii, from the smallest up.
+void Cells::sort_into_levels(const std::vector<Place>& place) {
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+    for (const Place& p : place) {
+        smallest = std::min(smallest, p.radius);
+        largest = std::max(largest, p.radius);
     }
-    return found;
+    levels_.resize(std::ilogb(largest / smallest) + 1);
+    for (Level& level : levels_) level.members.clear(), level.largest = 0;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        Level& level = levels_[levels_.size() > 1 ? std::ilogb(place[i].radius / smallest) : 0];
+        level.members.push_back(static_cast<std::int32_t>(i));
+        level.largest = std::max(level.largest, place[i].radius);
+    }
+    std::erase_if(levels_, [](const Level& level) { return level.members.empty(); });
+}
+
+const std::vector<std::int32_t>& Cells::order(const std::vector<Place>& place, double skin, double period) {
+    sort_into_levels(place);
+    const auto fewer = [](const Level& a, const Level& b) { return a.members.size() < b.members.size(); };
+    const Level& most = *std::max_element(levels_.begin(), levels_.end(), fewer);
+    everybody_.resize(place.size());
+    std::iota(everybody_.begin(), everybody_.end(), 0);
+    whole_.lay(place, everybody_, 2 * most.largest + skin, period);
+    return whole_.in_order();
+}
+
+void Cells::lay(const std::vector<Place>& place, double skin, double period) {
+    sort_into_levels(place);
+    for (Level& level : levels_) {
+        level.grid.lay(place, level.members, 2 * level.largest + skin, period);
+        level.rising = level.grid.in_order() == level.members;
+    }
 }
 
 }  // namespace grainreel

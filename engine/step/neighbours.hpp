@@ -38,15 +38,16 @@ inline double nearest_image(double x, double period) {
     return x;
 }
 
-// Wraps positions into the period, then gives the spatial order (order[new] = old) to put the grains in.
-const std::vector<std::int32_t>& spatial_order(Cells& cells, Grains& grains, double skin, double period);
+// Wraps positions into the period, puts the grains in spatial order and lays the cells over them. The order:
+// order[new] = old.
+const std::vector<std::int32_t>& put_in_order(Cells& cells, Grains& grains, double skin, double period);
 
-// All want the grains already in spatial order. list_pairs lists under the grains [begin, end) only, start
+// All want the grains in that order. They list under the grains [begin, end) only, list_pairs with a start
 // counting from 0 at `begin`; join_lists puts the parts of rising ranges together.
 void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
                 std::int32_t end, NeighbourList& part);
 void join_lists(const std::vector<const NeighbourList*>& parts, NeighbourList& whole);
-std::vector<WallNeighbour> list_wall_neighbours(const Grains& grains, const std::vector<Face>& faces,
-                                                const Pose& pose, double skin);
+void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,
+                std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
 
 }  // namespace grainreel

@@ -94,6 +94,7 @@ class StepLoop {
         WallState walls;
         std::vector<KeptContacts> leaving;  // for other threads, by group
         NeighbourList part;                 // of the pair search
+        std::vector<WallNeighbour> walls_part;
         Reach reach;
         CostClock clock;
         Vec3 fastest{0, 0, 0};  // m/s, largest components of its grains against the bed's free flight

@@ -7,22 +7,24 @@ namespace grainreel {
 void StepLoop::rebuild(int member, const Pose& pose) {
     Member& mine = members_[member];
     if (member == 0) {
-        const auto& order = spatial_order(cells_, grains_, around_.skin, around_.period);
-        grains_.reorder(order);
+        const auto& order = put_in_order(cells_, grains_, around_.skin, around_.period);
         new_index_.resize(order.size());
         for (std::size_t i = 0; i < order.size(); ++i) new_index_[order[i]] = static_cast<std::int32_t>(i);
     }
     team_.barrier();
     const std::int64_t n = static_cast<std::int64_t>(grains_.size());
-    list_pairs(cells_, grains_, around_.skin, around_.period,
-               static_cast<std::int32_t>(n * member / team_.size()),
-               static_cast<std::int32_t>(n * (member + 1) / team_.size()), mine.part);
+    const auto begin = static_cast<std::int32_t>(n * member / team_.size());
+    const auto end = static_cast<std::int32_t>(n * (member + 1) / team_.size());
+    list_pairs(cells_, grains_, around_.skin, around_.period, begin, end, mine.part);
+    list_walls(grains_, around_.faces, pose, around_.skin, begin, end, mine.walls_part);
     team_.barrier();
     if (member == 0) {
         std::vector<const NeighbourList*> parts;
         for (const Member& m : members_) parts.push_back(&m.part);
         join_lists(parts, lists_.pairs);
-        lists_.walls = list_wall_neighbours(grains_, around_.faces, pose, around_.skin);
+        lists_.walls.clear();
+        for (const Member& m : members_)
+            lists_.walls.insert(lists_.walls.end(), m.walls_part.begin(), m.walls_part.end());
         note_listing(pose);
         share_out();
         ++rebuilds_;

@@ -1,7 +1,6 @@
 #include "render/cli/bench.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -9,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/bench/bench_run.hpp"
-#include "render/cli/stop_signal.hpp"
+#include "render/cli/share_watcher.hpp"
 
 namespace grainreel {
 namespace {
@@ -74,19 +73,8 @@ int run_bench(const Options& options, Reporter& reporter) {
     const auto found =
         std::find_if(cases.begin(), cases.end(), [&](const BenchCase& c) { return c.name == options.bench; });
     GRAINREEL_CHECK(found != cases.end());
-    const auto begin = std::chrono::steady_clock::now();
     const BenchOutcome outcome =
-        run_bench(*found, options.bench_request, [&](const std::string& what, double done) {
-            Progress progress;
-            progress.stage = Progress::Stage::charting;
-            progress.what = what;
-            progress.done = done;
-            progress.elapsed =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-            if (done > 0.02) progress.remaining = progress.elapsed * (1 - done) / done;
-            reporter.progress(progress);
-            return stop_signal() == 0;
-        });
+        run_bench(*found, options.bench_request, ShareWatcher(reporter, Progress::Stage::timing));
     reporter.clear();
     if (!outcome.complete) {
         reporter.info("stopped; nothing was measured to its end");

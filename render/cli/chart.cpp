@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -12,7 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/chart/chart.hpp"
-#include "render/cli/stop_signal.hpp"
+#include "render/cli/share_watcher.hpp"
 
 namespace grainreel {
 namespace {
@@ -45,17 +44,7 @@ int make_chart(const Options& options, Reporter& reporter) {
     if (std::error_code failure; !std::filesystem::create_directories(request.folder, failure) && failure)
         throw UserError(fmt::format("{}: cannot be made ({}); give another --out", request.folder.string(),
                                     failure.message()));
-    const auto begin = std::chrono::steady_clock::now();
-    const bool whole = chart->run(request, [&](const std::string& what, double done) {
-        Progress progress;
-        progress.stage = Progress::Stage::charting;
-        progress.what = what;
-        progress.done = done;
-        progress.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        if (done > 0.02) progress.remaining = progress.elapsed * (1 - done) / done;
-        reporter.progress(progress);
-        return stop_signal() == 0;
-    });
+    const bool whole = chart->run(request, ShareWatcher(reporter, Progress::Stage::charting));
     reporter.clear();
     if (!whole) {
         reporter.info("stopped; the same command goes on");

@@ -16,6 +16,8 @@ std::string to_string(Progress::Stage stage) {
             return "settling";
         case Progress::Stage::charting:
             return "charting";
+        case Progress::Stage::timing:
+            return "timing";
         case Progress::Stage::vibrating:
             break;
     }

@@ -1,0 +1,79 @@
+// Neighbour lists against all pairs, for sizes that go through several grids.
+#include <gmock/gmock.h>
+
+#include <random>
+#include <set>
+#include <utility>
+
+#include "engine/step/neighbours.hpp"
+
+namespace grainreel {
+namespace {
+
+using Pairs = std::multiset<std::pair<std::int32_t, std::int32_t>>;
+
+// Radii from 1 to 20 mm in a column three times as high as wide, a fifth of them above it, far out.
+Grains of_all_sizes(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    Grains grains;
+    for (int i = 0; i < 600; ++i) {
+        const double radius = i % 50 == 0 ? between(0.010, 0.020) : between(0.001, i % 7 ? 0.0012 : 0.003);
+        const double height = i % 5 == 1 ? between(0.3, 30) : between(0, 0.3);
+        grains.add(i, 0, Vec3(between(-0.05, 0.05), between(-0.05, 0.05), height), radius, 2500);
+    }
+    return grains;
+}
+
+Pairs listed(const NeighbourList& list) {
+    Pairs pairs;
+    for (std::int32_t i = 0; i + 1 < static_cast<std::int32_t>(list.start.size()); ++i) {
+        for (std::int32_t at = list.start[i]; at < list.start[i + 1]; ++at)
+            pairs.insert({i, list.partner[at]});
+    }
+    return pairs;
+}
+
+Pairs all_near(const Grains& grains, double skin, double period) {
+    Pairs pairs;
+    const auto n = static_cast<std::int32_t>(grains.size());
+    for (std::int32_t i = 0; i < n; ++i) {
+        for (std::int32_t j = i + 1; j < n; ++j) {
+            Vec3 apart = grains.place[j].position - grains.place[i].position;
+            apart.x() = nearest_image(apart.x(), period);
+            if (apart.norm() < grains.place[i].radius + grains.place[j].radius + skin) pairs.insert({i, j});
+        }
+    }
+    return pairs;
+}
+
+class Neighbours : public testing::TestWithParam<double> {};
+
+TEST_P(Neighbours, AreAllPairsThatAreNear) {
+    const double period = GetParam(), skin = 0.004;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        Grains grains = of_all_sizes(seed);
+        Cells cells;
+        put_in_order(cells, grains, skin, period);
+        EXPECT_GE(cells.levels().size(), 3u);
+        NeighbourList low, high, whole;
+        const std::int32_t n = static_cast<std::int32_t>(grains.size()), middle = n / 3;
+        list_pairs(cells, grains, skin, period, 0, middle, low);
+        list_pairs(cells, grains, skin, period, middle, n, high);
+        join_lists({&low, &high}, whole);
+        const Pairs expected = all_near(grains, skin, period);
+        EXPECT_GT(expected.size(), 80u);
+        EXPECT_EQ(listed(whole), expected);
+        std::int32_t farthest = 0;
+        for (const auto& [i, j] : expected) farthest = std::max(farthest, j - i);
+        EXPECT_EQ(whole.farthest_partner, farthest);
+    }
+}
+
+// Periods: none; that of the bed; one of which the largest grain's neighbourhood takes most.
+INSTANTIATE_TEST_SUITE_P(Periods, Neighbours, testing::Values(0.0, 0.1, 0.06));
+
+}  // namespace
+}  // namespace grainreel
