@@ -1,5 +1,8 @@
 #include "engine/state/grains.hpp"
 
+#include <tuple>
+#include <type_traits>
+
 #include <numbers>
 
 namespace grainreel {
@@ -25,26 +28,37 @@ void Grains::set_radius(std::size_t i, double radius, double density) {
 
 namespace {
 
-template <class T>
-void permute(std::vector<T>& values, const std::vector<std::int32_t>& order) {
-    if (values.empty()) return;
-    std::vector<T> old(values.size());
-    old.swap(values);
-    for (std::size_t i = 0; i < order.size(); ++i) values[i] = old[order[i]];
+// values[i] = values[order[i]] for all of them at once, in place: along the cycles of the order.
+template <class... Vectors>
+void permute(const std::vector<std::int32_t>& order, std::vector<bool>& placed, Vectors&... values) {
+    placed.assign(order.size(), false);
+    const auto lift = [](const auto& of, std::size_t i) {
+        return of.empty() ? typename std::decay_t<decltype(of)>::value_type{} : of[i];
+    };
+    const auto put = [](auto& to, std::size_t i, const auto& value) {
+        if (!to.empty()) to[i] = value;
+    };
+    const auto move = [](auto& of, std::size_t from, std::size_t to) {
+        if (!of.empty()) of[to] = of[from];
+    };
+    for (std::size_t begin = 0; begin < order.size(); ++begin) {
+        if (placed[begin]) continue;
+        const std::tuple lifted{lift(values, begin)...};
+        std::size_t to = begin;
+        for (std::size_t from = order[to]; from != begin; from = order[to]) {
+            (move(values, from, to), ...);
+            placed[to] = true;
+            to = from;
+        }
+        placed[to] = true;
+        std::apply([&](const auto&... value) { (put(values, to, value), ...); }, lifted);
+    }
 }
 
 }  // namespace
 
 void Grains::reorder(const std::vector<std::int32_t>& order) {
-    permute(id, order);
-    permute(species, order);
-    permute(place, order);
-    permute(motion, order);
-    permute(spin, order);
-    permute(load, order);
-    permute(wall_work, order);
-    permute(orientation, order);
-    permute(derivatives, order);
+    permute(order, placed, id, species, place, motion, spin, load, wall_work, orientation, derivatives);
 }
 
 }  // namespace grainreel

@@ -48,6 +48,8 @@ struct Grains {
     std::vector<Quaternion> orientation;   // empty unless asked for
     std::vector<Derivatives> derivatives;  // empty unless the integrator has them
 
+    std::vector<bool> placed;  // while being reordered
+
     std::size_t size() const { return id.size(); }
 
     // A grain at rest; density kg/m3.

@@ -1,6 +1,7 @@
 #include "engine/step/contact_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace grainreel {
@@ -21,6 +22,7 @@ void ContactTable::shape(int history_size, std::size_t number_size) {
 void ContactTable::add(std::int32_t i, std::int32_t j) {
     const std::size_t room = (size_ + kBlock) / kBlock * kBlock;
     if (first_.size() < room) {
+        reserve(room);
         first_.resize(room);
         second_.resize(room);
         histories_.resize(static_cast<std::int32_t>(room));
@@ -31,6 +33,15 @@ void ContactTable::add(std::int32_t i, std::int32_t j) {
     second_[size_] = j;
     touching_[size_ / 64] |= std::uint64_t{1} << size_ % 64;
     ++size_;
+}
+
+// A little at a time: histories are most of a run's memory, and doubling would leave half of it idle.
+void ContactTable::reserve(std::size_t room) {
+    if (room <= first_.capacity()) return;
+    room += (room / 16 + kBlock) / kBlock * kBlock;
+    first_.reserve(room);
+    second_.reserve(room);
+    histories_.reserve(static_cast<std::int32_t>(room));
 }
 
 // What stands behind the last contact repeats it, so that all that is read makes sense.
@@ -80,7 +91,7 @@ void ContactTable::permute() {
     for (std::int32_t c = 0; c < size_; ++c) {
         if (!tail_[c]) order_.push_back(c);
     }
-    std::vector<double> lifted(histories_.numbers());
+    std::array<double, Histories::kMostNumbers> lifted{};
     for (std::int32_t begin = 0; begin < size_; ++begin) {
         if (order_[begin] == begin) continue;
         const std::int32_t i = first_[begin], j = second_[begin];

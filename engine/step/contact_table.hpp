@@ -81,6 +81,7 @@ class ContactTable {
 
   private:
     void add(std::int32_t i, std::int32_t j);
+    void reserve(std::size_t room);
     void add_candidates(std::int32_t c, std::uint64_t which);
     bool holds(std::int32_t i, std::int32_t j);
     bool before(std::int32_t a, std::int32_t b) const {

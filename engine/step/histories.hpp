@@ -7,24 +7,26 @@
 #include <cstring>
 #include <vector>
 
+#include "engine/base/error.hpp"
 #include "engine/laws/law_kernel.hpp"
 
 namespace grainreel {
 
 class Histories {
   public:
+    static constexpr int kMostNumbers = 24;
+
     // So many numbers a contact; no contact yet.
     void shape(int numbers, std::size_t number_size) {
+        GRAINREEL_CHECK(numbers <= kMostNumbers);
         numbers_ = numbers;
         size_ = number_size;
         lines_.clear();
     }
     int numbers() const { return numbers_; }  // of a contact
     // Room for so many contacts; new ones hold zeros.
-    void resize(std::int32_t contacts) {
-        const std::size_t blocks = (contacts + kBlock - 1) / kBlock;
-        lines_.resize((blocks * kBlock * numbers_ * size_ + sizeof(Line) - 1) / sizeof(Line));
-    }
+    void resize(std::int32_t contacts) { lines_.resize(lines_of(contacts)); }
+    void reserve(std::int32_t contacts) { lines_.reserve(lines_of(contacts)); }
 
     double get(std::int32_t contact, int k) const {
         return size_ == sizeof(float) ? read<float>(contact, k) : read<double>(contact, k);
@@ -47,6 +49,10 @@ class Histories {
     struct alignas(64) Line {
         std::byte bytes[64];
     };
+    std::size_t lines_of(std::int32_t contacts) const {
+        const std::size_t blocks = (contacts + kBlock - 1) / kBlock;
+        return (blocks * kBlock * numbers_ * size_ + sizeof(Line) - 1) / sizeof(Line);
+    }
     std::byte* bytes() { return reinterpret_cast<std::byte*>(lines_.data()); }
     const std::byte* bytes() const { return reinterpret_cast<const std::byte*>(lines_.data()); }
     std::size_t place(std::int32_t contact, int k) const {

@@ -14,6 +14,22 @@ const std::vector<std::int32_t>& put_in_order(Cells& cells, Grains& grains, doub
     return order;
 }
 
+void NeighbourList::append(const NeighbourList& more) {
+    const std::int32_t shift = start.back();
+    for (std::size_t i = 1; i < more.start.size(); ++i) start.push_back(more.start[i] + shift);
+    partner.insert(partner.end(), more.partner.begin(), more.partner.end());
+    farthest_partner = std::max(farthest_partner, more.farthest_partner);
+}
+
+namespace {
+
+void make_room(std::vector<std::int32_t>& partner, std::size_t wanted) {
+    if (wanted > partner.capacity()) partner.reserve(wanted + wanted / 16 + 1024);
+    partner.resize(partner.capacity());
+}
+
+}  // namespace
+
 void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
                 std::int32_t end, NeighbourList& part) {
     part.start.resize(end - begin + 1);
@@ -28,7 +44,7 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
                             [&](const std::int32_t* first, const std::int32_t* last) {
                                 if (level.rising && last[-1] <= i) return;
                                 if (part.partner.size() < count + (last - first))
-                                    part.partner.resize(2 * count + 64 + (last - first));
+                                    make_room(part.partner, count + (last - first));
                                 // Every candidate is written and the hits are kept: no branch to mispredict.
                                 std::int32_t* next = part.partner.data() + count;
                                 for (; first < last; ++first) {
@@ -50,20 +66,6 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
         for (std::int32_t at = part.start[i - begin]; at < part.start[i - begin + 1]; ++at)
             part.farthest_partner = std::max(part.farthest_partner, part.partner[at] - i);
     }
-}
-
-void join_lists(const std::vector<const NeighbourList*>& parts, NeighbourList& whole) {
-    whole.start.clear();
-    whole.partner.clear();
-    whole.farthest_partner = 0;
-    for (const NeighbourList* each : parts) {
-        const NeighbourList& part = *each;
-        const std::int32_t shift = static_cast<std::int32_t>(whole.partner.size());
-        for (std::size_t i = 0; i + 1 < part.start.size(); ++i) whole.start.push_back(part.start[i] + shift);
-        whole.farthest_partner = std::max(whole.farthest_partner, part.farthest_partner);
-        whole.partner.insert(whole.partner.end(), part.partner.begin(), part.partner.end());
-    }
-    whole.start.push_back(static_cast<std::int32_t>(whole.partner.size()));
 }
 
 void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,

@@ -17,6 +17,9 @@ struct NeighbourList {
     std::int32_t farthest_partner = 0;  // no partner's index is farther from i than this
 
     std::size_t size() const { return partner.size(); }
+    void clear() { start.assign(1, 0), partner.clear(), farthest_partner = 0; }
+    // The list of the grains after these.
+    void append(const NeighbourList& more);
 };
 
 struct WallNeighbour {
@@ -43,10 +46,9 @@ inline double nearest_image(double x, double period) {
 const std::vector<std::int32_t>& put_in_order(Cells& cells, Grains& grains, double skin, double period);
 
 // All want the grains in that order. They list under the grains [begin, end) only, list_pairs with a start
-// counting from 0 at `begin`; join_lists puts the parts of rising ranges together.
+// counting from 0 at `begin`.
 void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
                 std::int32_t end, NeighbourList& part);
-void join_lists(const std::vector<const NeighbourList*>& parts, NeighbourList& whole);
 void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,
                 std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
 

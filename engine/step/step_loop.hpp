@@ -93,8 +93,8 @@ class StepLoop {
         ContactPass contacts;
         WallState walls;
         std::vector<KeptContacts> leaving;  // for other threads, by group
-        NeighbourList part;                 // of the pair search
-        std::vector<WallNeighbour> walls_part;
+        NeighbourList pairs;                // its part of the search, where there are several threads
+        std::vector<WallNeighbour> walls_near;
         Reach reach;
         CostClock clock;
         Vec3 fastest{0, 0, 0};  // m/s, largest components of its grains against the bed's free flight
@@ -121,6 +121,7 @@ class StepLoop {
     double farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const;
     void set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame, double step) const;
     void rebuild(int member, const Pose& pose);
+    void join_lists();
     void note_listing(const Pose& pose);
     void share_out();
     ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,

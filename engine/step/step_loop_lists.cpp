@@ -15,16 +15,13 @@ void StepLoop::rebuild(int member, const Pose& pose) {
     const std::int64_t n = static_cast<std::int64_t>(grains_.size());
     const auto begin = static_cast<std::int32_t>(n * member / team_.size());
     const auto end = static_cast<std::int32_t>(n * (member + 1) / team_.size());
-    list_pairs(cells_, grains_, around_.skin, around_.period, begin, end, mine.part);
-    list_walls(grains_, around_.faces, pose, around_.skin, begin, end, mine.walls_part);
+    const bool alone = team_.size() == 1;  // then nothing need be joined
+    list_pairs(cells_, grains_, around_.skin, around_.period, begin, end, alone ? lists_.pairs : mine.pairs);
+    list_walls(grains_, around_.faces, pose, around_.skin, begin, end,
+               alone ? lists_.walls : mine.walls_near);
     team_.barrier();
     if (member == 0) {
-        std::vector<const NeighbourList*> parts;
-        for (const Member& m : members_) parts.push_back(&m.part);
-        join_lists(parts, lists_.pairs);
-        lists_.walls.clear();
-        for (const Member& m : members_)
-            lists_.walls.insert(lists_.walls.end(), m.walls_part.begin(), m.walls_part.end());
+        if (!alone) join_lists();
         note_listing(pose);
         share_out();
         ++rebuilds_;
@@ -35,6 +32,15 @@ void StepLoop::rebuild(int member, const Pose& pose) {
     mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
     for (const Member& m : members_) mine.contacts.take(member, m.leaving);
     mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
+}
+
+void StepLoop::join_lists() {
+    lists_.walls.clear();
+    lists_.pairs.clear();
+    for (const Member& m : members_) {
+        lists_.pairs.append(m.pairs);
+        lists_.walls.insert(lists_.walls.end(), m.walls_near.begin(), m.walls_near.end());
+    }
 }
 
 void StepLoop::note_listing(const Pose& pose) {
