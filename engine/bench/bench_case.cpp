@@ -22,6 +22,7 @@ BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k) {
         if (std::abs(face.normal.z()) < 0.5) face.point.head<2>() *= k;
     }
     const auto n = static_cast<std::int32_t>(grains.size());
+    whole.grains.reserve(grains.size() * k * k);
     const double first = -0.5 * (k - 1);
     for (int copy = 0; copy < k * k; ++copy) {
         const Vec3 shift(side * (first + copy % k), side * (first + copy / k), 0);

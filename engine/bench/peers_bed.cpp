@@ -95,6 +95,7 @@ PeersBed peers_bed(std::uint32_t seed, int small_count, int big_count, double si
 
 Grains peers_grains(const PeersBed& bed) {
     Grains grains;
+    grains.reserve(bed.small_ones.size() + bed.big_ones.size());
     const Vec3 corner(bed.side / 2, bed.side / 2, 0);
     std::int32_t id = 0;
     for (const Vec3& x : bed.small_ones) grains.add(id++, 0, x - corner, kPeersSmall / 2, bed.density);

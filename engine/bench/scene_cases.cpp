@@ -110,6 +110,7 @@ friction = 0.5)",
     const int across = static_cast<int>(wide / apart);
     const Vec3 centre(0, 0, big / 2 + 5 * apart);
     Random random(1, Stream::centres);
+    bed.grains.reserve(particles);
     bed.grains.add(0, 1, centre, big / 2, 2500);
     for (int site = 0; static_cast<int>(bed.grains.size()) < particles; ++site) {
         const Vec3 corner(-wide / 2, -wide / 2, 0);
@@ -141,6 +142,7 @@ stiffness = 1000)",
                        "");
     const int across = static_cast<int>(std::ceil(std::cbrt(particles)));
     Random random(1, Stream::centres);
+    bed.grains.reserve(particles);
     const auto speed = [&] { return random.between(-0.5, 0.5); };
     for (int site = 0; site < particles; ++site) {
         const Vec3 corner(-edge / 2, -edge / 2, 0);

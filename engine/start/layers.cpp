@@ -88,6 +88,7 @@ Grains place_in_layers(const Scene& scene) {
 
     Random diameters(scene.run.seed, Stream::diameters), centres(scene.run.seed, Stream::centres);
     Grains grains;
+    grains.reserve(scene.grains());
     std::int32_t id = 0;
     for (std::size_t s = 0; s < scene.species.size(); ++s) {
         const Species& species = scene.species[s];

@@ -28,6 +28,7 @@ Grains grains_from_table(const Scene& scene) {
              "is a table of grains and knows no clock; give a checkpoint, or set start.keep_clock = false");
     const Frame frame = read_grain_table(scene.start.file);
     Grains grains;
+    grains.reserve(frame.id.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const std::size_t s = static_cast<std::size_t>(frame.species[i]);
         if (s >= scene.species.size())

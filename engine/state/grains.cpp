@@ -7,6 +7,12 @@
 
 namespace grainreel {
 
+void Grains::reserve(std::size_t count) {
+    id.reserve(count), species.reserve(count);
+    place.reserve(count), motion.reserve(count), spin.reserve(count), load.reserve(count);
+    wall_work.reserve(count);
+}
+
 void Grains::add(std::int32_t grain_id, std::int32_t grain_species, const Vec3& position, double radius,
                  double density) {
     id.push_back(grain_id);

@@ -52,6 +52,8 @@ struct Grains {
 
     std::size_t size() const { return id.size(); }
 
+    // Room for so many.
+    void reserve(std::size_t count);
     // A grain at rest; density kg/m3.
     void add(std::int32_t grain_id, std::int32_t grain_species, const Vec3& position, double radius,
              double density);

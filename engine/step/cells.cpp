@@ -13,7 +13,7 @@ constexpr double kMostBoxesPerGrain = 8;  // an empty tall container must not co
 }  // namespace
 
 void Grid::lay(const std::vector<Place>& place, const std::vector<std::int32_t>& members, double width,
-               double period) {
+               const std::array<int, 3>& axes, double period) {
     const std::size_t n = members.size();
     Vec3 low = place[members[0]].position, high = low;
     for (const std::int32_t i : members) {
@@ -25,7 +25,9 @@ void Grid::lay(const std::vector<Place>& place, const std::vector<std::int32_t>&
         low.x() = -period / 2;
         high.x() = period / 2;
     }
-    const Vec3 size = high - low;
+    axes_ = axes;
+    const auto along = [&](const Vec3& v) { return Vec3(v[axes[0]], v[axes[1]], v[axes[2]]); };
+    const Vec3 size = along(high - low);
     const double most = kMostBoxesPerGrain * static_cast<double>(n) + 64;
     const auto boxes = [&](double w) {
         double product = 1;
@@ -37,9 +39,9 @@ void Grid::lay(const std::vector<Place>& place, const std::vector<std::int32_t>&
         count_[a] = std::max(1, static_cast<int>(size[a] / width));
         inverse_width_[a] = size[a] > 0 ? count_[a] / size[a] : 0.0;
     }
-    origin_ = low;
+    origin_ = along(low);
 
-    const std::int64_t total = index(0, 0, count_[2]);
+    const std::int64_t total = static_cast<std::int64_t>(count_[0]) * count_[1] * count_[2];
     start_.assign(total + 1, 0);
     box_.resize(n);
     for (std::size_t m = 0; m < n; ++m) {
@@ -54,8 +56,7 @@ void Grid::lay(const std::vector<Place>& place, const std::vector<std::int32_t>&
 
 std::int32_t Grid::box_of(const Vec3& position) const {
     std::array<int, 3> at{};
-    for (int a = 0; a < 3; ++a)
-        at[a] = std::clamp(box(position[a] - origin_[a], inverse_width_[a], a), 0, count_[a] - 1);
+    for (int a = 0; a < 3; ++a) at[a] = std::clamp(box(position[axes_[a]] - origin_[a], a), 0, count_[a] - 1);
     return static_cast<std::int32_t>(index(at[0], at[1], at[2]));
 }
 
@@ -79,17 +80,24 @@ void Cells::sort_into_levels(const std::vector<Place>& place) {
 const std::vector<std::int32_t>& Cells::order(const std::vector<Place>& place, double skin, double period) {
     sort_into_levels(place);
     const auto fewer = [](const Level& a, const Level& b) { return a.members.size() < b.members.size(); };
-    const Level& most = *std::max_element(levels_.begin(), levels_.end(), fewer);
-    everybody_.resize(place.size());
-    std::iota(everybody_.begin(), everybody_.end(), 0);
-    whole_.lay(place, everybody_, 2 * most.largest + skin, period);
-    return whole_.in_order();
+    Level& most = *std::max_element(levels_.begin(), levels_.end(), fewer);
+    most.members.resize(place.size());  // all of them, until lay()
+    std::iota(most.members.begin(), most.members.end(), 0);
+    axes_ = {0, 1, 2};
+    if (period == 0) {
+        Vec3 low = place[0].position, high = low;
+        for (const Place& p : place) low = low.cwiseMin(p.position), high = high.cwiseMax(p.position);
+        const Vec3 size = high - low;
+        std::stable_sort(axes_.begin(), axes_.end(), [&](int a, int b) { return size[a] < size[b]; });
+    }
+    most.grid.lay(place, most.members, 2 * most.largest + skin, axes_, period);
+    return order_ = most.grid.in_order();
 }
 
 void Cells::lay(const std::vector<Place>& place, double skin, double period) {
     sort_into_levels(place);
     for (Level& level : levels_) {
-        level.grid.lay(place, level.members, 2 * level.largest + skin, period);
+        level.grid.lay(place, level.members, 2 * level.largest + skin, axes_, period);
         level.rising = level.grid.in_order() == level.members;
     }
 }

@@ -16,11 +16,12 @@ namespace grainreel {
 class Grid {
   public:
     // Boxes over the members (indices of grains, rising) of edge >= width (m), at most a few for each of
-    // them: those of an empty tall container grow. `period` (m): of x, centred on 0; 0 for none.
+    // them: those of an empty tall container grow. `axes`: along which boxes follow each other, fastest
+    // first. `period` (m): of x, centred on 0, which is then the fastest; 0 for none.
     void lay(const std::vector<Place>& place, const std::vector<std::int32_t>& members, double width,
-             double period);
+             const std::array<int, 3>& axes, double period);
 
-    // The members by box, x fastest; within a box by rising index.
+    // The members by box; within a box by rising index.
     const std::vector<std::int32_t>& in_order() const { return in_order_; }
 
     // Calls each(first, last) for ranges that hold the members of all boxes within `reach` (m) of a place,
@@ -32,10 +33,10 @@ class Grid {
         const int last = count_[0] - 1;
         for (int row_z = std::max(z[0], 0); row_z <= std::min(z[1], count_[2] - 1); ++row_z) {
             for (int row_y = std::max(y[0], 0); row_y <= std::min(y[1], count_[1] - 1); ++row_y) {
+                const std::int64_t begin = index(0, row_y, row_z);
                 const auto row = [&](int from, int to) {
                     if (from > to) return;
-                    const std::int32_t first = start_[index(from, row_y, row_z)];
-                    const std::int32_t end = start_[index(to, row_y, row_z) + 1];
+                    const std::int32_t first = start_[begin + from], end = start_[begin + to + 1];
                     if (first < end) each(in_order_.data() + first, in_order_.data() + end);
                 };
                 if (periodic_ && x[1] - x[0] >= last) {
@@ -51,23 +52,31 @@ class Grid {
     }
 
   private:
-    // First and last box within `reach`; perhaps outside the grid, by at most one turn of a period.
-    std::array<int, 2> boxes(const Vec3& centre, double reach, int axis) const {
-        const double at = centre[axis] - origin_[axis], scale = inverse_width_[axis];
-        return {box(at - reach, scale, axis), box(at + reach, scale, axis)};
+    // First and last box within `reach` along the a-th axis; perhaps outside the grid, by at most one turn of
+    // a period.
+    std::array<int, 2> boxes(const Vec3& centre, double reach, int a) const {
+        const double at = centre[axes_[a]] - origin_[a];
+        return {box(at - reach, a), box(at + reach, a)};
     }
-    int box(double at, double scale, int axis) const {
-        const double count = count_[axis];
-        return static_cast<int>(std::clamp(at * scale + count, 0.0, 3 * count)) - count_[axis];
+    int box(double at, int a) const {
+        const double count = count_[a];
+        return static_cast<int>(std::clamp(at * inverse_width_[a] + count, 0.0, 3 * count)) - count_[a];
     }
     std::int32_t box_of(const Vec3& position) const;
+    // Rows of boxes along the fastest axis follow each other tile by tile of kTile x kTile rows, so that the
+    // rows around one are still in the processor's cache when they are wanted again.
+    static constexpr int kTile = 8;
     std::int64_t index(int x, int y, int z) const {
-        return (static_cast<std::int64_t>(z) * count_[1] + y) * count_[0] + x;
+        const int tile_y = y / kTile * kTile, tile_z = z / kTile * kTile;
+        const int wide = std::min(kTile, count_[1] - tile_y), high = std::min(kTile, count_[2] - tile_z);
+        const std::int64_t row = static_cast<std::int64_t>(tile_z) * count_[1] + tile_y * high +
+                                 (z - tile_z) * wide + (y - tile_y);
+        return row * count_[0] + x;
     }
 
-    Vec3 origin_{0, 0, 0};
-    Vec3 inverse_width_{0, 0, 0};
-    std::array<int, 3> count_{1, 1, 1};
+    std::array<int, 3> axes_{0, 1, 2};
+    Vec3 origin_{0, 0, 0}, inverse_width_{0, 0, 0};  // along these
+    std::array<int, 3> count_{1, 1, 1};              // likewise
     bool periodic_ = false;
     std::vector<std::int32_t> start_;  // first member of each box, and one past the last
     std::vector<std::int32_t> in_order_;
@@ -76,7 +85,9 @@ class Grid {
 
 class Cells {
   public:
-    // order[new] = old: grains sorted by the boxes of the most frequent size. m: skin, period as for Grid.
+    // order[new] = old: grains sorted by the boxes of the most frequent size, slowest along the bed's longest
+    // side, so that what touches lies close in memory and few contacts cross from thread to thread. m: skin,
+    // period as for Grid.
     const std::vector<std::int32_t>& order(const std::vector<Place>& place, double skin, double period);
 
     // The grids, for grains in that order.
@@ -94,8 +105,8 @@ class Cells {
     void sort_into_levels(const std::vector<Place>& place);
 
     std::vector<Level> levels_;  // those that have members
-    std::vector<std::int32_t> everybody_;
-    Grid whole_;
+    std::array<int, 3> axes_{0, 1, 2};
+    std::vector<std::int32_t> order_;
 };
 
 }  // namespace grainreel
