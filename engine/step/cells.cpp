@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace grainreel {
 
@@ -88,7 +89,8 @@ const std::vector<std::int32_t>& Cells::order(const std::vector<Place>& place, d
         Vec3 low = place[0].position, high = low;
         for (const Place& p : place) low = low.cwiseMin(p.position), high = high.cwiseMax(p.position);
         const Vec3 size = high - low;
-        std::stable_sort(axes_.begin(), axes_.end(), [&](int a, int b) { return size[a] < size[b]; });
+        std::sort(axes_.begin(), axes_.end(),
+                  [&](int a, int b) { return std::tuple(size[a], a) < std::tuple(size[b], b); });
     }
     most.grid.lay(place, most.members, 2 * most.largest + skin, axes_, period);
     return order_ = most.grid.in_order();

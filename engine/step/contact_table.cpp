@@ -16,6 +16,7 @@ void KeptContacts::append(const KeptContacts& more) {
 void ContactTable::shape(int history_size, std::size_t number_size) {
     *this = {};
     histories_.shape(history_size, number_size);
+    batches_.reserve(256);
 }
 
 // A contact without a history that is taken to touch.
@@ -42,6 +43,9 @@ void ContactTable::reserve(std::size_t room) {
     first_.reserve(room);
     second_.reserve(room);
     histories_.reserve(static_cast<std::int32_t>(room));
+    order_.reserve(room);
+    tail_.reserve(room);
+    touching_.reserve(room / 64 + 1);
 }
 
 // What stands behind the last contact repeats it, so that all that is read makes sense.

@@ -14,11 +14,14 @@ StepLoop::StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& g
       team_(team),
       rules_(plan, surroundings.period),
       scheme_(scheme_of(plan.integrator)),
-      members_(team.size()) {}
+      members_(team.size()),
+      skin_(surroundings.skin),
+      next_skin_(surroundings.skin) {}
 
 void StepLoop::restart() {
     const Pose rest = around_.motion.at(-1);
     CostClock idle;
+    skin_ = around_.skin;
     for (Member& m : members_) {
         m.contacts = {};
         m.reach = {};
@@ -26,7 +29,7 @@ void StepLoop::restart() {
     }
     team_.run([&](int member) {
         members_[member].walls.set(around_.faces, rest, rest, 0);
-        rebuild(member, rest);
+        rebuild(member, rest, kLastsWell);
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
         members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, idle);
@@ -45,7 +48,8 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
     }
     fresh_ = false;
     if (drag > 0) kicks.keep = std::exp(-drag * step / static_cast<double>(scheme_.stages.size()));
-    team_.run([&](int member) { run_member(member, from, from + count, step, kicks); });
+    const auto work = [&](int member) { run_member(member, from, from + count, step, kicks); };
+    team_.run(std::ref(work));  // by reference: no copy on the heap
     first_step_ = kGoesOn;
 }
 
@@ -149,7 +153,7 @@ void StepLoop::renew_contacts(int member, const Evaluation& at, double step, con
     mine.farthest = farthest_of(share_[member], share_[member + 1], drift);
     team_.barrier();
     if (lists_expired(mine, at.now, drift)) {
-        rebuild(member, at.now);
+        rebuild(member, at.now, at.time - listed_step_);
         if (member == 0) listed_step_ = at.time;
         mine.reach.drift.setZero();
     } else {
@@ -196,7 +200,7 @@ bool StepLoop::lists_expired(const Member& mine, const Pose& now, const Vec3& dr
     double moved = 0;
     for (const Member& m : members_) moved = std::max(moved, m.farthest);
     const double used = moved + std::max(moved, farthest_face(around_.faces, listed_pose_, now, drift));
-    return used + mine.reach.skin > around_.skin;
+    return used + mine.reach.skin > skin_;
 }
 
 double StepLoop::farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const {
@@ -215,7 +219,7 @@ void StepLoop::set_reach(Member& mine, const Pose& now, const Vec3& drift, const
     double wall = 0;
     for (const Face& face : around_.faces) wall = std::max(wall, (face.velocity_at(now) - frame).norm());
     const double wanted = kStepsPerRefresh * step * (reach.fastest + std::max(reach.fastest, wall));
-    reach.skin = std::clamp(wanted, kLeastShare * around_.skin, kMostShare * around_.skin);
+    reach.skin = std::clamp(wanted, kLeastShare * skin_, kMostShare * skin_);
     reach.moved = 0;
     reach.drift = drift;
     reach.pose = now;

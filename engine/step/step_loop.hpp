@@ -31,7 +31,7 @@ struct Surroundings {
     WallMotion motion;
     Vec3 gravity{0, 0, 0};  // m/s2
     double period = 0;      // m, of x; 0 for none
-    double skin = 0;        // m, of the neighbour lists
+    double skin = 0;        // m, of the first neighbour lists; later ones follow the motion
 };
 
 // One touching contact as an observer sees it.
@@ -120,7 +120,9 @@ class StepLoop {
     bool lists_expired(const Member& mine, const Pose& now, const Vec3& drift) const;
     double farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const;
     void set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame, double step) const;
-    void rebuild(int member, const Pose& pose);
+    void rebuild(int member, const Pose& pose, double lasted);
+    static constexpr double kLastsWell = 1000;  // steps, of lists whose skin is right
+    double skin_after(double lasted) const;
     void join_lists();
     void note_listing(const Pose& pose);
     void share_out();
@@ -146,6 +148,7 @@ class StepLoop {
     Vec3 listed_velocity_{0, 0, 0};
     Pose listed_pose_;
     double listed_step_ = 0;             // steps
+    double skin_, next_skin_;            // m, of the neighbour lists and of those in the making
     bool fresh_ = true;                  // restarted: the next run() says at which step the lists were made
     std::int64_t first_step_ = kGoesOn;  // of the first run after a restart: nothing moved before it
     static constexpr std::int64_t kGoesOn = std::numeric_limits<std::int64_t>::min();

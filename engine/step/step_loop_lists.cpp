@@ -1,13 +1,16 @@
 // The step loop's lists: made anew, refreshed, and histories handed over.
+#include <algorithm>
+
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 
 // New order, new neighbour lists, new contacts, histories carried over: called by all members.
-void StepLoop::rebuild(int member, const Pose& pose) {
+void StepLoop::rebuild(int member, const Pose& pose, double lasted) {
     Member& mine = members_[member];
     if (member == 0) {
-        const auto& order = put_in_order(cells_, grains_, around_.skin, around_.period);
+        next_skin_ = skin_after(lasted);  // skin_ may still be read by others
+        const auto& order = put_in_order(cells_, grains_, next_skin_, around_.period);
         new_index_.resize(order.size());
         for (std::size_t i = 0; i < order.size(); ++i) new_index_[order[i]] = static_cast<std::int32_t>(i);
     }
@@ -16,12 +19,12 @@ void StepLoop::rebuild(int member, const Pose& pose) {
     const auto begin = static_cast<std::int32_t>(n * member / team_.size());
     const auto end = static_cast<std::int32_t>(n * (member + 1) / team_.size());
     const bool alone = team_.size() == 1;  // then nothing need be joined
-    list_pairs(cells_, grains_, around_.skin, around_.period, begin, end, alone ? lists_.pairs : mine.pairs);
-    list_walls(grains_, around_.faces, pose, around_.skin, begin, end,
-               alone ? lists_.walls : mine.walls_near);
+    list_pairs(cells_, grains_, next_skin_, around_.period, begin, end, alone ? lists_.pairs : mine.pairs);
+    list_walls(grains_, around_.faces, pose, next_skin_, begin, end, alone ? lists_.walls : mine.walls_near);
     team_.barrier();
     if (member == 0) {
         if (!alone) join_lists();
+        skin_ = next_skin_;
         note_listing(pose);
         share_out();
         ++rebuilds_;
@@ -32,6 +35,16 @@ void StepLoop::rebuild(int member, const Pose& pose) {
     mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
     for (const Member& m : members_) mine.contacts.take(member, m.leaving);
     mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
+}
+
+// m. Lists that did not last get a wider skin, and such as lasted longer than it pays for a narrower one.
+// With a period the skin stays: pairs must not meet twice.
+double StepLoop::skin_after(double lasted) const {
+    constexpr double kShort = 300, kLong = 1500;  // steps
+    constexpr double kFactor = 1.25, kLeast = 0.5, kMost = 2.5;
+    if (around_.period > 0) return skin_;
+    const double factor = lasted < kShort ? kFactor : lasted > kLong ? 1 / kFactor : 1;
+    return std::clamp(factor * skin_, kLeast * around_.skin, kMost * around_.skin);
 }
 
 void StepLoop::join_lists() {

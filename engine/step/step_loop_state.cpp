@@ -90,6 +90,7 @@ void StepLoop::transfer(Loop& loop, Kept& kept, std::int32_t& steps, ReachType& 
     each(loop.lists_.pairs.farthest_partner);
     each(loop.lists_.walls);
     each(loop.listed_at_), each(loop.listed_velocity_), each(loop.listed_pose_), each(loop.listed_step_);
+    each(loop.skin_);
     each(reach);
 }
 

@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, GoldenHash,
                                          Golden{"bed10k-walton-braun", 400, Precision::full,
                                                 0x4606a3a1236b3d6f},
                                          Golden{"frictionless", 400, Precision::full, 0xcc093714738003fa},
-                                         Golden{"wedge", 405, Precision::full, 0x6bfaa50075cef767},
+                                         Golden{"wedge", 405, Precision::full, 0xeaf75e8d6a0898c6},
                                          Golden{"intruder", 400, Precision::full, 0x43591c57e4e882cc},
                                          Golden{"gas", 400, Precision::full, 0xf7597cbf9b117b9a}),
                          [](const auto& one) {
