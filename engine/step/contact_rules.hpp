@@ -23,7 +23,6 @@ struct ContactGroup {
     int history_size() const { return law->history_size + (rolling ? rolling->history_size : 0); }
     bool turns(int number) const;  // of the history: changes sign when the bodies change places
     bool needs_rows() const { return parameters.kinds > 1; }
-    bool needs_mass_or_radius() const { return law->uses_mass || law->uses_radius || rolling; }
 };
 
 struct ContactRules {
