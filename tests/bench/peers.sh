@@ -9,6 +9,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
 folder=${1:-$root/output/peers} rounds=${2:-3}
 build=${BUILD:-$root/build/release}
+source "$root/tests/peers/lammps_bed.sh"
 settle=${SETTLE:-60000} rise=10000 shake=20000 # steps
 peers=()
 for peer in lmp liggghts; do
@@ -24,23 +25,7 @@ mkdir -p "$folder"
 cd "$folder"
 "$build/tests/same_state" lattice 7 lattice.data
 
-cat > bed.lmp << END
-units si
-atom_style sphere
-boundary f f f
-newton off
-comm_modify vel yes
-read_data lattice.data
-neighbor 0.0002 bin
-neigh_modify delay 0 every 10 check yes
-pair_style gran/hooke/history 1000 285.7 2634 1317 0.5 1
-pair_coeff * *
-timestep 2e-6
-fix g all gravity 9.81 vector 0 0 -1
-fix xw all wall/gran hooke/history 1000 285.7 2634 1317 0.5 1 xplane 0 0.02
-fix yw all wall/gran hooke/history 1000 285.7 2634 1317 0.5 1 yplane 0 0.02
-fix zw all wall/gran hooke/history 1000 285.7 2634 1317 0.5 1 zplane 0 NULL
-fix i all nve/sphere
+{ lammps_bed lattice.data; cat << END; } > bed.lmp
 run $settle
 unfix zw
 fix zw all wall/gran hooke/history 1000 285.7 2634 1317 0.5 1 zplane 0 NULL wiggle z 0.00119 0.04

@@ -8,6 +8,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
 folder=${1:-$root/output/same_state} seeds=${2:-3}
+source "$root/tests/peers/lammps_bed.sh"
 build=${BUILD:-$root/build/release}
 command -v lmp > /dev/null || { echo "same_state: no lmp here; apt-get install lammps" >&2; exit 77; }
 cmake --build "$build" --target same_state > /dev/null
@@ -15,27 +16,6 @@ ours=$build/tests/same_state
 mkdir -p "$folder"
 cd "$folder"
 
-# The bed of data file $1 as input for LAMMPS.
-setup() {
-    cat << END
-units si
-atom_style sphere
-boundary f f f
-newton off
-comm_modify vel yes
-read_data $1
-neighbor 0.0002 bin
-neigh_modify delay 0 every 10 check yes
-pair_style gran/hooke/history 1000 285.7 2634 1317 0.5 1
-pair_coeff * *
-timestep 2e-6
-fix g all gravity 9.81 vector 0 0 -1
-fix xw all wall/gran hooke/history 1000 285.7 2634 1317 0.5 1 xplane 0 0.02
-fix yw all wall/gran hooke/history 1000 285.7 2634 1317 0.5 1 yplane 0 0.02
-fix zw all wall/gran hooke/history 1000 285.7 2634 1317 0.5 1 zplane 0 NULL
-fix i all nve/sphere
-END
-}
 run() {
     lmp -log none -screen none -in "$1" ||
         { echo "same_state: lmp failed on $folder/$1; run it by hand to see why" >&2; exit 1; }
@@ -43,11 +23,11 @@ run() {
 columns='id type x y z vx vy vz omegax omegay omegaz'
 
 "$ours" lattice 7 lattice.data
-{ setup lattice.data; echo "run 15000
+{ lammps_bed lattice.data; echo "run 15000
 write_dump all custom falling.dump $columns modify format float %.17g"; } > fall.lammps
 run fall.lammps
 "$ours" state falling.dump state.data
-{ setup state.data; echo "dump d all custom 20 run.dump $columns
+{ lammps_bed state.data; echo "dump d all custom 20 run.dump $columns
 dump_modify d format float %.17g
 run 400"; } > run.lammps
 run run.lammps
@@ -71,7 +51,7 @@ gnuplot divergence.gp || echo "same_state: gnuplot is missing, so no picture" >&
 echo "seed,lammps_height_m,lammps_contacts,our_height_m,our_contacts" > settled.csv
 for ((seed = 1; seed <= seeds; ++seed)); do
     "$ours" lattice "$seed" "lattice$seed.data"
-    { setup "lattice$seed.data"; echo "compute one all contact/atom
+    { lammps_bed "lattice$seed.data"; echo "compute one all contact/atom
 compute contacts all reduce ave c_one
 compute height all reduce ave z
 fix mean all ave/time 1000 10 60000 c_height c_contacts file settled$seed.txt
