@@ -1,7 +1,5 @@
 #include "engine/chart/driven_contact.hpp"
 
-#include <algorithm>
-
 #include "engine/chart/bench.hpp"
 
 namespace grainreel {
@@ -10,18 +8,20 @@ DrivenContact::DrivenContact(const PairPlan& pair)
     : law_(law_kernel(pair.model)), parameters_(law_.parameters({pair})) {
     history_.shape(law_.history_size, law_.number_size);
     history_.resize(1);
-    std::fill_n(touch_.effective_mass, kBlock, 0.5 * bench_mass());
-    std::fill_n(touch_.effective_radius, kBlock, 0.5 * bench_radius);
+    for (int c = 0; c < kBlock; ++c) {
+        touch_.inverse_mass.set(c, 2 / bench_mass(), law_.number_size);
+        touch_.effective_radius.set(c, 0.5 * bench_radius, law_.number_size);
+    }
 }
 
 void DrivenContact::move(const Move& move) {
     constexpr double step = 1;  // s, that turns slips into velocities; laws without a dashpot do not see it
     for (int axis = 0; axis < 3; ++axis) {
-        touch_.normal[axis][0] = move.normal[axis];
-        touch_.velocity[axis][0] = move.slip[axis] / step;
+        touch_.normal[axis].set(0, move.normal[axis], law_.number_size);
+        touch_.velocity[axis].set(0, move.slip[axis] / step, law_.number_size);
     }
-    touch_.overlap[0] = move.overlap;
-    touch_.twist[0] = move.twist;
+    touch_.overlap.set(0, move.overlap, law_.number_size);
+    touch_.twist.set(0, move.twist, law_.number_size);
     touch_.touching = 1;
     LawInput in{};
     in.count = 1;
@@ -30,6 +30,15 @@ void DrivenContact::move(const Move& move) {
     in.step = step;
     in.history_stride = law_.history_size;
     law_.step(in, history_.of_block(0), force_);
+}
+
+double DrivenContact::normal_force() const {
+    return force_.normal.get(0, law_.number_size);
+}
+
+Vec3 DrivenContact::tangential() const {
+    const auto along = [this](int axis) { return force_.tangential[axis].get(0, law_.number_size); };
+    return {along(0), along(1), along(2)};
 }
 
 }  // namespace grainreel

@@ -19,10 +19,8 @@ class DrivenContact {
     };
     void move(const Move& move);
 
-    double normal_force() const { return force_.normal[0]; }  // N
-    Vec3 tangential() const {                                 // N, on j
-        return {force_.tangential[0][0], force_.tangential[1][0], force_.tangential[2][0]};
-    }
+    double normal_force() const;  // N
+    Vec3 tangential() const;      // N, on j
 
   private:
     const LawKernel& law_;

@@ -26,11 +26,11 @@ HWY_INLINE Triple<R> carry_along(const Triple<R>& force, const Triple<R>& before
     const R t = R(0.5) * twist, t_squared = t * t;
     const R from_turn = R(2) - lost, from_twist = R(1) + t_squared;
     const R both = R(1) / (from_turn * from_twist);  // one division for the two
-    Triple<R> turned =
-        force - force * lost + axis.cross(force) + axis * (axis.dot(force) * (both * from_twist));
-    turned = turned - now * now.dot(turned);  // what round-off left along the normal
+    const Triple<R> tilted = force.less(force, lost) + axis.cross(force);
+    const Triple<R> turned = tilted.plus(axis, axis.dot(force) * (both * from_twist)).across(now);  // of
+    // which there was nothing along the normal but round-off
     const R scale = both * from_turn;
-    return turned * ((R(1) - t_squared) * scale) + now.cross(turned) * (R(2) * t * scale);
+    return (turned * ((R(1) - t_squared) * scale)).plus(now.cross(turned), R(2) * t * scale);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

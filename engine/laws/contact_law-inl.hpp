@@ -80,7 +80,7 @@ struct ContactLaw {
     template <class R>
     static HWY_INLINE Force<R> force(const Parameters<R>& p, History<R>& h, Touch<R> touch,
                                      const Triple<R>& velocity, R step, R ahead) {
-        if constexpr (rubs && !weighs_onset) touch.slip = across(velocity, touch.normal) * step;
+        if constexpr (rubs && !weighs_onset) touch.slip = velocity.across(touch.normal) * step;
         if constexpr (has_dashpot) {
             set_velocity(touch, later(velocity, h.before.velocity, ahead));
             slow_down(touch, p.normal, h.before.force, ahead * step);
@@ -90,7 +90,7 @@ struct ContactLaw {
         }
         if constexpr (uses_velocity) touch.step = step;
         if constexpr (weighs_onset) {
-            touch.slip = across(velocity, touch.normal) * Normal::touched(h.normal, touch);
+            touch.slip = velocity.across(touch.normal) * Normal::touched(h.normal, touch);
             const R over_the_step = Normal::force(p.normal, h.normal, touch);
             const R spring = Normal::now(p.normal, h.normal, touch);
             const R acts = select(spring > R(0), over_the_step / spring, R(0));
@@ -127,33 +127,28 @@ struct ContactLaw {
     }
 
   private:
-    template <class R>
-    static HWY_INLINE Triple<R> across(const Triple<R>& velocity, const Triple<R>& normal) {
-        return velocity - normal * normal.dot(velocity);
-    }
-
     // Dashpots want the velocity at the time of the force, with Verlet half a step ahead of the known one: it
     // goes on as it changed over the last step. For free grains this is the half kick of the old force,
     // exactly. Nothing is known of a new contact, and it keeps its velocity.
     template <class R>
     static HWY_INLINE Triple<R> later(const Triple<R>& velocity, const Triple<R>& before, R ahead) {
         const auto known = before.squared() > R(0);
-        return velocity + select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}) * ahead;
+        return velocity.plus(select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}), ahead);
     }
 
     // ... but the contact's own force has changed since, and slows the bodies by that over `time`. As the
     // force depends on the velocity, so this on itself; the dashpot being linear, it can be solved for.
     template <class R, class P>
     static HWY_INLINE void slow_down(Touch<R>& touch, const P& p, R force_before, R time) {
-        const R mass = touch.effective_mass, elastic = Normal::spring_force(p, touch) - force_before;
-        touch.closing_speed =
-            (mass * touch.closing_speed - time * elastic) / (mass + time * p.normal_damping(touch));
+        const R elastic = Normal::spring_force(p, touch) - force_before;
+        touch.closing_speed = less_product(touch.closing_speed, time * elastic, touch.inverse_mass) *
+                              (R(1) / (R(1) + time * p.damping_rate(touch)));
     }
 
     template <class R>
     static HWY_INLINE void set_velocity(Touch<R>& touch, const Triple<R>& velocity) {
         touch.closing_speed = touch.normal.dot(velocity);
-        touch.slip_velocity = velocity - touch.normal * touch.closing_speed;
+        touch.slip_velocity = velocity.less(touch.normal, touch.closing_speed);
     }
 };
 

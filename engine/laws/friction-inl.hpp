@@ -21,7 +21,6 @@ template <class R>
 HWY_INLINE Triple<R> capped_at(const Triple<R>& force, R limit) {
     const R squared = force.squared();
     const auto slides = squared > limit * limit;
-    if (none(slides)) return force;
     const Triple<R> shortened = force * (limit / root(squared));
     return select(slides, shortened, force);
 }

@@ -37,9 +37,12 @@ struct Hertz {
         HWY_INLINE R tangent_stiffness(const Touch<R>& touch) const {
             return R(1.5) * modulus * contact_radius(touch);
         }
-        // kg/s, of the dashpots.
+        // kg/s, of the dashpots, and 1/s, of the first by mass.
         HWY_INLINE R normal_damping(const Touch<R>& touch) const {
             return damping * root(touch.effective_mass * modulus * contact_radius(touch));
+        }
+        HWY_INLINE R damping_rate(const Touch<R>& touch) const {
+            return normal_damping(touch) * touch.inverse_mass;
         }
         HWY_INLINE R sideways_damping(const Touch<R>& touch) const {
             return sideways_share * normal_damping(touch);
@@ -67,7 +70,8 @@ struct Hertz {
     }
     template <class R>
     static HWY_INLINE R now(const Parameters<R>& p, const History<R>&, const Touch<R>& touch) {
-        return larger(p.lowest, spring_force(p, touch) + p.normal_damping(touch) * touch.closing_speed);
+        return larger(p.lowest,
+                      multiply_add(p.normal_damping(touch), touch.closing_speed, spring_force(p, touch)));
     }
     template <class R>
     static HWY_INLINE R spring_force(const Parameters<R>& p, const Touch<R>& touch) {

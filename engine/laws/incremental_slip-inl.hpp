@@ -78,7 +78,7 @@ struct IncrementalSlip {
 
         note_turning(h, along, old_size);
         const R parallel = old_size + p.stiffness * softening(p, h, old_size, limit) * along;
-        const Triple<R> now = direction * parallel + (touch.slip - direction * along) * p.stiffness;
+        const Triple<R> now = (direction * parallel).plus(touch.slip.less(direction, along), p.stiffness);
         const auto through_zero = parallel < R(0);  // the direction flips, and what shrank now grows
         h.turning_force = select(through_zero, -h.turning_force, h.turning_force);
         h.shrinking = select(through_zero, R(0), h.shrinking);

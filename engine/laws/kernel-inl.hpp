@@ -84,59 +84,71 @@ HWY_INLINE typename Law::template Parameters<L> parameters_at(const LawInput& in
     return p;
 }
 
-template <class L>
-HWY_INLINE Triple<L> triple_at(const double (*from)[kChunk], int c) {
-    return {load_as<L>(from[0] + c), load_as<L>(from[1] + c), load_as<L>(from[2] + c)};
+// Rows hold Numbers: those of L in steps, doubles for observers.
+template <class L, class Number>
+HWY_INLINE L row_at(const Row& from, int c) {
+    return load_as<L>(from.of<Number>() + c);
+}
+template <class L, class Number>
+HWY_INLINE Triple<L> triple_at(const Row* from, int c) {
+    return {row_at<L, Number>(from[0], c), row_at<L, Number>(from[1], c), row_at<L, Number>(from[2], c)};
 }
 
-template <class L>
-HWY_INLINE void put_where(typename L::Mask which, const Triple<L>& t, double (*to)[kChunk], int c) {
-    store_as(select(which, t.x, L(0.0)), to[0] + c);
-    store_as(select(which, t.y, L(0.0)), to[1] + c);
-    store_as(select(which, t.z, L(0.0)), to[2] + c);
+template <class Number, class L>
+HWY_INLINE void put_where(typename L::Mask which, L value, Row& to, int c) {
+    store_as(select(which, value, L(0.0)), to.of<Number>() + c);
+}
+template <class Number, class L>
+HWY_INLINE void put_where(typename L::Mask which, const Triple<L>& t, Row* to, int c) {
+    put_where<Number>(which, t.x, to[0], c);
+    put_where<Number>(which, t.y, to[1], c);
+    put_where<Number>(which, t.z, to[2], c);
 }
 
-template <class L>
+template <class L, class Number>
 HWY_INLINE typename L::Mask touching_at(const LawInput& in, int c) {
-    return load_as<L>(in.touch->overlap + c) > L(0.0);
+    return row_at<L, Number>(in.touch->overlap, c) > L(0.0);
 }
 
-template <class Law, class L>
+template <class Law, class L, class Number>
 HWY_INLINE Touch<L> touch_at(const LawInput& in, int c) {
     const TouchChunk& chunk = *in.touch;
     Touch<L> t;
-    t.normal = triple_at<L>(chunk.normal, c);
-    t.overlap = load_as<L>(chunk.overlap + c);
+    t.normal = triple_at<L, Number>(chunk.normal, c);
+    t.overlap = row_at<L, Number>(chunk.overlap, c);
     t.twist = L(0.0);
-    if constexpr (Law::rubs) t.twist = load_as<L>(chunk.twist + c);
-    t.effective_mass = t.effective_radius = L(0.0);
-    if constexpr (Law::uses_mass) t.effective_mass = load_as<L>(chunk.effective_mass + c);
-    if constexpr (Law::uses_radius) t.effective_radius = load_as<L>(chunk.effective_radius + c);
+    if constexpr (Law::rubs) t.twist = row_at<L, Number>(chunk.twist, c);
+    t.inverse_mass = t.effective_mass = t.effective_radius = L(0.0);
+    if constexpr (Law::uses_mass) {
+        t.inverse_mass = row_at<L, Number>(chunk.inverse_mass, c);
+        t.effective_mass = L(1.0) / t.inverse_mass;
+    }
+    if constexpr (Law::uses_radius) t.effective_radius = row_at<L, Number>(chunk.effective_radius, c);
     t.closing_speed = t.step = L(0.0);
     t.slip = t.slip_velocity = {L(0.0), L(0.0), L(0.0)};
     return t;
 }
 
-template <class Law, class L>
+template <class Law, class L, class Number>
 HWY_INLINE Triple<L> velocity_at(const LawInput& in, int c) {
     if constexpr (Law::rubs || Law::uses_velocity) {
-        return triple_at<L>(in.touch->velocity, c);
+        return triple_at<L, Number>(in.touch->velocity, c);
     } else {
         return {L(0.0), L(0.0), L(0.0)};
     }
 }
 
-template <class Law, class L, class Force>
+template <class Law, class L, class Number, class Force>
 HWY_INLINE void put_force(typename L::Mask touching, const Force& f, int c, ForceChunk& out) {
-    store_as(select(touching, f.normal, L(0.0)), out.normal + c);
-    if constexpr (Law::rubs) put_where(touching, f.tangential, out.tangential, c);
+    put_where<Number>(touching, f.normal, out.normal, c);
+    if constexpr (Law::rubs) put_where<Number>(touching, f.tangential, out.tangential, c);
 }
 
 template <class Law, class L>
 HWY_INLINE void put_nothing(int c, ForceChunk& out) {
-    store_as(L(0.0), out.normal + c);
+    store(L(0.0), out.normal.of<NumberOf<L>>() + c);
     if constexpr (Law::rubs) {
-        for (auto& axis : out.tangential) store_as(L(0.0), axis + c);
+        for (Row& axis : out.tangential) store(L(0.0), axis.of<NumberOf<L>>() + c);
     }
 }
 
@@ -150,6 +162,7 @@ const LawKernel& kernel_of();
 
 template <class Law, class L, bool one_kind>
 void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
+    using Number = NumberOf<L>;
     const std::size_t size = kernel_of<Law, L>().history_size;
     typename Law::template Parameters<L> p;
     if constexpr (one_kind) p.each(SameParameters<L>(*in.parameters));
@@ -161,13 +174,14 @@ void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
             for (std::size_t k = 0; k < size; ++k) store(L(0.0), kept + k * kBlock);
             continue;
         }
-        const auto touching = touching_at<L>(in, c);
+        const auto touching = touching_at<L, Number>(in, c);
         if constexpr (!one_kind) p = parameters_at<Law, L>(in, c);
         typename Law::template History<L> h;
         h.each(LoadHistory<L>(kept));
-        const auto force = Law::force(p, h, touch_at<Law, L>(in, c), velocity_at<Law, L>(in, c), step, ahead);
+        const auto force = Law::force(p, h, touch_at<Law, L, Number>(in, c),
+                                      velocity_at<Law, L, Number>(in, c), step, ahead);
         h.each(StoreHistory<L>(touching, kept));
-        put_force<Law, L>(touching, force, c, out);
+        put_force<Law, L, Number>(touching, force, c, out);
     }
 }
 
@@ -191,13 +205,13 @@ template <class Law, class L>
 void observe_chunk(const LawInput& in, const void* history, ForceChunk& out, EnergyChunk& energy) {
     const auto* numbers = static_cast<const NumberOf<L>*>(history);
     for (int c = 0; c < in.count; c += L::count) {
-        const auto touching = touching_at<L>(in, c);
+        const auto touching = touching_at<L, double>(in, c);
         typename Law::template History<L> h;
         h.each(LoadHistory<L>(numbers + place_in_history(c, in.history_stride)));
         Energies<L> e;
-        const auto force =
-            Law::now(parameters_at<Law, L>(in, c), h, touch_at<Law, L>(in, c), velocity_at<Law, L>(in, c), e);
-        put_force<Law, L>(touching, force, c, out);
+        const auto force = Law::now(parameters_at<Law, L>(in, c), h, touch_at<Law, L, double>(in, c),
+                                    velocity_at<Law, L, double>(in, c), e);
+        put_force<Law, L, double>(touching, force, c, out);
         put_energies(touching, e, c, energy);
     }
 }

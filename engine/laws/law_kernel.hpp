@@ -51,9 +51,10 @@ struct LawKernel {
     LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
 
     // `history`: in blocks of kBlock contacts, within a block number by number. Zeroed where nothing touches.
+    // Chunks hold numbers of number_size.
     void (*step)(const LawInput& in, void* history, ForceChunk& out);
-    // Forces and energies as they stand, without a step; velocities are those of now. Resistance to rolling
-    // adds to the energies of its law.
+    // Forces and energies as they stand, without a step; velocities are those of now. Chunks hold doubles.
+    // Resistance to rolling adds to the energies of its law.
     void (*observe)(const LawInput& in, const void* history, ForceChunk& out, EnergyChunk& energy);
 };
 

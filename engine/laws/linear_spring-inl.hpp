@@ -51,7 +51,7 @@ struct LinearSpring {
                                       const Touch<R>& touch, R normal_force) {
         h.spring_force = carry_along(h.spring_force, h.normal, touch.normal, touch.twist);
         h.normal = touch.normal;
-        h.spring_force += touch.slip * p.stiffness;
+        h.spring_force = h.spring_force.plus(touch.slip, p.stiffness);
         const Triple<R> damping = dashpot(normal, touch);
         const Triple<R> whole = h.spring_force + damping;
         const Triple<R> capped = capped_at(whole, p.friction * size_of(normal_force));

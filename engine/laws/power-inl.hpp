@@ -48,8 +48,9 @@ HWY_INLINE T guess_inverse_cube_root(T x) {
 template <class R>
 HWY_INLINE R cube_root(R x) {
     constexpr int rounds = sizeof(NumberOf<R>) == sizeof(double) ? 4 : 3;
+    const R third = x * R(1.0 / 3.0);
     R r = guess_inverse_cube_root(x);
-    for (int k = 0; k < rounds; ++k) r *= R(4.0 / 3.0) - x * (r * r * r) * R(1.0 / 3.0);
+    for (int k = 0; k < rounds; ++k) r *= less_product(R(4.0 / 3.0), third, r * r * r);
     const R y = x * r * r;
     return select(x > R(1e-30), y, R(0));
 }

@@ -15,18 +15,19 @@ namespace grainreel::HWY_NAMESPACE {
 
 template <class L>
 void step_rolling(const LawInput& in, void* history, ForceChunk& out) {
+    using Number = NumberOf<L>;
     for (int c = 0; c < in.count; c += L::count) {
-        NumberOf<L>* kept = static_cast<NumberOf<L>*>(history) + place_in_history(c, in.history_stride);
-        const auto touching = touching_at<L>(in, c);
+        Number* kept = static_cast<Number*>(history) + place_in_history(c, in.history_stride);
+        const auto touching = touching_at<L, Number>(in, c);
         RollingSpring::History<L> h;
         h.each(LoadHistory<L>(kept));
-        const Triple<L> angle = triple_at<L>(in.rolling->rate, c) * L(in.step);
-        const Triple<L> torque =
-            RollingSpring::torque(parameters_at<RollingSpring, L>(in, c), h,
-                                  triple_at<L>(in.touch->normal, c), load_as<L>(in.touch->twist + c), angle,
-                                  load_as<L>(in.touch->effective_radius + c), load_as<L>(out.normal + c));
+        const Triple<L> angle = triple_at<L, Number>(in.rolling->rate, c) * L(in.step);
+        const Triple<L> torque = RollingSpring::torque(
+            parameters_at<RollingSpring, L>(in, c), h, triple_at<L, Number>(in.touch->normal, c),
+            row_at<L, Number>(in.touch->twist, c), angle, row_at<L, Number>(in.touch->effective_radius, c),
+            row_at<L, Number>(out.normal, c));
         h.each(StoreHistory<L>(touching, kept));
-        put_where(touching, torque, in.rolling->torque, c);
+        put_where<Number>(touching, torque, in.rolling->torque, c);
     }
 }
 
@@ -39,13 +40,13 @@ template <class L>
 void observe_rolling(const LawInput& in, const void* history, ForceChunk&, EnergyChunk& energy) {
     const auto* numbers = static_cast<const NumberOf<L>*>(history);
     for (int c = 0; c < in.count; c += L::count) {
-        const auto touching = touching_at<L>(in, c);
+        const auto touching = touching_at<L, double>(in, c);
         RollingSpring::History<L> h;
         h.each(LoadHistory<L>(numbers + place_in_history(c, in.history_stride)));
         const L stored = RollingSpring::stored_energy(parameters_at<RollingSpring, L>(in, c), h,
-                                                      load_as<L>(in.touch->effective_radius + c));
-        const L power = h.torque.dot(triple_at<L>(in.rolling->rate, c));
-        put_where(touching, h.torque, in.rolling->torque, c);
+                                                      row_at<L, double>(in.touch->effective_radius, c));
+        const L power = h.torque.dot(triple_at<L, double>(in.rolling->rate, c));
+        put_where<double>(touching, h.torque, in.rolling->torque, c);
         add_where(touching, stored, energy.stored + c);
         add_where(touching, stored, energy.sideways + c);
         add_where(touching, power, energy.rubbing + c);

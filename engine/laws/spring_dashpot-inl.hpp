@@ -32,8 +32,9 @@ struct SpringDashpot {
         HWY_INLINE void each(const Each& visit) {
             visit(stiffness), visit(damping), visit(tangential_damping), visit(lowest);
         }
-        // kg/s, of the dashpots.
+        // kg/s, of the dashpots, and 1/s, of the first by mass.
         HWY_INLINE R normal_damping(const Touch<R>& touch) const { return damping * touch.effective_mass; }
+        HWY_INLINE R damping_rate(const Touch<R>&) const { return damping; }
         HWY_INLINE R sideways_damping(const Touch<R>& touch) const {
             return tangential_damping * touch.effective_mass;
         }
@@ -56,7 +57,8 @@ struct SpringDashpot {
     }
     template <class R>
     static HWY_INLINE R now(const Parameters<R>& p, const History<R>&, const Touch<R>& touch) {
-        return larger(p.lowest, spring_force(p, touch) + p.normal_damping(touch) * touch.closing_speed);
+        return larger(p.lowest,
+                      multiply_add(p.normal_damping(touch), touch.closing_speed, spring_force(p, touch)));
     }
     template <class R>
     static HWY_INLINE R spring_force(const Parameters<R>& p, const Touch<R>& touch) {

@@ -16,7 +16,8 @@ template <class R>
 struct Touch {
     Triple<R> normal;    // unit k, from grain i to grain j, or from the grain to the wall
     R overlap;           // m, > 0
-    R effective_mass;    // kg; set only for laws that use it
+    R inverse_mass;      // 1/kg, of the effective mass; set only for laws that use it
+    R effective_mass;    // kg; likewise
     R effective_radius;  // m; likewise
     R closing_speed;     // m/s, k . (v_i - v_j), > 0 when approaching; set only for laws that use velocity
     Triple<R> slip;      // m, of i over j at the contact during this step; set only for laws that rub

@@ -2,24 +2,55 @@
 // that a register takes several at once.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace grainreel {
 
-constexpr int kBlock = 8;   // histories are kept in blocks of 8 contacts
+constexpr int kBlock = 16;  // histories are kept in blocks of 16 contacts
 constexpr int kChunk = 64;  // contacts
 
+// A number of each contact: doubles, or floats on the way through a law of mixed precision.
+union alignas(64) Row {
+    double doubles[kChunk] = {};
+    float floats[kChunk];
+
+    template <class Number>
+    Number* of() {
+        if constexpr (std::is_same_v<Number, float>)
+            return floats;
+        else
+            return doubles;
+    }
+    template <class Number>
+    const Number* of() const {
+        return const_cast<Row*>(this)->of<Number>();
+    }
+    double operator[](int c) const { return doubles[c]; }  // for observers, who get doubles
+    // Number by number, where either may be held.
+    double get(int c, std::size_t number_size) const {
+        return number_size == sizeof(float) ? floats[c] : doubles[c];
+    }
+    void set(int c, double value, std::size_t number_size) {
+        if (number_size == sizeof(float))
+            floats[c] = static_cast<float>(value);
+        else
+            doubles[c] = value;
+    }
+};
+
 // What geometry and motion say of each contact; see Touch for the meaning. Only what the law asks for is set.
-struct alignas(64) TouchChunk {
-    double normal[3][kChunk] = {};
-    double overlap[kChunk] = {};                             // m
-    double velocity[3][kChunk] = {};                         // m/s, of i's surface against j's
-    double twist[kChunk] = {};                               // rad
-    double first_arm[kChunk] = {}, second_arm[kChunk] = {};  // m, from the centres to where T acts
-    double inverse_distance[kChunk] = {};                    // 1/m, of the centres of a pair
-    double effective_mass[kChunk] = {};                      // kg
-    double effective_radius[kChunk] = {};                    // m
-    std::uint64_t touching = 0;  // a bit a contact: overlap > 0. Last: it would shift the arrays
+struct TouchChunk {
+    Row normal[3];
+    Row overlap;                 // m
+    Row velocity[3];             // m/s, of i's surface against j's
+    Row twist;                   // rad
+    Row first_arm, second_arm;   // m, from the centres to where T acts
+    Row inverse_distance;        // 1/m, of the centres of a pair
+    Row inverse_mass;            // 1/kg, of the effective mass
+    Row effective_radius;        // m
+    std::uint64_t touching = 0;  // a bit a contact: overlap > 0
 
     // Of `count` contacts from c on.
     bool any_touching(int c, int count) const {
@@ -29,9 +60,9 @@ struct alignas(64) TouchChunk {
 static_assert(kChunk == 64, "a bit for each contact");
 
 // What the law answers; zero where they do not touch.
-struct alignas(64) ForceChunk {
-    double normal[kChunk] = {};         // N, on j along k
-    double tangential[3][kChunk] = {};  // N, on j
+struct ForceChunk {
+    Row normal;         // N, on j along k
+    Row tangential[3];  // N, on j
 };
 
 // What observers are told of each contact's energy; see Energies for the meaning.
@@ -41,9 +72,9 @@ struct alignas(64) EnergyChunk {
 };
 
 // Of contacts that resist rolling: their motion, and the answer.
-struct alignas(64) RollingChunk {
-    double rate[3][kChunk] = {};    // rad/s, spin of i against j, across k
-    double torque[3][kChunk] = {};  // N m, on j, the opposite on i
+struct RollingChunk {
+    Row rate[3];    // rad/s, spin of i against j, across k
+    Row torque[3];  // N m, on j, the opposite on i
 };
 
 }  // namespace grainreel

@@ -23,6 +23,13 @@ struct alignas(32) Spin {
     double inverse_inertia;  // 1/(kg m2)
 };
 
+// What mixed precision reads of a grain's motion: kept by the step loop, against a frame in free flight, so
+// that little is lost by rounding.
+struct alignas(32) RoundedMotion {
+    float velocity[3], inverse_mass;  // m/s, 1/kg
+    float rate[3], zero;              // rad/s
+};
+
 // Force and torque of the last evaluation, gravity left out.
 struct alignas(64) Load {
     Vec3 force{0, 0, 0};  // N
@@ -44,6 +51,7 @@ struct Grains {
     std::vector<Motion> motion;
     std::vector<Spin> spin;  // kept, but at rest and unread, in scenes without friction
     std::vector<Load> load;
+    std::vector<RoundedMotion> rounded;    // empty unless a law wants it
     std::vector<double> wall_work;         // J, done by moving walls on this grain since the drive started
     std::vector<Quaternion> orientation;   // empty unless asked for
     std::vector<Derivatives> derivatives;  // empty unless the integrator has them

@@ -14,12 +14,26 @@ HWY_INLINE const double* numbers(const std::vector<Record>& records) {
     return reinterpret_cast<const double*>(records.data());
 }
 
-HWY_INLINE void put(const Triple<Lanes>& t, double (*to)[kChunk], int c) {
-    store(t.x, to[0] + c), store(t.y, to[1] + c), store(t.z, to[2] + c);
+template <class Number, class L>
+HWY_INLINE void put(L value, Row& to, int c) {
+    store_as(value, to.of<Number>() + c);
+}
+template <class Number, class L>
+HWY_INLINE void put(const Triple<L>& t, Row* to, int c) {
+    put<Number>(t.x, to[0], c), put<Number>(t.y, to[1], c), put<Number>(t.z, to[2], c);
+}
+template <class L>
+HWY_INLINE L get(const Row& from, int c) {
+    return load<L>(from.of<NumberOf<L>>() + c);
+}
+template <class L>
+HWY_INLINE Triple<L> get(const Row* from, int c) {
+    return {get<L>(from[0], c), get<L>(from[1], c), get<L>(from[2], c)};
 }
 
-HWY_INLINE Triple<Lanes> triple(const Four<Doubles>& f) {
-    return {Lanes(f.a), Lanes(f.b), Lanes(f.c)};
+template <class D>
+HWY_INLINE Triple<LanesOf<D>> triple(const Four<D>& f) {
+    return {LanesOf<D>(f.a), LanesOf<D>(f.b), LanesOf<D>(f.c)};
 }
 
 HWY_INLINE Lanes nearest(Lanes x, Lanes period) {
@@ -32,9 +46,10 @@ HWY_INLINE Lanes nearest(Lanes x, Lanes period) {
 // the step, k that of its end. In the middle it was k + change: the velocity is taken with that and given
 // with k in its place, or a pair that turns as one body would slip by its angle a step (Vyas et al., Comput.
 // Phys. Commun. 310, 109524: time levels).
-HWY_INLINE Triple<Lanes> of_surfaces(const Triple<Lanes>& velocity, const Triple<Lanes>& spins,
-                                     const Triple<Lanes>& k, const Triple<Lanes>& change) {
-    return velocity - change * k.dot(velocity) + spins.cross(k + change);
+template <class L>
+HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spins, const Triple<L>& k,
+                                 const Triple<L>& change) {
+    return velocity.less(change, k.dot(velocity)) + spins.cross(k + change);
 }
 
 std::uint64_t pairs_that_touch(const Grains& grains, const std::int32_t* i, const std::int32_t* j, int count,
@@ -51,74 +66,107 @@ std::uint64_t pairs_that_touch(const Grains& grains, const std::int32_t* i, cons
     return touching;
 }
 
-HWY_INLINE Triple<Lanes> triple_at(const double (*from)[kChunk], int c) {
-    return {load(from[0] + c), load(from[1] + c), load(from[2] + c)};
-}
-
 // A chunk goes through in sweeps, as many as its law wants: places, velocities, spins. (One sweep for all was
-// no faster.)
+// no faster.) Lengths between places are taken as doubles, the rest as L.
+//
+// Distances, for now where inverse distances and normals will be, and overlaps.
+template <class L>
 void sweep_places(const GeometryInput& in, double period, TouchChunk& out) {
+    using Number = NumberOf<L>;
     const double* place = numbers(in.grains->place);
     out.touching = 0;
     for (int c = 0; c < in.count; c += kLanes) {
         const auto one = load_records(place, 4, in.first + c), two = load_records(place, 4, in.second + c);
         Triple<Lanes> apart = triple(two) - triple(one);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
-        const Lanes radius_one(one.d), radius_two(two.d), squared = apart.squared();
-        const Lanes distance = root(squared), overlap = radius_one + radius_two - distance;
-        const Lanes inverse_distance = distance * (Lanes(1.0) / squared);  // need not wait for the root
-        store(overlap, out.overlap + c);
+        const Lanes radius_one(one.d), radius_two(two.d), distance = root(apart.squared());
+        const Lanes overlap = radius_one + radius_two - distance;
         out.touching |= bits(overlap > Lanes(0.0)) << c;
-        put(apart * inverse_distance, out.normal, c);
-        if (in.radius)
-            store(Lanes(1.0) / (Lanes(1.0) / radius_one + Lanes(1.0) / radius_two), out.effective_radius + c);
+        put<Number>(overlap, out.overlap, c);
+        put<Number>(apart, out.normal, c);
+        put<Number>(distance, out.inverse_distance, c);
+        if (in.radius) {
+            const Lanes inverse = Lanes(1.0) / radius_one + Lanes(1.0) / radius_two;
+            put<Number>(Lanes(1.0) / inverse, out.effective_radius, c);
+        }
         if (in.wants < Wants::spin) continue;
-        // Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is
-        // what keeps angular momentum. The original program took the radii.
-        Lanes first_arm = radius_one, second_arm = radius_two;
-        if (in.arms == LeverArms::contact_plane) {
-            first_arm = Lanes(0.5) *
-                        (distance + (radius_one - radius_two) * (radius_one + radius_two) * inverse_distance);
-            second_arm = distance - first_arm;
-        }
-        store(first_arm, out.first_arm + c);
-        store(second_arm, out.second_arm + c);
-        store(inverse_distance, out.inverse_distance + c);
+        put<Number>(radius_one, out.first_arm, c);
+        put<Number>(radius_two, out.second_arm, c);
     }
 }
 
+// Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is what
+// keeps angular momentum. The original program took the radii.
+template <class L>
+void sweep_distances(const GeometryInput& in, TouchChunk& out) {
+    using Number = NumberOf<L>;
+    const bool arms = in.wants >= Wants::spin && in.arms == LeverArms::contact_plane;
+    for (int c = 0; c < in.count; c += L::count) {
+        const L distance = get<L>(out.inverse_distance, c), inverse = L(1.0) / distance;
+        put<Number>(get<L>(out.normal, c) * inverse, out.normal, c);
+        put<Number>(inverse, out.inverse_distance, c);
+        if (!arms) continue;
+        const L one = get<L>(out.first_arm, c), two = get<L>(out.second_arm, c);
+        const L first_arm = L(0.5) * multiply_add((one - two) * (one + two), inverse, distance);
+        put<Number>(first_arm, out.first_arm, c);
+        put<Number>(distance - first_arm, out.second_arm, c);
+    }
+}
+
+// Velocities and spins of grains, numbers of L.
+template <class L>
+HWY_INLINE Four<typename L::Tag> velocities_of(const Grains& grains, const std::int32_t* index) {
+    if constexpr (std::is_same_v<L, Lanes>)
+        return load_records(numbers(grains.motion), 4, index);
+    else
+        return load_records<typename L::Tag>(grains.rounded.data()->velocity, 8, index);
+}
+template <class L>
+HWY_INLINE Triple<L> spins_of(const Grains& grains, const std::int32_t* index) {
+    if constexpr (std::is_same_v<L, Lanes>)
+        return triple(load_records(numbers(grains.spin), 4, index));
+    else
+        return triple(load_records<typename L::Tag>(grains.rounded.data()->rate, 8, index));
+}
+
+template <class L>
 void sweep_velocities(const GeometryInput& in, TouchChunk& out) {
-    const double* motion = numbers(in.grains->motion);
-    for (int c = 0; c < in.count; c += kLanes) {
-        const auto one = load_records(motion, 4, in.first + c), two = load_records(motion, 4, in.second + c);
-        put(triple(one) - triple(two), out.velocity, c);
-        if (in.mass) store(Lanes(1.0) / (Lanes(one.d) + Lanes(two.d)), out.effective_mass + c);
+    using Number = NumberOf<L>;
+    for (int c = 0; c < in.count; c += L::count) {
+        const auto one = velocities_of<L>(*in.grains, in.first + c);
+        const auto two = velocities_of<L>(*in.grains, in.second + c);
+        put<Number>(triple(one) - triple(two), out.velocity, c);
+        if (in.mass) put<Number>(L(one.d) + L(two.d), out.inverse_mass, c);
     }
 }
 
+template <class L>
 void sweep_spins(const GeometryInput& in, TouchChunk& out) {
-    const double* spin = numbers(in.grains->spin);
-    const Lanes turn(0.5 * in.turns_for), half_step(0.5 * in.step);
-    for (int c = 0; c < in.count; c += kLanes) {
-        const Triple<Lanes> one = triple(load_records(spin, 4, in.first + c));
-        const Triple<Lanes> two = triple(load_records(spin, 4, in.second + c));
-        const Triple<Lanes> k = triple_at(out.normal, c), velocity = triple_at(out.velocity, c);
-        const Lanes turning = turn * load(out.inverse_distance + c);
-        const Triple<Lanes> change = (velocity - k * k.dot(velocity)) * turning;
-        const Triple<Lanes> spins = one * load(out.first_arm + c) + two * load(out.second_arm + c);
-        put(of_surfaces(velocity, spins, k, change), out.velocity, c);
-        store(half_step * (one + two).dot(k), out.twist + c);
-        if (in.wants == Wants::rolling) {
-            const Triple<Lanes> rolling = one - two;
-            put(rolling - k * k.dot(rolling), in.rolling->rate, c);
-        }
+    using Number = NumberOf<L>;
+    const L turn(0.5 * in.turns_for), half_step(0.5 * in.step);
+    for (int c = 0; c < in.count; c += L::count) {
+        const Triple<L> one = spins_of<L>(*in.grains, in.first + c);
+        const Triple<L> two = spins_of<L>(*in.grains, in.second + c);
+        const Triple<L> k = get<L>(out.normal, c), velocity = get<L>(out.velocity, c);
+        const L turning = turn * get<L>(out.inverse_distance, c);
+        const Triple<L> change = velocity.across(k) * turning;
+        const Triple<L> spins = (one * get<L>(out.first_arm, c)).plus(two, get<L>(out.second_arm, c));
+        put<Number>(of_surfaces(velocity, spins, k, change), out.velocity, c);
+        put<Number>(half_step * (one + two).dot(k), out.twist, c);
+        if (in.wants == Wants::rolling) put<Number>((one - two).across(k), in.rolling->rate, c);
     }
+}
+
+template <class L>
+void pairs_at(const GeometryInput& in, double period, TouchChunk& out) {
+    sweep_places<L>(in, period, out);
+    sweep_distances<L>(in, out);
+    if (in.wants >= Wants::velocity || in.mass) sweep_velocities<L>(in, out);
+    if (in.wants >= Wants::spin) sweep_spins<L>(in, out);
 }
 
 void pairs(const GeometryInput& in, double period, TouchChunk& out) {
-    sweep_places(in, period, out);
-    if (in.wants >= Wants::velocity || in.mass) sweep_velocities(in, out);
-    if (in.wants >= Wants::spin) sweep_spins(in, out);
+    in.rounded ? pairs_at<FloatLanes>(in, period, out) : pairs_at<Lanes>(in, period, out);
 }
 
 // A grain and a wall, plane or round.
@@ -155,7 +203,7 @@ std::uint64_t walls_that_touch(const Grains& grains, const std::int32_t* i, cons
     return touching;
 }
 
-template <Wants wants>
+template <Wants wants, class Number>
 void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
     const double* motion = numbers(in.grains->motion);
@@ -167,19 +215,19 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
         Triple<Lanes> into;
         const auto [out_from_axis, from_axis, distance, radius, round] = at_wall(place, walls, i, face, into);
         const Lanes overlap = radius - distance;
-        store(overlap, out.overlap + c);
+        put<Number>(overlap, out.overlap, c);
         const LanesMask touching = overlap > Lanes(0.0);
         if (none(touching)) continue;
         out.touching |= bits(touching) << c;
 
         const Lanes inverse = select(from_axis > Lanes(0.0), Lanes(1.0) / from_axis, Lanes(0.0));
         const Triple<Lanes> k = select(round, out_from_axis * inverse, -into);
-        put(k, out.normal, c);
-        if (in.radius) store(Lanes(1.0) / (Lanes(1.0) / radius), out.effective_radius + c);
+        put<Number>(k, out.normal, c);
+        if (in.radius) put<Number>(radius, out.effective_radius, c);
         if (wants == Wants::overlap && !in.mass) continue;
 
         const auto motion_one = load_records(motion, 4, i);
-        if (in.mass) store(Lanes(1.0) / Lanes(motion_one.d), out.effective_mass + c);
+        if (in.mass) put<Number>(Lanes(motion_one.d), out.inverse_mass, c);
         if constexpr (wants == Wants::overlap) continue;
 
         Triple<Lanes> velocity = triple(motion_one) - triple(load_records(numbers(walls.motion), 8, face));
@@ -187,29 +235,33 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
             const Triple<Lanes> rate = triple(load_records(spin, 4, i));
             // Along a cylinder's wall k turns with the grain about the axis; a plane's does not turn.
-            Triple<Lanes> change =
-                (velocity - k * k.dot(velocity)) * select(round, -turn * inverse, Lanes(0.0));
+            Triple<Lanes> change = velocity.across(k) * select(round, -turn * inverse, Lanes(0.0));
             change.z = Lanes(0.0);
             velocity = of_surfaces(velocity, rate * arm, k, change);
-            store(arm, out.first_arm + c);
-            store(Lanes(0.5 * in.step) * rate.dot(k), out.twist + c);
-            if constexpr (wants == Wants::rolling) put(rate - k * k.dot(rate), in.rolling->rate, c);
+            put<Number>(arm, out.first_arm, c);
+            put<Number>(Lanes(0.5 * in.step) * rate.dot(k), out.twist, c);
+            if constexpr (wants == Wants::rolling) put<Number>(rate.across(k), in.rolling->rate, c);
         }
-        put(velocity, out.velocity, c);
+        put<Number>(velocity, out.velocity, c);
+    }
+}
+
+template <class Number>
+void walls_in(const GeometryInput& in, const WallState& state, TouchChunk& out) {
+    switch (in.wants) {
+        case Wants::overlap:
+            return walls_chunk<Wants::overlap, Number>(in, state, out);
+        case Wants::velocity:
+            return walls_chunk<Wants::velocity, Number>(in, state, out);
+        case Wants::spin:
+            return walls_chunk<Wants::spin, Number>(in, state, out);
+        case Wants::rolling:
+            return walls_chunk<Wants::rolling, Number>(in, state, out);
     }
 }
 
 void walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
-    switch (in.wants) {
-        case Wants::overlap:
-            return walls_chunk<Wants::overlap>(in, state, out);
-        case Wants::velocity:
-            return walls_chunk<Wants::velocity>(in, state, out);
-        case Wants::spin:
-            return walls_chunk<Wants::spin>(in, state, out);
-        case Wants::rolling:
-            return walls_chunk<Wants::rolling>(in, state, out);
-    }
+    in.rounded ? walls_in<float>(in, state, out) : walls_in<double>(in, state, out);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -27,6 +27,7 @@ struct GeometryInput {
     double turns_for;                   // s, twice as long as the velocities lie behind the positions
     RollingChunk* rolling;              // set when that is wanted
     bool mass = false, radius = false;  // effective ones are wanted
+    bool rounded = false;               // rows are to hold floats; velocities are those of Grains::rounded
 };
 
 // A bit a contact, of at most kChunk of which whole registers can be read: do they overlap?

@@ -165,9 +165,10 @@ void ContactPass::restore(const ContactRules& rules, const std::vector<KeptConta
     }
 }
 
-// Sets touch_ for the chunk; what its laws take.
+// Sets touch_ for the chunk, in floats if `rounded`; what its laws take.
 LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
-                              const WallState& state, const Times& times, const Chunk& chunk) const {
+                              const WallState& state, const Times& times, const Chunk& chunk,
+                              bool rounded) const {
     const GeometryInput in{&grains,
                            chunk.first,
                            chunk.second,
@@ -178,7 +179,8 @@ LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& gro
                            group.law->at_mid_step ? times.turns : 0,
                            &rolling_,
                            group.law->uses_mass,
-                           group.law->uses_radius || group.rolling};
+                           group.law->uses_radius || group.rolling,
+                           rounded};
     group.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
     if (chunk.count < kChunk) touch_.touching &= (std::uint64_t{1} << chunk.count) - 1;  // not the fill
     if (group.needs_rows()) {
@@ -261,7 +263,8 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
     const ContactGroup& group = in.group;
     const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, table.size() - c)};
     if (group.of_pairs) fetch_ahead(in.grains, table, c + kChunk);
-    const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk);
+    const bool rounded = group.number_size() == sizeof(float);
+    const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, rounded);
     table.note_touching(c, touch_.touching);
     void* history = table.histories().of_block(c);
     group.law->step(law, history, force_);
@@ -273,7 +276,8 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
                                  &touch_,
                                  &force_,
                                  group.law->rubs,
-                                 group.rolling ? &rolling_ : nullptr};
+                                 group.rolling ? &rolling_ : nullptr,
+                                 rounded};
     group.of_pairs ? add_pairs(forces, loads_, begin_, end_, in.grains)
                    : add_walls(forces, loads_, in.walls, in.times.acts, in.grains);
     clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
@@ -297,7 +301,7 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
     const ContactTable& table = tables_[g];
     for (std::int32_t c = 0; c < table.size(); c += kChunk) {
         const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, table.size() - c)};
-        const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk);
+        const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false);
         show(group, in, table.histories().of_block(c), chunk, seen);
     }
     // Where positions have moved on since the forces, some touch that had none yet.
@@ -310,8 +314,8 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
             std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);
             std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
             const Chunk chunk{first, second, 1};
-            show(group, prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk), none.of_block(0), chunk,
-                 seen);
+            show(group, prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false), none.of_block(0),
+                 chunk, seen);
         }
     });
 }

@@ -100,7 +100,7 @@ class ContactPass {
                                         const ContactTable& table, const Grains& grains,
                                         const WallState& state, const Work& work);
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
-                     const WallState& state, const Times& times, const Chunk& chunk) const;
+                     const WallState& state, const Times& times, const Chunk& chunk, bool rounded) const;
     void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, CostClock& clock);
     void show(const ContactGroup& group, const LawInput& in, const void* history, const Chunk& chunk,
               const Seen& seen) const;

@@ -73,6 +73,8 @@ ContactRules::ContactRules(const Plan& plan, double period_of_x)
       period(period_of_x),
       rubs(plan.rubs()) {
     group_of_pair = add_groups(plan.grain, true, groups);
+    rounds = std::any_of(groups.begin(), groups.end(),
+                         [](const ContactGroup& group) { return group.number_size() == sizeof(float); });
     group_of_wall = add_groups(plan.wall, false, groups);
 }
 

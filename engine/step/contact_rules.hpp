@@ -32,6 +32,7 @@ struct ContactRules {
     LeverArms arms;
     double period;  // m, of x; 0 for none
     bool rubs;      // any contact does
+    bool rounds;    // any law of pairs takes Grains::rounded
 
     ContactRules(const Plan& plan, double period_of_x);
     bool one_group_of_pairs() const { return groups.size() < 2 || !groups[1].of_pairs; }

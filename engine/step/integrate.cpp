@@ -14,11 +14,13 @@ namespace grainreel::HWY_NAMESPACE {
 // Of grain i: position and radius, velocity and inverse mass, spin and inverse inertia; force and torque.
 struct Numbers {
     double *place, *motion, *spin, *load;
+    RoundedMotion* rounded;
     explicit Numbers(Grains& g)
         : place(reinterpret_cast<double*>(g.place.data())),
           motion(reinterpret_cast<double*>(g.motion.data())),
           spin(reinterpret_cast<double*>(g.spin.data())),
-          load(reinterpret_cast<double*>(g.load.data())) {}
+          load(reinterpret_cast<double*>(g.load.data())),
+          rounded(g.rounded.empty() ? nullptr : g.rounded.data()) {}
 };
 
 // (x, x, x, fourth): kicks leave the fourth number of a record, its mass or inertia, as it is.
@@ -51,7 +53,9 @@ HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, st
             double* place = at.place + 4 * i;
             put(record_at<4>(place) + whole * velocity, place);
             put(nothing, load);
-            fastest = larger_size(fastest, velocity - frame);
+            const Record<4> relative = velocity - frame;
+            fastest = larger_size(fastest, relative);
+            if (at.rounded) put_rounded(relative, at.rounded[i].velocity);
         }
         put(velocity, motion);
         if (!in.rubs) continue;
@@ -62,6 +66,7 @@ HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, st
         if (begins) {
             rate = kicked(rate, torque, inverse_inertia, nothing, next);
             put(nothing, load + 4);
+            if (at.rounded) put_rounded(rate, at.rounded[i].rate);
         }
         put(rate, spin);
     }
@@ -168,7 +173,20 @@ Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32
         d.spin_acceleration += h * d.spin_jerk;
     }
     turn(grains, in, begin, end);
+    round_motion(grains, in, begin, end);
     return fastest;
+}
+
+void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    if (grains.rounded.empty()) return;
+    for (std::int32_t i = begin; i < end; ++i) {
+        const Eigen::Vector3f velocity = (grains.motion[i].velocity - in.frame).cast<float>();
+        const Eigen::Vector3f rate = grains.spin[i].rate.cast<float>();
+        grains.rounded[i] = {{velocity.x(), velocity.y(), velocity.z()},
+                             static_cast<float>(grains.motion[i].inverse_mass),
+                             {rate.x(), rate.y(), rate.z()},
+                             0};
+    }
 }
 
 // Coefficients 1/6, 5/6, 1, 1/3 for a force that gives the second derivative; 5/12, 1, 1/2 for a torque that

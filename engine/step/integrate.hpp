@@ -36,4 +36,7 @@ void begin_derivatives(Grains& grains, const KickInput& in);
 Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
+// Sets Grains::rounded, as kick_and_drift() and predict() do where there is any.
+void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
 }  // namespace grainreel

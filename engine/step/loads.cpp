@@ -10,29 +10,37 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-HWY_INLINE Triple<Lanes> take(const double (*from)[kChunk], int c) {
-    return {load(from[0] + c), load(from[1] + c), load(from[2] + c)};
+template <class L>
+HWY_INLINE L take(const Row& from, int c) {
+    return load<L>(from.of<NumberOf<L>>() + c);
+}
+template <class L>
+HWY_INLINE Triple<L> take(const Row* from, int c) {
+    return {take<L>(from[0], c), take<L>(from[1], c), take<L>(from[2], c)};
 }
 
-// Of kLanes contacts: what the second body gains in force and the first loses, and what they lose and gain in
-// torque.
+// Of L::count contacts: what the second body gains in force and the first loses, and what they lose and gain
+// in torque.
+template <class L>
 struct Pushes {
-    Triple<Lanes> force, first_loses, second_gains;
+    Triple<L> force, first_loses, second_gains;
 };
 
 // Torques are -arm * turning with turning = k x T, for both; what resists rolling comes on top.
-template <bool rubs>
-HWY_INLINE Pushes pushes(const ChunkOfContacts& chunk, int c) {
-    const Triple<Lanes> k = take(chunk.touch->normal, c);
-    Pushes p;
-    p.force = k * load(chunk.force->normal + c);
-    if constexpr (rubs) {
-        const Triple<Lanes> across = take(chunk.force->tangential, c), turning = k.cross(across);
-        p.force += across;
-        p.first_loses = turning * load(chunk.touch->first_arm + c);
-        p.second_gains = -(turning * load(chunk.touch->second_arm + c));
+template <class L, bool rubs>
+HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
+    const Triple<L> k = take<L>(chunk.touch->normal, c);
+    const L normal = take<L>(chunk.force->normal, c);
+    Pushes<L> p;
+    if constexpr (!rubs) {
+        p.force = k * normal;
+    } else {
+        const Triple<L> across = take<L>(chunk.force->tangential, c), turning = k.cross(across);
+        p.force = across.plus(k, normal);
+        p.first_loses = turning * take<L>(chunk.touch->first_arm, c);
+        p.second_gains = -(turning * take<L>(chunk.touch->second_arm, c));
         if (chunk.rolling) {
-            const Triple<Lanes> rolling = take(chunk.rolling->torque, c);
+            const Triple<L> rolling = take<L>(chunk.rolling->torque, c);
             p.first_loses += rolling;
             p.second_gains += rolling;
         }
@@ -55,25 +63,42 @@ HWY_INLINE void subtract(const Record<4>& force, const Record<4>& torque, double
     if constexpr (rubs) put(record_at<4>(from + 4) - torque, from + 4);
 }
 
-HWY_INLINE Rows rows_of(const Triple<Lanes>& t) {
-    return rows_of(Four<Doubles>{t.x.value, t.y.value, t.z.value, Lanes(0.0).value});
-}
+// Three numbers a contact and a zero, contact by contact: in registers, or, floats, widened from memory.
+template <class L>
+struct ByContact {
+    Rows rows;
+    HWY_INLINE void set(const Triple<L>& t) {
+        rows = rows_of(Four<Doubles>{t.x.value, t.y.value, t.z.value, L(0.0).value});
+    }
+    HWY_INLINE Record<4> operator[](int k) const { return rows.row[k]; }
+};
+template <>
+struct ByContact<FloatLanes> {
+    HWY_ALIGN float rows[4 * FloatLanes::count];
+    HWY_INLINE void set(const Triple<FloatLanes>& t) {
+        store_rows(Four<Floats>{t.x.value, t.y.value, t.z.value, FloatLanes(0.0).value}, rows);
+    }
+    HWY_INLINE Record<4> operator[](int k) const { return widened_at(rows + place_of_row(k)); }
+};
 
 // first(i), second(j): the loads that those grains' pushes go to. Contact by contact, in their order.
-template <bool rubs, class First, class Second>
+template <class L, bool rubs, class First, class Second>
 HWY_INLINE void add_each(const ChunkOfContacts& chunk, const First& first, const Second& second) {
-    for (int c = 0; c < chunk.count; c += kLanes) {
-        const Pushes p = pushes<rubs>(chunk, c);
-        const Rows force = rows_of(p.force);
-        Rows lost{}, gained{};
-        if constexpr (rubs) lost = rows_of(p.first_loses), gained = rows_of(p.second_gains);
+    for (int c = 0; c < chunk.count; c += L::count) {
+        const Pushes<L> p = pushes<L, rubs>(chunk, c);
+        ByContact<L> force, lost, gained;
+        force.set(p.force);
+        if constexpr (rubs) lost.set(p.first_loses), gained.set(p.second_gains);
         const auto one = [&](int k) HWY_ATTR {
-            subtract<rubs>(force.row[k], lost.row[k], numbers(first(chunk.first[c + k])));
-            add<rubs>(force.row[k], gained.row[k], numbers(second(chunk.second[c + k])));
+            const Record<4> f = force[k];
+            Record<4> l{}, g{};
+            if constexpr (rubs) l = lost[k], g = gained[k];
+            subtract<rubs>(f, l, numbers(first(chunk.first[c + k])));
+            add<rubs>(f, g, numbers(second(chunk.second[c + k])));
         };
-        if (c + kLanes <= chunk.count) {
-#pragma GCC unroll 8
-            for (int k = 0; k < kLanes; ++k) one(k);
+        if (c + L::count <= chunk.count) {
+#pragma GCC unroll 16
+            for (int k = 0; k < L::count; ++k) one(k);
         } else {
             for (int k = 0; c + k < chunk.count; ++k) one(k);
         }
@@ -89,7 +114,7 @@ bool all_between(const ChunkOfContacts& chunk, std::int32_t begin, std::int32_t 
     return outside >= 0;  // no difference is negative
 }
 
-template <bool rubs>
+template <class L, bool rubs>
 void pairs_of(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
               Grains& grains) {
     const auto any = [&](std::int32_t i) HWY_ATTR -> Load& { return grains.load[i]; };
@@ -97,33 +122,48 @@ void pairs_of(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t b
         return i >= begin && i < end ? grains.load[i] : scratch.of_others;
     };
     const bool alone = begin == 0 && end == static_cast<std::int32_t>(grains.size());
-    alone || all_between(chunk, begin, end) ? add_each<rubs>(chunk, any, any)
-                                            : add_each<rubs>(chunk, own, own);
+    alone || all_between(chunk, begin, end) ? add_each<L, rubs>(chunk, any, any)
+                                            : add_each<L, rubs>(chunk, own, own);
+}
+
+template <class L>
+void pairs_at(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
+              Grains& grains) {
+    chunk.rubs ? pairs_of<L, true>(chunk, scratch, begin, end, grains)
+               : pairs_of<L, false>(chunk, scratch, begin, end, grains);
 }
 
 void pairs(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
            Grains& grains) {
-    chunk.rubs ? pairs_of<true>(chunk, scratch, begin, end, grains)
-               : pairs_of<false>(chunk, scratch, begin, end, grains);
+    chunk.rounded ? pairs_at<FloatLanes>(chunk, scratch, begin, end, grains)
+                  : pairs_at<Lanes>(chunk, scratch, begin, end, grains);
 }
 
-template <bool rubs>
+template <class L, bool rubs>
 void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains) {
-    for (int c = 0; c < chunk.count; c += kLanes) {
-        const Pushes p = pushes<rubs>(chunk, c);
-        store(p.force.x, scratch.force[0] + c);
-        store(p.force.y, scratch.force[1] + c);
-        store(p.force.z, scratch.force[2] + c);
-        const Rows force = rows_of(p.force);
-        Rows lost{};
-        if constexpr (rubs) lost = rows_of(p.first_loses);
-        for (int k = 0; k < kLanes && c + k < chunk.count; ++k)
-            subtract<rubs>(force.row[k], lost.row[k], numbers(grains.load[chunk.first[c + k]]));
+    for (int c = 0; c < chunk.count; c += L::count) {
+        const Pushes<L> p = pushes<L, rubs>(chunk, c);
+        store_as(p.force.x, scratch.force[0] + c);
+        store_as(p.force.y, scratch.force[1] + c);
+        store_as(p.force.z, scratch.force[2] + c);
+        ByContact<L> force, lost;
+        force.set(p.force);
+        if constexpr (rubs) lost.set(p.first_loses);
+        for (int k = 0; k < L::count && c + k < chunk.count; ++k) {
+            Record<4> l{};
+            if constexpr (rubs) l = lost[k];
+            subtract<rubs>(force[k], l, numbers(grains.load[chunk.first[c + k]]));
+        }
     }
 }
 
+template <class L>
+void walls_at(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains) {
+    chunk.rubs ? walls_of<L, true>(chunk, scratch, grains) : walls_of<L, false>(chunk, scratch, grains);
+}
+
 void walls(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains) {
-    chunk.rubs ? walls_of<true>(chunk, scratch, grains) : walls_of<false>(chunk, scratch, grains);
+    chunk.rounded ? walls_at<FloatLanes>(chunk, scratch, grains) : walls_at<Lanes>(chunk, scratch, grains);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

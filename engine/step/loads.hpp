@@ -23,6 +23,7 @@ struct ChunkOfContacts {
     const ForceChunk* force;
     bool rubs;
     const RollingChunk* rolling;  // nullptr where rolling meets no resistance
+    bool rounded;                 // rows hold floats
 };
 
 // Adds them to the loads of those of their grains that lie in [begin, end).

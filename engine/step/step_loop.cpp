@@ -19,6 +19,7 @@ StepLoop::StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& g
       next_skin_(surroundings.skin) {}
 
 void StepLoop::restart() {
+    grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
     const Pose rest = around_.motion.at(-1);
     CostClock idle;
     skin_ = around_.skin;
@@ -31,7 +32,9 @@ void StepLoop::restart() {
         members_[member].walls.set(around_.faces, rest, rest, 0);
         rebuild(member, rest, kLastsWell);
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
+        round_motion(grains_, {}, share_[member], share_[member + 1]);
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
+        team_.barrier();
         members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, idle);
     });
     rebuilds_ = refreshes_ = 0;
@@ -40,6 +43,7 @@ void StepLoop::restart() {
 
 void StepLoop::run(std::int64_t from, std::int64_t count, double step, double drag) {
     if (count <= 0) return;
+    grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
     KickInput kicks{around_.gravity, rules_.rubs};
     if (fresh_) {
         listed_step_ = static_cast<double>(from);

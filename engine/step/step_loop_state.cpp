@@ -28,7 +28,7 @@ void StepLoop::visit_contacts(std::int64_t at_step,
 ContactView StepLoop::view(bool rubs, std::int32_t first, std::int32_t second, int at,
                            const TouchChunk& touch, const ForceChunk& force,
                            const EnergyChunk& energy) const {
-    const auto of = [at](const double(*axes)[kChunk]) { return Vec3(axes[0][at], axes[1][at], axes[2][at]); };
+    const auto of = [at](const Row* axes) { return Vec3(axes[0][at], axes[1][at], axes[2][at]); };
     const Place& one = grains_.place[first];
     ContactView v{};
     v.first = first;

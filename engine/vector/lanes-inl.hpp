@@ -2,7 +2,8 @@
 // and for a plain double. Compiled anew for each instruction set: see Highway's foreach_target.h for the
 // guard below.
 //
-// No fused multiply-add: each operation rounds as it does on a double, so every width gives the same bits.
+// Multiplications and additions are fused where the code says so and the processor can: AVX2 and AVX-512 give
+// one answer to the bit, SSE4 and plain code another.
 #if defined(GRAINREEL_VECTOR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_LANES_INL
 #undef GRAINREEL_VECTOR_LANES_INL
@@ -23,7 +24,7 @@ namespace grainreel::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Doubles = hn::CappedTag<double, 8>;  // as many as the machine has, at most a block of contacts
-using Floats = hn::CappedTag<float, 8>;
+using Floats = hn::CappedTag<float, 16>;
 
 template <class D>
 struct MaskOf {
@@ -67,6 +68,13 @@ struct LanesOf {
     friend HWY_INLINE LanesOf select(Mask which, LanesOf yes, LanesOf no) {
         return hn::IfThenElse(which.bits, yes.value, no.value);
     }
+    // a b + c, c - a b, in one rounding where the processor has that.
+    friend HWY_INLINE LanesOf multiply_add(LanesOf a, LanesOf b, LanesOf c) {
+        return hn::MulAdd(a.value, b.value, c.value);
+    }
+    friend HWY_INLINE LanesOf less_product(LanesOf c, LanesOf a, LanesOf b) {
+        return hn::NegMulAdd(a.value, b.value, c.value);
+    }
     friend HWY_INLINE LanesOf root(LanesOf a) { return hn::Sqrt(a.value); }
     friend HWY_INLINE LanesOf larger(LanesOf a, LanesOf b) { return hn::Max(a.value, b.value); }
     friend HWY_INLINE LanesOf smaller(LanesOf a, LanesOf b) { return hn::Min(a.value, b.value); }
@@ -78,10 +86,30 @@ using FloatLanes = LanesOf<Floats>;
 using LanesMask = Lanes::Mask;
 constexpr int kLanes = Lanes::count;
 
+// The number of a register, or of a number itself.
+template <class R>
+struct NumberIn {
+    using type = R;
+};
+template <class D>
+struct NumberIn<LanesOf<D>> {
+    using type = hn::TFromD<D>;
+};
+template <class R>
+using NumberOf = typename NumberIn<R>::type;
+
 // The same for one number.
 template <std::floating_point T>
 HWY_INLINE T select(bool which, T yes, T no) {
     return which ? yes : no;
+}
+template <std::floating_point T>
+HWY_INLINE T multiply_add(T a, T b, T c) {
+    return a * b + c;
+}
+template <std::floating_point T>
+HWY_INLINE T less_product(T c, T a, T b) {
+    return c - a * b;
 }
 template <std::floating_point T>
 HWY_INLINE T root(T a) {
@@ -139,11 +167,25 @@ requires(LanesOf<D>::count == 2 * kLanes) HWY_INLINE void widen(D d, hn::Vec<D> 
 }
 #endif
 template <class L>
+requires std::is_same_v < NumberOf<L>,
+float > HWY_INLINE L load_as(const float* at) {
+    return load<L>(at);
+}
+template <class L>
 HWY_INLINE L load_as(const double* at) {
     if constexpr (std::is_same_v<L, Lanes>)
         return load(at);
     else
         return rounded(typename L::Tag(), at);
+}
+template <class D>
+HWY_INLINE void store_as(LanesOf<D> a, float* at) {
+    if constexpr (std::is_same_v<D, Doubles>) {
+        const hn::Rebind<float, Doubles> floats;
+        hn::Store(hn::DemoteTo(floats, a.value), floats, at);
+    } else {
+        store(a, at);
+    }
 }
 template <class D>
 HWY_INLINE void store_as(LanesOf<D> a, double* at) {
@@ -153,28 +195,25 @@ HWY_INLINE void store_as(LanesOf<D> a, double* at) {
         widen(D(), a.value, at);
 }
 
-// The number of a register, or of a number itself.
-template <class R>
-struct NumberIn {
-    using type = R;
-};
-template <class D>
-struct NumberIn<LanesOf<D>> {
-    using type = hn::TFromD<D>;
-};
-template <class R>
-using NumberOf = typename NumberIn<R>::type;
-
 // Three numbers along x, y, z.
 template <class R>
 struct Triple {
     R x, y, z;
 
-    HWY_INLINE R dot(const Triple& b) const { return x * b.x + y * b.y + z * b.z; }
+    HWY_INLINE R dot(const Triple& b) const { return multiply_add(z, b.z, multiply_add(y, b.y, x * b.x)); }
     HWY_INLINE R squared() const { return dot(*this); }
     HWY_INLINE Triple cross(const Triple& b) const {
-        return {y * b.z - z * b.y, z * b.x - x * b.z, x * b.y - y * b.x};
+        return {less_product(y * b.z, z, b.y), less_product(z * b.x, x, b.z), less_product(x * b.y, y, b.x)};
     }
+    // *this + b s, *this - b s.
+    HWY_INLINE Triple plus(const Triple& b, const R& s) const {
+        return {multiply_add(b.x, s, x), multiply_add(b.y, s, y), multiply_add(b.z, s, z)};
+    }
+    HWY_INLINE Triple less(const Triple& b, const R& s) const {
+        return {less_product(x, b.x, s), less_product(y, b.y, s), less_product(z, b.z, s)};
+    }
+    // Its part across the unit vector k.
+    HWY_INLINE Triple across(const Triple& k) const { return less(k, k.dot(*this)); }
     HWY_INLINE Triple operator-() const { return {-x, -y, -z}; }
     HWY_INLINE Triple& operator+=(const Triple& b) {
         x += b.x, y += b.y, z += b.z;

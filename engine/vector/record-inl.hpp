@@ -30,6 +30,18 @@ template <int size>
 HWY_INLINE void put(const Record<size>& r, double* to) {
     for (int p = 0; p < r.parts; ++p) hn::Store(r.part[p], typename Record<size>::D(), to + p * r.lanes);
 }
+// Four floats in memory.
+HWY_INLINE Record<4> widened_at(const float* from) {
+    Record<4> r;
+    const Record<4>::D d;
+    const hn::Rebind<float, Record<4>::D> floats;
+    for (int p = 0; p < r.parts; ++p) r.part[p] = hn::PromoteTo(d, hn::Load(floats, from + p * r.lanes));
+    return r;
+}
+HWY_INLINE void put_rounded(const Record<4>& r, float* to) {
+    const hn::Rebind<float, Record<4>::D> floats;
+    for (int p = 0; p < r.parts; ++p) hn::Store(hn::DemoteTo(floats, r.part[p]), floats, to + p * r.lanes);
+}
 HWY_INLINE Record<4> record_of(double x) {
     Record<4> r;
     for (auto& part : r.part) part = hn::Set(Record<4>::D(), x);

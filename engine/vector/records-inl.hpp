@@ -1,4 +1,4 @@
-// Four doubles a record in memory, one number a lane in registers: loads records that lie anywhere.
+// Four numbers a record in memory, one number a lane in registers: loads records that lie anywhere.
 #if defined(GRAINREEL_VECTOR_RECORDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_RECORDS_INL
 #undef GRAINREEL_VECTOR_RECORDS_INL
@@ -23,14 +23,23 @@ struct Rows {
 
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE Four<Doubles> load_records(const double* base, std::size_t stride, const std::int32_t* index) {
-    const Doubles d;
-    const double* at = base + stride * static_cast<std::size_t>(*index);
+template <class D = Doubles>
+HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
+    const D d;
+    const auto* at = base + stride * static_cast<std::size_t>(*index);
     return {hn::Load(d, at), hn::Load(d, at + 1), hn::Load(d, at + 2), hn::Load(d, at + 3)};
 }
 
 HWY_INLINE Rows rows_of(const Four<Doubles>& f) {
     return {{{{f.a, f.b, f.c, f.d}}}};
+}
+
+HWY_INLINE void store_rows(const Four<Floats>& f, float* to) {
+    const Floats d;
+    hn::Store(f.a, d, to), hn::Store(f.b, d, to + 1), hn::Store(f.c, d, to + 2), hn::Store(f.d, d, to + 3);
+}
+HWY_INLINE std::size_t place_of_row(std::size_t) {
+    return 0;
 }
 
 #else
@@ -71,13 +80,59 @@ HWY_INLINE Four<D> load_records_at(const double* const* at) {
     }
 }
 
-// Records index[0] .. index[lanes - 1] of `stride` doubles each, their first four numbers.
+// A block of 128 bits from every fourth address.
+template <class D>
+HWY_INLINE hn::Vec<D> every_fourth(D d, const float* const* at) {
+    if constexpr (hn::MaxLanes(D()) == 4) {
+        return hn::Load(d, at[0]);
+    } else {
+        const hn::Half<D> half;
+        return hn::Combine(d, every_fourth(half, at + hn::MaxLanes(half)), every_fourth(half, at));
+    }
+}
+
+// Row k of the four has records k, k + 4, ... in its blocks of 128 bits; transposed, `a` has the first number
+// of all of them, and so on. The same steps undo it.
+template <class D>
+HWY_INLINE Four<D> transposed_floats(D d, const Four<D>& r) {
+    const hn::Repartition<double, D> pairs;
+    const auto low01 = hn::BitCast(pairs, hn::InterleaveLower(d, r.a, r.b));
+    const auto low23 = hn::BitCast(pairs, hn::InterleaveLower(d, r.c, r.d));
+    const auto high01 = hn::BitCast(pairs, hn::InterleaveUpper(d, r.a, r.b));
+    const auto high23 = hn::BitCast(pairs, hn::InterleaveUpper(d, r.c, r.d));
+    return {hn::BitCast(d, hn::InterleaveLower(pairs, low01, low23)),
+            hn::BitCast(d, hn::InterleaveUpper(pairs, low01, low23)),
+            hn::BitCast(d, hn::InterleaveLower(pairs, high01, high23)),
+            hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23))};
+}
+
+// The same for four floats each, aligned to 16 bytes.
+template <class D>
+HWY_INLINE Four<D> load_records_at(const float* const* at) {
+    const D d;
+    return transposed_floats(d, Four<D>{every_fourth(d, at), every_fourth(d, at + 1), every_fourth(d, at + 2),
+                                        every_fourth(d, at + 3)});
+}
+
+// Records index[0] .. index[lanes - 1] of `stride` numbers each, their first four numbers.
 template <class D = Doubles>
-HWY_INLINE Four<D> load_records(const double* base, std::size_t stride, const std::int32_t* index) {
-    const double* at[hn::MaxLanes(D())];
+HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
+    const hn::TFromD<D>* at[hn::MaxLanes(D())];
     for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k)
         at[k] = base + stride * static_cast<std::size_t>(index[k]);
     return load_records_at<D>(at);
+}
+
+// The other way, into memory: the four floats of record k to place_of_row(k).
+HWY_INLINE void store_rows(const Four<Floats>& f, float* to) {
+    const Floats d;
+    const Four<Floats> r = transposed_floats(d, f);
+    constexpr std::size_t lanes = hn::MaxLanes(Floats());
+    hn::Store(r.a, d, to), hn::Store(r.b, d, to + lanes);
+    hn::Store(r.c, d, to + 2 * lanes), hn::Store(r.d, d, to + 3 * lanes);
+}
+HWY_INLINE std::size_t place_of_row(std::size_t k) {
+    return k % 4 * hn::MaxLanes(Floats()) + k / 4 * 4;
 }
 
 // The other way, into registers.

@@ -44,7 +44,7 @@ class LedPair {
     Grains grains_;
     TouchChunk touch_;
     ForceChunk force_;
-    std::int32_t first_[kBlock] = {}, second_[kBlock] = {1, 1, 1, 1, 1, 1, 1, 1}, kind_[kBlock] = {};
+    std::int32_t first_[kBlock] = {}, second_[kBlock] = {1}, kind_[kBlock] = {};
 };
 
 // By how much of itself the force is off that turns with the pair, after 0.01 s and nearly half a turn.

@@ -74,7 +74,7 @@ class Crowd {
   public:
     explicit Crowd(std::size_t kinds) {
         for (int c = 0; c < kChunk; ++c) {
-            touch.effective_mass[c] = 1e-4 * (1.5 + one());
+            touch.inverse_mass[c] = 1e4 / (1.5 + one());
             touch.effective_radius[c] = 1e-3 * (1.5 + one());
             kind[c] = static_cast<std::int32_t>(c % kinds);
             const Vec3 k = Vec3(one(), one(), one()).normalized();
@@ -101,7 +101,8 @@ class Crowd {
         t.normal = triple<Number>(touch.normal, c);
         t.overlap = static_cast<Number>(touch.overlap[c]);
         t.twist = static_cast<Number>(touch.twist[c]);
-        t.effective_mass = static_cast<Number>(touch.effective_mass[c]);
+        t.inverse_mass = static_cast<Number>(touch.inverse_mass[c]);
+        t.effective_mass = 1 / t.inverse_mass;
         t.effective_radius = static_cast<Number>(touch.effective_radius[c]);
         return t;
     }
