@@ -71,12 +71,19 @@ HWY_INLINE R power(R base, R exponent) {
 }
 
 // Lane by lane, each as if it were alone: slow, and the same at every width.
+// Cube roots as power() has them, to the bit: what shares a register with a contact must not show.
 template <class D>
 HWY_INLINE LanesOf<D> any_power(LanesOf<D> base, LanesOf<D> exponent) {
     HWY_ALIGN hn::TFromD<D> b[LanesOf<D>::count], e[LanesOf<D>::count];
     store(base, b), store(exponent, e);
-    for (int k = 0; k < LanesOf<D>::count; ++k) b[k] = power(b[k], e[k]);
-    return load<LanesOf<D>>(b);
+    for (int k = 0; k < LanesOf<D>::count; ++k) {
+        if (e[k] == 2)
+            b[k] *= b[k];
+        else if (e[k] != 1)
+            b[k] = std::pow(b[k], e[k]);
+    }
+    const LanesOf<D> third(1.0 / 3.0);
+    return select(exponent == third, cube_root(base), load<LanesOf<D>>(b));
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -52,6 +52,7 @@ struct TouchChunk {
     Row effective_radius;        // m
     std::uint64_t touching = 0;  // a bit a contact: overlap > 0
 
+    bool touches(int c) const { return touching >> c & 1; }
     // Of `count` contacts from c on.
     bool any_touching(int c, int count) const {
         return (touching >> c & ((std::uint64_t{2} << (count - 1)) - 1)) != 0;

@@ -66,17 +66,35 @@ std::uint64_t pairs_that_touch(const Grains& grains, const std::int32_t* i, cons
     return touching;
 }
 
+// Where the records of a chunk's bodies start, in doubles: the same in all arrays, so that it is worked out
+// once.
+struct Places {
+    alignas(64) std::int32_t first[kChunk], second[kChunk];
+
+    HWY_INLINE explicit Places(const GeometryInput& in) {
+        constexpr std::int32_t stride = sizeof(Place) / sizeof(double);
+        for (int c = 0; c < in.count; ++c) {
+            first[c] = stride * in.first[c];
+            second[c] = stride * in.second[c];
+        }
+        // Up to a whole register.
+        for (int c = in.count; c % kBlock != 0; ++c) first[c] = first[c - 1], second[c] = second[c - 1];
+    }
+};
+static_assert(sizeof(Place) == sizeof(Motion) && sizeof(Place) == sizeof(Spin) &&
+              sizeof(Place) == sizeof(RoundedMotion));
+
 // A chunk goes through in sweeps, as many as its law wants: places, velocities, spins. (One sweep for all was
 // no faster.) Lengths between places are taken as doubles, the rest as L.
 //
 // Distances, for now where inverse distances and normals will be, and overlaps.
 template <class L>
-void sweep_places(const GeometryInput& in, double period, TouchChunk& out) {
+void sweep_places(const GeometryInput& in, const Places& at, double period, TouchChunk& out) {
     using Number = NumberOf<L>;
     const double* place = numbers(in.grains->place);
     out.touching = 0;
     for (int c = 0; c < in.count; c += kLanes) {
-        const auto one = load_records(place, 4, in.first + c), two = load_records(place, 4, in.second + c);
+        const auto one = load_records(place, 1, at.first + c), two = load_records(place, 1, at.second + c);
         Triple<Lanes> apart = triple(two) - triple(one);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
         const Lanes radius_one(one.d), radius_two(two.d), distance = root(apart.squared());
@@ -115,38 +133,38 @@ void sweep_distances(const GeometryInput& in, TouchChunk& out) {
 
 // Velocities and spins of grains, numbers of L.
 template <class L>
-HWY_INLINE Four<typename L::Tag> velocities_of(const Grains& grains, const std::int32_t* index) {
+HWY_INLINE Four<typename L::Tag> velocities_of(const Grains& grains, const std::int32_t* at) {
     if constexpr (std::is_same_v<L, Lanes>)
-        return load_records(numbers(grains.motion), 4, index);
+        return load_records(numbers(grains.motion), 1, at);
     else
-        return load_records<typename L::Tag>(grains.rounded.data()->velocity, 8, index);
+        return load_records<typename L::Tag>(grains.rounded.data()->velocity, 2, at);
 }
 template <class L>
-HWY_INLINE Triple<L> spins_of(const Grains& grains, const std::int32_t* index) {
+HWY_INLINE Triple<L> spins_of(const Grains& grains, const std::int32_t* at) {
     if constexpr (std::is_same_v<L, Lanes>)
-        return triple(load_records(numbers(grains.spin), 4, index));
+        return triple(load_records(numbers(grains.spin), 1, at));
     else
-        return triple(load_records<typename L::Tag>(grains.rounded.data()->rate, 8, index));
+        return triple(load_records<typename L::Tag>(grains.rounded.data()->rate, 2, at));
 }
 
 template <class L>
-void sweep_velocities(const GeometryInput& in, TouchChunk& out) {
+void sweep_velocities(const GeometryInput& in, const Places& at, TouchChunk& out) {
     using Number = NumberOf<L>;
     for (int c = 0; c < in.count; c += L::count) {
-        const auto one = velocities_of<L>(*in.grains, in.first + c);
-        const auto two = velocities_of<L>(*in.grains, in.second + c);
+        const auto one = velocities_of<L>(*in.grains, at.first + c);
+        const auto two = velocities_of<L>(*in.grains, at.second + c);
         put<Number>(triple(one) - triple(two), out.velocity, c);
         if (in.mass) put<Number>(L(one.d) + L(two.d), out.inverse_mass, c);
     }
 }
 
 template <class L>
-void sweep_spins(const GeometryInput& in, TouchChunk& out) {
+void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
     using Number = NumberOf<L>;
     const L turn(0.5 * in.turns_for), half_step(0.5 * in.step);
     for (int c = 0; c < in.count; c += L::count) {
-        const Triple<L> one = spins_of<L>(*in.grains, in.first + c);
-        const Triple<L> two = spins_of<L>(*in.grains, in.second + c);
+        const Triple<L> one = spins_of<L>(*in.grains, at.first + c);
+        const Triple<L> two = spins_of<L>(*in.grains, at.second + c);
         const Triple<L> k = get<L>(out.normal, c), velocity = get<L>(out.velocity, c);
         const L turning = turn * get<L>(out.inverse_distance, c);
         const Triple<L> change = velocity.across(k) * turning;
@@ -159,10 +177,11 @@ void sweep_spins(const GeometryInput& in, TouchChunk& out) {
 
 template <class L>
 void pairs_at(const GeometryInput& in, double period, TouchChunk& out) {
-    sweep_places<L>(in, period, out);
+    const Places at(in);
+    sweep_places<L>(in, at, period, out);
     sweep_distances<L>(in, out);
-    if (in.wants >= Wants::velocity || in.mass) sweep_velocities<L>(in, out);
-    if (in.wants >= Wants::spin) sweep_spins<L>(in, out);
+    if (in.wants >= Wants::velocity || in.mass) sweep_velocities<L>(in, at, out);
+    if (in.wants >= Wants::spin) sweep_spins<L>(in, at, out);
 }
 
 void pairs(const GeometryInput& in, double period, TouchChunk& out) {

@@ -38,6 +38,7 @@ std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, co
 
 // period: m, of x; 0 for none.
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out);
+// Of what does not touch only the overlap need be set.
 void touch_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
 
 }  // namespace grainreel

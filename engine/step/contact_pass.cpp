@@ -246,13 +246,17 @@ namespace {
 
 // Beds larger than the caches wait for the second bodies, which lie far from the first. A fifth of their
 // time.
-void fetch_ahead(const Grains& grains, const ContactTable& table, std::int32_t begin) {
+void fetch_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t begin) {
     const std::int32_t end = std::min(table.size(), begin + kChunk);
     for (std::int32_t c = begin; c < end; ++c) {
         const std::int32_t j = table.second()[c];
         __builtin_prefetch(&grains.place[j]);
-        __builtin_prefetch(&grains.motion[j]);
-        __builtin_prefetch(&grains.spin[j]);
+        if (rounded) {
+            __builtin_prefetch(&grains.rounded[j]);
+        } else {
+            __builtin_prefetch(&grains.motion[j]);
+            __builtin_prefetch(&grains.spin[j]);
+        }
         __builtin_prefetch(&grains.load[j], 1);
     }
 }
@@ -262,8 +266,8 @@ void fetch_ahead(const Grains& grains, const ContactTable& table, std::int32_t b
 void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_t c, CostClock& clock) {
     const ContactGroup& group = in.group;
     const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, table.size() - c)};
-    if (group.of_pairs) fetch_ahead(in.grains, table, c + kChunk);
     const bool rounded = group.number_size() == sizeof(float);
+    if (group.of_pairs) fetch_ahead(in.grains, rounded, table, c + kChunk);
     const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, rounded);
     table.note_touching(c, touch_.touching);
     void* history = table.histories().of_block(c);

@@ -150,6 +150,7 @@ void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains
         force.set(p.force);
         if constexpr (rubs) lost.set(p.first_loses);
         for (int k = 0; k < L::count && c + k < chunk.count; ++k) {
+            if (!chunk.touch->touches(c + k)) continue;
             Record<4> l{};
             if constexpr (rubs) l = lost[k];
             subtract<rubs>(force[k], l, numbers(grains.load[chunk.first[c + k]]));
@@ -184,6 +185,7 @@ void add_walls(const ChunkOfContacts& chunk, LoadScratch& scratch, const WallSta
                Grains& grains) {
     HWY_DYNAMIC_DISPATCH(walls)(chunk, scratch, grains);
     for (int c = 0; c < chunk.count; ++c) {
+        if (!chunk.touch->touches(c)) continue;
         const Vec3& velocity = state.motion[chunk.second[c]].at_end;
         const Vec3 on_wall(scratch.force[0][c], scratch.force[1][c], scratch.force[2][c]);
         grains.wall_work[chunk.first[c]] -= on_wall.dot(velocity) * step;
