@@ -44,15 +44,12 @@ struct IncrementalSlip {
     template <class R>
     struct History {
         Triple<R> force;   // N, on j, perpendicular to `normal`
-        Triple<R> normal;  // k of the last step; zero for a new contact
-        R normal_force;    // N, of the last step
-        R turning_force;   // N, T*
-        R shrinking;       // 1 while |T| shrinks, else 0
+        Triple<R> normal;  // k of the last step, -k while |T| shrinks; zero for a new contact
+        R turning_ratio;   // T* / N: T* grows and falls with N
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit.turning(force), visit.turning(normal);
-            visit(normal_force), visit(turning_force), visit(shrinking);
+            visit.turning(force), visit.turning(normal), visit(turning_ratio);
         }
     };
 
@@ -60,10 +57,10 @@ struct IncrementalSlip {
     template <class R, class Normal>
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal&, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {
-        const R limit = p.friction * larger(R(0), normal_force);
-        const Triple<R> old = carry_along(h.force, h.normal, touch.normal, touch.twist);
-        h.normal = touch.normal;
-        rescale_turning_force(h, limit, normal_force);
+        const R pushing = larger(R(0), normal_force), limit = p.friction * pushing;
+        const auto shrank = h.normal.dot(touch.normal) < R(0);
+        const Triple<R> normal_before = select(shrank, -h.normal, h.normal);
+        const Triple<R> old = carry_along(h.force, normal_before, touch.normal, touch.twist);
 
         // The friction direction: of the old force, or of the slip where there is no force yet.
         const R old_squared = old.squared();
@@ -76,12 +73,18 @@ struct IncrementalSlip {
         const Triple<R> direction = guide * inverse_size;
         const R along = direction.dot(touch.slip);
 
-        note_turning(h, along, old_size);
-        const R parallel = old_size + p.stiffness * softening(p, h, old_size, limit) * along;
+        const auto shrinks = along < R(0);
+        const auto turns = differ(shrinks, shrank);
+        const R ratio_before = larger(-p.friction, smaller(p.friction, h.turning_ratio));
+        const R turning_force = select(turns, old_size, ratio_before * pushing);
+        const R sign = select(shrinks, R(-1), R(1));
+        const R parallel =
+            old_size + p.stiffness * softening(p, sign, turning_force, old_size, limit) * along;
         const Triple<R> now = (direction * parallel).plus(touch.slip.less(direction, along), p.stiffness);
         const auto through_zero = parallel < R(0);  // the direction flips, and what shrank now grows
-        h.turning_force = select(through_zero, -h.turning_force, h.turning_force);
-        h.shrinking = select(through_zero, R(0), h.shrinking);
+        const R ratio = select(pushing > R(0), select(turns, old_size / pushing, ratio_before), R(0));
+        h.turning_ratio = select(through_zero, -ratio, ratio);
+        h.normal = select(shrinks, select(through_zero, touch.normal, -touch.normal), touch.normal);
         h.force = capped_at(now, limit);
         return h.force;
     }
@@ -98,30 +101,12 @@ struct IncrementalSlip {
     }
 
   private:
-    template <class R>
-    static HWY_INLINE void rescale_turning_force(History<R>& h, R limit, R normal_force) {
-        const auto set = size_of(h.turning_force) > R(0);
-        if (!none(set)) {
-            const R ratio = select(h.normal_force > R(0), normal_force / h.normal_force, R(0));
-            const R scaled = larger(-limit, smaller(limit, h.turning_force * ratio));
-            h.turning_force = select(set, scaled, h.turning_force);
-        }
-        h.normal_force = normal_force;
-    }
-
-    template <class R>
-    static HWY_INLINE void note_turning(History<R>& h, R along, R old_size) {
-        const R shrinking = select(along < R(0), R(1), R(0));
-        h.turning_force = select(shrinking == h.shrinking, h.turning_force, old_size);
-        h.shrinking = shrinking;
-    }
-
     // [..]^gamma of the law, its base held in [0, 1]; no room left to grow or shrink means no stiffness.
+    // `sign`: -1 while |T| shrinks, else 1.
     template <class R>
-    static HWY_INLINE R softening(const Parameters<R>& p, const History<R>& h, R old_size, R limit) {
-        const R sign = R(1) - R(2) * h.shrinking;
-        const R room = limit - sign * h.turning_force;
-        const R used = sign * (old_size - h.turning_force) / room;
+    static HWY_INLINE R softening(const Parameters<R>& p, R sign, R turning_force, R old_size, R limit) {
+        const R room = limit - sign * turning_force;
+        const R used = sign * (old_size - turning_force) / room;
         const R base = larger(R(0), smaller(R(1), R(1) - used));
         return select(room > R(0), power(base, p.gamma), R(0));
     }

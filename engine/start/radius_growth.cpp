@@ -62,7 +62,8 @@ struct Growing {
 void first_radii(Growing& g, double reach) {
     Cells cells;
     NeighbourList list;
-    put_in_order(cells, g.grains, reach, g.around.period);
+    std::vector<std::int32_t> new_index;
+    put_in_order(cells, g.grains, reach, g.around.period, new_index);
     list_pairs(cells, g.grains, reach, g.around.period, 0, static_cast<std::int32_t>(g.grains.size()), list);
     std::vector<double> allowed(g.grains.size());
     for (std::size_t i = 0; i < allowed.size(); ++i) {

@@ -47,12 +47,11 @@ void Grid::lay(const std::vector<Place>& place, const std::vector<std::int32_t>&
     box_.resize(n);
     for (std::size_t m = 0; m < n; ++m) {
         box_[m] = box_of(place[members[m]].position);
-        ++start_[box_[m] + 1];
+        ++start_[box_[m]];
     }
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     in_order_.resize(n);
-    next_.assign(start_.begin(), start_.end() - 1);
-    for (std::size_t m = 0; m < n; ++m) in_order_[next_[box_[m]]++] = members[m];
+    for (std::size_t m = n; m-- > 0;) in_order_[--start_[box_[m]]] = members[m];
 }
 
 std::int32_t Grid::box_of(const Vec3& position) const {
@@ -93,7 +92,7 @@ const std::vector<std::int32_t>& Cells::order(const std::vector<Place>& place, d
                   [&](int a, int b) { return std::tuple(size[a], a) < std::tuple(size[b], b); });
     }
     most.grid.lay(place, most.members, 2 * most.largest + skin, axes_, period);
-    return order_ = most.grid.in_order();
+    return most.grid.in_order();
 }
 
 void Cells::lay(const std::vector<Place>& place, double skin, double period) {

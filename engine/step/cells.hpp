@@ -80,14 +80,14 @@ class Grid {
     bool periodic_ = false;
     std::vector<std::int32_t> start_;  // first member of each box, and one past the last
     std::vector<std::int32_t> in_order_;
-    std::vector<std::int32_t> box_, next_;  // while sorting
+    std::vector<std::int32_t> box_;  // of each member, while sorting
 };
 
 class Cells {
   public:
     // order[new] = old: grains sorted by the boxes of the most frequent size, slowest along the bed's longest
     // side, so that what touches lies close in memory and few contacts cross from thread to thread. m: skin,
-    // period as for Grid.
+    // period as for Grid. Stays until lay().
     const std::vector<std::int32_t>& order(const std::vector<Place>& place, double skin, double period);
 
     // The grids, for grains in that order.
@@ -106,7 +106,6 @@ class Cells {
 
     std::vector<Level> levels_;  // those that have members
     std::array<int, 3> axes_{0, 1, 2};
-    std::vector<std::int32_t> order_;
 };
 
 }  // namespace grainreel

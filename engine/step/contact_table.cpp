@@ -43,9 +43,15 @@ void ContactTable::reserve(std::size_t room) {
     first_.reserve(room);
     second_.reserve(room);
     histories_.reserve(static_cast<std::int32_t>(room));
-    order_.reserve(room);
-    tail_.reserve(room);
+    near_first_.reserve(room);
+    young_.reserve(room / 8);
     touching_.reserve(room / 64 + 1);
+}
+
+void ContactTable::reserve_candidates() {
+    const std::size_t room = near_first_.size() + near_first_.size() / 8 + 64;
+    near_first_.reserve(room);
+    near_second_.reserve(room);
 }
 
 // What stands behind the last contact repeats it, so that all that is read makes sense.
@@ -57,9 +63,10 @@ void ContactTable::fill_up() {
 }
 
 void ContactTable::sort() {
-    order_contacts();
-    const auto stay = static_cast<std::int32_t>(order_.size());
-    permute();
+    std::vector<std::int32_t>& order = near_first_;  // candidates are void
+    order_contacts(order);
+    const auto stay = static_cast<std::int32_t>(order.size());
+    permute(order);
     size_ = sorted_ = stay;
     step_ = 0;
     batches_.clear();
@@ -72,46 +79,46 @@ void ContactTable::sort() {
     fill_up();
 }
 
-// The contacts that touch, sorted, into order_. The few that began lately are merged into the others.
-void ContactTable::order_contacts() {
-    order_.clear();
-    tail_.clear();
-    for (std::int32_t c = 0; c < size_; ++c) {
-        if (touches(c)) (c < sorted_ ? order_ : tail_).push_back(c);
-    }
+// The contacts that touch, sorted, into `order`. The few that began lately are merged into the others.
+void ContactTable::order_contacts(std::vector<std::int32_t>& order) {
     const auto less = [this](std::int32_t a, std::int32_t b) { return before(a, b); };
-    std::sort(tail_.begin(), tail_.end(), less);
-    std::ptrdiff_t old = std::ssize(order_) - 1, young = std::ssize(tail_) - 1;
-    order_.resize(order_.size() + tail_.size());
-    for (std::ptrdiff_t to = std::ssize(order_) - 1; young >= 0; --to)
-        order_[to] = old >= 0 && less(tail_[young], order_[old]) ? order_[old--] : tail_[young--];
+    order.clear();
+    young_.clear();
+    const bool in_order = sorted_ > 0;
+    for (std::int32_t c = 0; c < size_; ++c) {
+        if (touches(c)) (c < sorted_ || !in_order ? order : young_).push_back(c);
+    }
+    if (!in_order) return std::sort(order.begin(), order.end(), less);
+    std::sort(young_.begin(), young_.end(), less);
+    std::ptrdiff_t old = std::ssize(order) - 1, young = std::ssize(young_) - 1;
+    order.resize(order.size() + young_.size());
+    for (std::ptrdiff_t to = std::ssize(order) - 1; young >= 0; --to)
+        order[to] = old >= 0 && less(young_[young], order[old]) ? order[old--] : young_[young--];
 }
 
-// Puts contact order_[c] at c, for all c of order_, in place: along the cycles of the permutation that has
+// Puts contact order[c] at c, for all c of `order`, in place: along the cycles of the permutation that has
 // the rest behind them.
-void ContactTable::permute() {
-    tail_.assign(size_, 0);
-    for (const std::int32_t c : order_) tail_[c] = 1;
+void ContactTable::permute(std::vector<std::int32_t>& order) {
     for (std::int32_t c = 0; c < size_; ++c) {
-        if (!tail_[c]) order_.push_back(c);
+        if (!touches(c)) order.push_back(c);
     }
     std::array<double, Histories::kMostNumbers> lifted{};
     for (std::int32_t begin = 0; begin < size_; ++begin) {
-        if (order_[begin] == begin) continue;
+        if (order[begin] == begin) continue;
         const std::int32_t i = first_[begin], j = second_[begin];
         for (int k = 0; k < histories_.numbers(); ++k) lifted[k] = histories_.get(begin, k);
         std::int32_t to = begin;
-        for (std::int32_t from = order_[to]; from != begin; from = order_[to]) {
+        for (std::int32_t from = order[to]; from != begin; from = order[to]) {
             first_[to] = first_[from];
             second_[to] = second_[from];
             histories_.copy(from, to);
-            order_[to] = to;
+            order[to] = to;
             to = from;
         }
         first_[to] = i;
         second_[to] = j;
         for (int k = 0; k < histories_.numbers(); ++k) histories_.set(to, k, lifted[k]);
-        order_[to] = to;
+        order[to] = to;
     }
 }
 

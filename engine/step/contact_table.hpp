@@ -46,7 +46,9 @@ class ContactTable {
     // has its place among the contacts is none.
     void begin_candidates();
     void offer(std::int32_t i, std::int32_t j) {
-        if (!holds(i, j)) near_first_.push_back(i), near_second_.push_back(j);
+        if (holds(i, j)) return;
+        if (near_first_.size() == near_first_.capacity()) reserve_candidates();
+        near_first_.push_back(i), near_second_.push_back(j);
     }
     void end_candidates();
     std::int32_t candidates() const { return candidates_; }
@@ -81,13 +83,14 @@ class ContactTable {
   private:
     void add(std::int32_t i, std::int32_t j);
     void reserve(std::size_t room);
+    void reserve_candidates();
     void add_candidates(std::int32_t c, std::uint64_t which);
     bool holds(std::int32_t i, std::int32_t j);
     bool before(std::int32_t a, std::int32_t b) const {
         return first_[a] != first_[b] ? first_[a] < first_[b] : second_[a] < second_[b];
     }
-    void order_contacts();
-    void permute();
+    void order_contacts(std::vector<std::int32_t>& order);
+    void permute(std::vector<std::int32_t>& order);
     void fill_up();
 
     std::int32_t size_ = 0, sorted_ = 0;
@@ -106,7 +109,7 @@ class ContactTable {
     std::vector<Batch> batches_;  // of contacts that began since the last sort
     std::int32_t step_ = 0;
 
-    std::vector<std::int32_t> order_, tail_;
+    std::vector<std::int32_t> young_;  // contacts that began since the last sort, while sorting
 };
 
 }  // namespace grainreel

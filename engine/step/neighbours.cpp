@@ -4,14 +4,16 @@
 
 namespace grainreel {
 
-const std::vector<std::int32_t>& put_in_order(Cells& cells, Grains& grains, double skin, double period) {
+void put_in_order(Cells& cells, Grains& grains, double skin, double period,
+                  std::vector<std::int32_t>& index) {
     if (period > 0) {
         for (Place& p : grains.place) p.position.x() = nearest_image(p.position.x(), period);
     }
     const std::vector<std::int32_t>& order = cells.order(grains.place, skin, period);
     grains.reorder(order);
+    index.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) index[order[i]] = static_cast<std::int32_t>(i);
     cells.lay(grains.place, skin, period);
-    return order;
 }
 
 void NeighbourList::append(const NeighbourList& more) {

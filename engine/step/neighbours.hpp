@@ -41,9 +41,9 @@ inline double nearest_image(double x, double period) {
     return x;
 }
 
-// Wraps positions into the period, puts the grains in spatial order and lays the cells over them. The order:
-// order[new] = old.
-const std::vector<std::int32_t>& put_in_order(Cells& cells, Grains& grains, double skin, double period);
+// Wraps positions into the period, puts the grains in spatial order and lays the cells over them.
+// index[old] = new.
+void put_in_order(Cells& cells, Grains& grains, double skin, double period, std::vector<std::int32_t>& index);
 
 // All want the grains in that order. They list under the grains [begin, end) only, list_pairs with a start
 // counting from 0 at `begin`.

@@ -97,8 +97,8 @@ class StepLoop {
         std::vector<WallNeighbour> walls_near;
         Reach reach;
         CostClock clock;
-        Vec3 fastest{0, 0, 0};  // m/s, largest components of its grains against the bed's free flight
-        double farthest = 0;    // m, from where they were listed
+        Vec3 fastest{0, 0, 0};   // m/s, largest components of its grains against the bed's free flight
+        double farthest = 0;     // m, from where they were listed
         double work = 0;         // of its share of the grains, in units of a listed pair
         double busy_before = 0;  // s, when the grains were shared out
     };
@@ -145,10 +145,10 @@ class StepLoop {
     std::vector<Member> members_;
     Shares share_, last_share_;
     std::vector<double> speed_, speed_now_;  // of the threads, against their mean
-    std::vector<std::int32_t> new_index_;  // of the grains before the last reordering
+    std::vector<std::int32_t> new_index_;    // of the grains before the last reordering
 
     // Where and how the grains and walls were when the lists were made.
-    std::vector<Vec3> listed_at_;
+    std::vector<Eigen::Vector3f> listed_at_;  // half the memory, and its rounding is allowed for
     Vec3 listed_velocity_{0, 0, 0};
     Pose listed_pose_;
     double listed_step_ = 0;             // steps

@@ -10,9 +10,7 @@ void StepLoop::rebuild(int member, const Pose& pose, double lasted) {
     Member& mine = members_[member];
     if (member == 0) {
         next_skin_ = skin_after(lasted);  // skin_ may still be read by others
-        const auto& order = put_in_order(cells_, grains_, next_skin_, around_.period);
-        new_index_.resize(order.size());
-        for (std::size_t i = 0; i < order.size(); ++i) new_index_[order[i]] = static_cast<std::int32_t>(i);
+        put_in_order(cells_, grains_, next_skin_, around_.period, new_index_);
     }
     team_.barrier(member);
     const std::int64_t n = static_cast<std::int64_t>(grains_.size());
@@ -60,7 +58,7 @@ void StepLoop::note_listing(const Pose& pose) {
     listed_at_.resize(grains_.size());
     listed_velocity_.setZero();
     for (std::size_t i = 0; i < grains_.size(); ++i) {
-        listed_at_[i] = grains_.place[i].position;
+        listed_at_[i] = grains_.place[i].position.cast<float>();
         listed_velocity_ += grains_.motion[i].velocity;
     }
     listed_velocity_ /= static_cast<double>(grains_.size());

@@ -31,6 +31,7 @@ struct MaskOf {
     hn::Mask<D> bits;
 
     friend HWY_INLINE MaskOf operator&(MaskOf a, MaskOf b) { return {hn::And(a.bits, b.bits)}; }
+    friend HWY_INLINE MaskOf differ(MaskOf a, MaskOf b) { return {hn::Xor(a.bits, b.bits)}; }
     friend HWY_INLINE bool none(MaskOf m) { return hn::AllFalse(D(), m.bits); }
     friend HWY_INLINE bool all(MaskOf m) { return hn::AllTrue(D(), m.bits); }
     friend HWY_INLINE std::uint64_t bits(MaskOf m) {  // the first lane is the lowest
@@ -126,6 +127,9 @@ HWY_INLINE T smaller(T a, T b) {
 template <std::floating_point T>
 HWY_INLINE T size_of(T a) {
     return a < 0 ? -a : a;
+}
+HWY_INLINE bool differ(bool a, bool b) {
+    return a != b;
 }
 HWY_INLINE bool none(bool m) {
     return !m;

@@ -87,11 +87,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Golden{"bed10k", 400, Precision::full, 40000, 0xd4cd6fec80ce4ccd, 0xbec6b828ead48a03},
         Golden{"bed10k", 400, Precision::mixed, 40000, 0x41093483d95e800c, 0xd1c9853d20d77d49},
-        Golden{"bed10k-walton-braun", 400, Precision::full, 40000, 0xa6138fb25445293b, 0x327667e37e01e722},
+        Golden{"bed10k-walton-braun", 400, Precision::full, 40000, 0x553d8bae760f8c5, 0x36d7df0e648c981f},
         Golden{"frictionless", 400, Precision::full, 40000, 0xbc847c7c431ce0b9, 0xba55efe741b7fca3},
-        Golden{"wedge", 405, Precision::full, 40000, 0xca022de9cec69356, 0x7a2765747350944d},
-        Golden{"intruder", 1000, Precision::full, 25000, 0xc71cad1fb7e5f07e, 0x7323133b36ed8260},
-        Golden{"gas", 400, Precision::full, 12000, 0xba80ede3b0a7032e, 0x623473172752a316}),
+        Golden{"wedge", 405, Precision::full, 40000, 0x9935c274a473590, 0xf01456195b431cc},
+        Golden{"intruder", 1000, Precision::full, 25000, 0xc29d34d8477e8d8a, 0xb1d739783eb0cc24},
+        Golden{"gas", 400, Precision::full, 12000, 0x1b131a51dd87a843, 0x368000b187c57c9}),
     [](const auto& one) {
         std::string name = one.param.name;
         std::replace(name.begin(), name.end(), '-', '_');

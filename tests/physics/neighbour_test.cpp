@@ -56,7 +56,8 @@ TEST_P(Neighbours, AreAllPairsThatAreNear) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         Grains grains = of_all_sizes(seed);
         Cells cells;
-        put_in_order(cells, grains, skin, period);
+        std::vector<std::int32_t> new_index;
+        put_in_order(cells, grains, skin, period, new_index);
         EXPECT_GE(cells.levels().size(), 3u);
         NeighbourList low, high, whole;
         const std::int32_t n = static_cast<std::int32_t>(grains.size()), middle = n / 3;

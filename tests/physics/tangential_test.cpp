@@ -73,12 +73,12 @@ TEST(IncrementalSlip, UnloadsFromItsTurningPointThroughZero) {
         top - (limit + top) * (1 - std::exp(-s.parameters.stiffness * back / (limit + top)));
     ASSERT_LT(expected, 0) << "it should pass zero";
     EXPECT_NEAR(s.slip(-back, 20000), expected, 2e-4 * limit);
-    EXPECT_NEAR(s.history.turning_force, -top, 1e-9) << "T* changes sign with the direction";
+    EXPECT_NEAR(s.history.turning_ratio * kNormal, -top, 1e-9) << "T* changes sign with the direction";
     // And forward again from there: T* takes the force at the new turning point.
     const double bottom = std::abs(s.history.force.x);
     s.slip(1e-9, 1);
-    EXPECT_NEAR(s.history.turning_force, bottom, 1e-9);
-    EXPECT_EQ(s.history.shrinking, 1);
+    EXPECT_NEAR(s.history.turning_ratio * kNormal, bottom, 1e-9);
+    EXPECT_EQ(s.history.normal.z, -1) << "shrinking";
 }
 
 TEST(IncrementalSlip, NeverPassesCoulombsLimit) {
@@ -90,7 +90,7 @@ TEST(IncrementalSlip, NeverPassesCoulombsLimit) {
         EXPECT_LE(size(s.history.force), 0.5 * kFriction * kNormal * (1 + 1e-12));
         s.slip(0, 1, 0);
         EXPECT_EQ(size(s.history.force), 0);
-        EXPECT_EQ(s.history.turning_force, 0);
+        EXPECT_EQ(s.history.turning_ratio, 0);
         s.slip(1e-7, 1, kNormal);
         EXPECT_TRUE(std::isfinite(size(s.history.force)));
     }
