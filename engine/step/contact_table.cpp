@@ -39,7 +39,7 @@ void ContactTable::add(std::int32_t i, std::int32_t j) {
 // A little at a time: histories are most of a run's memory, and doubling would leave half of it idle.
 void ContactTable::reserve(std::size_t room) {
     if (room <= first_.capacity()) return;
-    room += (room / 16 + kBlock) / kBlock * kBlock;
+    room += (room / 32 + kBlock) / kBlock * kBlock;
     first_.reserve(room);
     second_.reserve(room);
     histories_.reserve(static_cast<std::int32_t>(room));

@@ -26,7 +26,7 @@ void NeighbourList::append(const NeighbourList& more) {
 namespace {
 
 void make_room(std::vector<std::int32_t>& partner, std::size_t wanted) {
-    if (wanted > partner.capacity()) partner.reserve(wanted + wanted / 16 + 1024);
+    if (wanted > partner.capacity()) partner.reserve(wanted + wanted / 32 + 1024);
     partner.resize(partner.capacity());
 }
 
