@@ -8,6 +8,7 @@
 
 #include "engine/laws/law_kernel.hpp"
 #include "engine/laws/touch-inl.hpp"
+#include "engine/vector/twice-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -42,7 +43,7 @@ template <class L>
 struct SameParameters : Visitor<SameParameters<L>> {
     mutable const NumberOf<L>* at;
     explicit SameParameters(const LawParameters& p) : at(p.numbers<NumberOf<L>>()) {}
-    HWY_INLINE void operator()(L& x) const { x = hn::Set(typename L::Tag(), *at++); }
+    HWY_INLINE void operator()(L& x) const { x = L(static_cast<double>(*at++)); }
 };
 
 template <class L>
@@ -163,7 +164,7 @@ const LawKernel& kernel_of();
 template <class Law, class L, bool one_kind>
 void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
     using Number = NumberOf<L>;
-    const std::size_t size = kernel_of<Law, L>().history_size;
+    const std::size_t size = in.history_stride;
     typename Law::template Parameters<L> p;
     if constexpr (one_kind) p.each(SameParameters<L>(*in.parameters));
     const L step(in.step), ahead(in.ahead);
@@ -188,7 +189,9 @@ void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
 template <class Law, class L>
 void step_any(const LawInput& in, void* history, ForceChunk& out) {
     auto* numbers = static_cast<NumberOf<L>*>(history);
-    in.parameters->kinds == 1 ? step_chunk<Law, L, true>(in, numbers, out)
+    // There must be registers for two: AVX-512 has. (With floats two were no faster than one.)
+    using Most = std::conditional_t<kLanes == 8 && L::count == 8, Twice<L>, L>;
+    in.parameters->kinds == 1 ? step_chunk<Law, Most, true>(in, numbers, out)
                               : step_chunk<Law, L, false>(in, numbers, out);
 }
 

@@ -9,7 +9,7 @@
 
 #include <bit>
 
-#include "engine/vector/lanes-inl.hpp"
+#include "engine/vector/twice-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -61,6 +61,15 @@ HWY_INLINE T any_power(T base, T exponent) {
 }
 template <class D>
 HWY_INLINE LanesOf<D> any_power(LanesOf<D> base, LanesOf<D> exponent);
+
+template <class L>
+HWY_INLINE Twice<L> guess_inverse_cube_root(Twice<L> x) {
+    return {guess_inverse_cube_root(x.a), guess_inverse_cube_root(x.b)};
+}
+template <class L>
+HWY_INLINE Twice<L> any_power(Twice<L> base, Twice<L> exponent) {
+    return {any_power(base.a, exponent.a), any_power(base.b, exponent.b)};
+}
 
 template <class R>
 HWY_INLINE R power(R base, R exponent) {

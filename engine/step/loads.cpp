@@ -48,53 +48,68 @@ HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
     return p;
 }
 
-// Force and torque of one body; without friction the force alone.
 HWY_INLINE double* numbers(Load& one) {
     return reinterpret_cast<double*>(&one);
 }
-template <bool rubs>
-HWY_INLINE void add(const Record<4>& force, const Record<4>& torque, double* to) {
-    put(record_at<4>(to) + force, to);
-    if constexpr (rubs) put(record_at<4>(to + 4) + torque, to + 4);
-}
-template <bool rubs>
-HWY_INLINE void subtract(const Record<4>& force, const Record<4>& torque, double* from) {
-    put(record_at<4>(from) - force, from);
-    if constexpr (rubs) put(record_at<4>(from + 4) - torque, from + 4);
-}
 
-// Three numbers a contact and a zero, contact by contact: in registers, or, floats, widened from memory.
-template <class L>
+// Force and torque of contacts on one of their bodies, contact by contact; without friction the force alone.
+template <class L, bool rubs>
 struct ByContact {
-    Rows rows;
-    HWY_INLINE void set(const Triple<L>& t) {
-        rows = rows_of(Four<Doubles>{t.x.value, t.y.value, t.z.value, L(0.0).value});
+    static constexpr int size = rubs ? 8 : 4;
+    Rows<size> rows;
+
+    HWY_INLINE void set(const Triple<L>& force, const Triple<L>& torque) {
+        if constexpr (rubs)
+            rows = rows_of(four(force), four(torque));
+        else
+            rows = rows_of(four(force));
     }
-    HWY_INLINE Record<4> operator[](int k) const { return rows.row[k]; }
+    HWY_INLINE Record<size> operator[](int k) const { return rows.row[k]; }
+
+  private:
+    static HWY_INLINE Four<Doubles> four(const Triple<L>& t) {
+        return {t.x.value, t.y.value, t.z.value, L(0.0).value};
+    }
 };
-template <>
-struct ByContact<FloatLanes> {
-    HWY_ALIGN float rows[4 * FloatLanes::count];
-    HWY_INLINE void set(const Triple<FloatLanes>& t) {
-        store_rows(Four<Floats>{t.x.value, t.y.value, t.z.value, FloatLanes(0.0).value}, rows);
+// Floats go through memory, from where they are widened.
+template <bool rubs>
+struct ByContact<FloatLanes, rubs> {
+    static constexpr int size = rubs ? 8 : 4;
+    HWY_ALIGN float forces[4 * FloatLanes::count];
+    HWY_ALIGN float torques[4 * FloatLanes::count];
+
+    HWY_INLINE void set(const Triple<FloatLanes>& force, const Triple<FloatLanes>& torque) {
+        store_rows(four(force), forces);
+        if constexpr (rubs) store_rows(four(torque), torques);
     }
-    HWY_INLINE Record<4> operator[](int k) const { return widened_at(rows + place_of_row(k)); }
+    HWY_INLINE Record<size> operator[](int k) const {
+        const Record<4> force = widened_at(forces + place_of_row(k));
+        if constexpr (rubs)
+            return both(force, widened_at(torques + place_of_row(k)));
+        else
+            return force;
+    }
+
+  private:
+    static HWY_INLINE Four<Floats> four(const Triple<FloatLanes>& t) {
+        return {t.x.value, t.y.value, t.z.value, FloatLanes(0.0).value};
+    }
 };
 
 // first(i), second(j): the loads that those grains' pushes go to. Contact by contact, in their order.
 template <class L, bool rubs, class First, class Second>
 HWY_INLINE void add_each(const ChunkOfContacts& chunk, const First& first, const Second& second) {
+    constexpr int size = rubs ? 8 : 4;
     for (int c = 0; c < chunk.count; c += L::count) {
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
-        ByContact<L> force, lost, gained;
-        force.set(p.force);
-        if constexpr (rubs) lost.set(p.first_loses), gained.set(p.second_gains);
+        ByContact<L, rubs> lost, gained;
+        lost.set(p.force, p.first_loses);
+        gained.set(p.force, p.second_gains);
         const auto one = [&](int k) HWY_ATTR {
-            const Record<4> f = force[k];
-            Record<4> l{}, g{};
-            if constexpr (rubs) l = lost[k], g = gained[k];
-            subtract<rubs>(f, l, numbers(first(chunk.first[c + k])));
-            add<rubs>(f, g, numbers(second(chunk.second[c + k])));
+            double* from = numbers(first(chunk.first[c + k]));
+            put(record_at<size>(from) - lost[k], from);
+            double* to = numbers(second(chunk.second[c + k]));
+            put(record_at<size>(to) + gained[k], to);
         };
         if (c + L::count <= chunk.count) {
 #pragma GCC unroll 16
@@ -146,14 +161,12 @@ void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains
         store_as(p.force.x, scratch.force[0] + c);
         store_as(p.force.y, scratch.force[1] + c);
         store_as(p.force.z, scratch.force[2] + c);
-        ByContact<L> force, lost;
-        force.set(p.force);
-        if constexpr (rubs) lost.set(p.first_loses);
+        ByContact<L, rubs> lost;
+        lost.set(p.force, p.first_loses);
         for (int k = 0; k < L::count && c + k < chunk.count; ++k) {
             if (!chunk.touch->touches(c + k)) continue;
-            Record<4> l{};
-            if constexpr (rubs) l = lost[k];
-            subtract<rubs>(force[k], l, numbers(grains.load[chunk.first[c + k]]));
+            double* from = numbers(grains.load[chunk.first[c + k]]);
+            put(record_at < rubs ? 8 : 4 > (from)-lost[k], from);
         }
     }
 }

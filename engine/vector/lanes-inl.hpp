@@ -141,7 +141,10 @@ HWY_INLINE bool all(bool m) {
 // Memory is laid out in rows of 8 numbers, whatever the width; `at` is aligned to the register.
 template <class L = Lanes>
 HWY_INLINE L load(const typename L::Number* at) {
-    return hn::Load(typename L::Tag(), at);
+    if constexpr (requires { typename L::Half; })
+        return {load<typename L::Half>(at), load<typename L::Half>(at + L::Half::count)};
+    else
+        return hn::Load(typename L::Tag(), at);
 }
 template <class D>
 HWY_INLINE void store(LanesOf<D> a, hn::TFromD<D>* at) {
@@ -177,8 +180,8 @@ float > HWY_INLINE L load_as(const float* at) {
 }
 template <class L>
 HWY_INLINE L load_as(const double* at) {
-    if constexpr (std::is_same_v<L, Lanes>)
-        return load(at);
+    if constexpr (std::is_same_v<NumberOf<L>, double>)
+        return load<L>(at);
     else
         return rounded(typename L::Tag(), at);
 }
@@ -190,6 +193,10 @@ HWY_INLINE void store_as(LanesOf<D> a, float* at) {
     } else {
         store(a, at);
     }
+}
+template <class L>
+requires(!std::is_same_v<L, LanesOf<typename L::Tag>>) HWY_INLINE void store_as(L a, NumberOf<L>* at) {
+    store(a, at);
 }
 template <class D>
 HWY_INLINE void store_as(LanesOf<D> a, double* at) {

@@ -30,6 +30,23 @@ template <int size>
 HWY_INLINE void put(const Record<size>& r, double* to) {
     for (int p = 0; p < r.parts; ++p) hn::Store(r.part[p], typename Record<size>::D(), to + p * r.lanes);
 }
+// One behind the other.
+template <int size>
+HWY_INLINE Record<2 * size> both(const Record<size>& first, const Record<size>& second) {
+    Record<2 * size> r;
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (r.parts == 1) {
+        r.part[0] = hn::Combine(typename Record<2 * size>::D(), second.part[0], first.part[0]);
+        return r;
+    }
+#endif
+    if constexpr (r.parts > 1) {
+        constexpr int half = Record<size>::parts;
+        for (int p = 0; p < half; ++p) r.part[p] = first.part[p], r.part[half + p] = second.part[p];
+    }
+    return r;
+}
+
 // Four floats in memory.
 HWY_INLINE Record<4> widened_at(const float* from) {
     Record<4> r;

@@ -17,8 +17,9 @@ struct Four {
 };
 
 // As many records as there are lanes.
+template <int size>
 struct Rows {
-    Record<4> row[kLanes];
+    Record<size> row[kLanes];
 };
 
 #if HWY_TARGET == HWY_SCALAR
@@ -30,8 +31,12 @@ HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, c
     return {hn::Load(d, at), hn::Load(d, at + 1), hn::Load(d, at + 2), hn::Load(d, at + 3)};
 }
 
-HWY_INLINE Rows rows_of(const Four<Doubles>& f) {
+HWY_INLINE Rows<4> rows_of(const Four<Doubles>& f) {
     return {{{{f.a, f.b, f.c, f.d}}}};
+}
+
+HWY_INLINE Rows<8> rows_of(const Four<Doubles>& f, const Four<Doubles>& g) {
+    return {{{{f.a, f.b, f.c, f.d, g.a, g.b, g.c, g.d}}}};
 }
 
 HWY_INLINE void store_rows(const Four<Floats>& f, float* to) {
@@ -137,9 +142,9 @@ HWY_INLINE std::size_t place_of_row(std::size_t k) {
 
 // The other way, into registers.
 template <class D>
-HWY_INLINE Rows rows_of(const Four<D>& f) {
+HWY_INLINE Rows<4> rows_of(const Four<D>& f) {
     const D d;
-    Rows rows;
+    Rows<4> rows;
     if constexpr (hn::MaxLanes(D()) == 8) {
         const Four<D> r = transposed(d, f);
         const hn::Half<D> half;
@@ -156,6 +161,28 @@ HWY_INLINE Rows rows_of(const Four<D>& f) {
         rows.row[0].part[1] = hn::InterleaveLower(d, f.c, f.d);
         rows.row[1].part[0] = hn::InterleaveUpper(d, f.a, f.b);
         rows.row[1].part[1] = hn::InterleaveUpper(d, f.c, f.d);
+    }
+    return rows;
+}
+
+// Four numbers and four behind them.
+template <class D>
+HWY_INLINE Rows<8> rows_of(const Four<D>& f, const Four<D>& g) {
+    Rows<8> rows;
+    if constexpr (hn::MaxLanes(D()) == 8) {
+        const D d;
+        const Four<D> r = transposed(d, f), s = transposed(d, g);
+        rows.row[0].part[0] = hn::ConcatLowerLower(d, s.a, r.a);
+        rows.row[1].part[0] = hn::ConcatLowerLower(d, s.b, r.b);
+        rows.row[2].part[0] = hn::ConcatLowerLower(d, s.c, r.c);
+        rows.row[3].part[0] = hn::ConcatLowerLower(d, s.d, r.d);
+        rows.row[4].part[0] = hn::ConcatUpperUpper(d, s.a, r.a);
+        rows.row[5].part[0] = hn::ConcatUpperUpper(d, s.b, r.b);
+        rows.row[6].part[0] = hn::ConcatUpperUpper(d, s.c, r.c);
+        rows.row[7].part[0] = hn::ConcatUpperUpper(d, s.d, r.d);
+    } else {
+        const Rows<4> r = rows_of(f), s = rows_of(g);
+        for (int k = 0; k < kLanes; ++k) rows.row[k] = both(r.row[k], s.row[k]);
     }
     return rows;
 }
