@@ -120,7 +120,8 @@ TEST(Cylinder, HoldsABallByItsWeightOverStiffness) {
     w.run(300000);
     const double sink = sphere_mass() * 9.81 / kStiffness;
     const Vec3 rest = wall.point + (wall.radius - kRadius + sink) * outwards;
-    EXPECT_LT((w.position(0) - rest).norm(), 1e-4 * sink);
+    // Along the wall gravity holds it softly: by R for each radian that the normal is off.
+    EXPECT_LT((w.position(0) - rest).norm(), of_rounding(1e-4 * sink, 1e-7 * wall.radius));
 }
 
 // A ball that rolls without slip on a plate shaken sideways follows it by 2/7: m a = T, I w' = -T r and

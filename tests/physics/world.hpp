@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "engine/measure/energy.hpp"
 #include "engine/step/step_loop.hpp"
@@ -61,12 +63,24 @@ inline PairPlan walton_braun_pair(double e, double friction, double tangential_r
     return p;
 }
 
+// Where GRAINREEL_TEST_PRECISION=mixed asks for it, worlds follow their laws in floats.
+inline bool mixed_precision() {
+    const char* wanted = std::getenv("GRAINREEL_TEST_PRECISION");
+    return wanted && std::string(wanted) == "mixed";
+}
+
+// What rounding leaves of a quantity: in doubles, or with laws in floats.
+inline double of_rounding(double in_doubles, double in_floats) {
+    return mixed_precision() ? in_floats : in_doubles;
+}
+
 // One species, the same contact everywhere, nothing around it.
 inline World make_world(PairPlan pair, double step, NormalForce normal = NormalForce::walton_braun,
                         TangentialLaw tangential = TangentialLaw::incremental_slip) {
     World w;
     pair.model.normal = normal;
     pair.model.tangential = tangential;
+    if (mixed_precision()) pair.model.precision = Precision::mixed;
     w.plan.grain.assign(1, pair);
     w.plan.wall.assign(1, pair);
     w.plan.clock.step = step;
