@@ -158,13 +158,9 @@ HWY_INLINE std::size_t place_in_history(int c, std::size_t stride) {
     return (c / kBlock) * (stride * kBlock) + c % kBlock;
 }
 
-template <class Law, class L>
-const LawKernel& kernel_of();
-
 template <class Law, class L, bool one_kind>
 void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
     using Number = NumberOf<L>;
-    const std::size_t size = in.history_stride;
     typename Law::template Parameters<L> p;
     if constexpr (one_kind) p.each(SameParameters<L>(*in.parameters));
     const L step(in.step), ahead(in.ahead);
@@ -172,7 +168,7 @@ void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
         NumberOf<L>* kept = history + place_in_history(c, in.history_stride);
         if (!in.touch->any_touching(c, L::count)) {
             put_nothing<Law, L>(c, out);
-            for (std::size_t k = 0; k < size; ++k) store(L(0.0), kept + k * kBlock);
+            for (int k = 0; k < in.history_stride; ++k) store(L(0.0), kept + k * kBlock);
             continue;
         }
         const auto touching = touching_at<L, Number>(in, c);

@@ -88,7 +88,7 @@ HWY_INLINE LanesOf<D> any_power(LanesOf<D> base, LanesOf<D> exponent) {
     for (int k = 0; k < LanesOf<D>::count; ++k) {
         if (e[k] == 2)
             b[k] *= b[k];
-        else if (e[k] != 1)
+        else if (e[k] != 1 && e[k] != static_cast<hn::TFromD<D>>(1.0 / 3.0))
             b[k] = std::pow(b[k], e[k]);
     }
     const LanesOf<D> third(1.0 / 3.0);

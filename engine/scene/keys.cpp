@@ -247,9 +247,10 @@ void add_run(Keys& keys) {
                             "Wanted largest overlap over the smaller diameter; sets the stiffness."));
     keys.push_back(choice("run.integrator", all_of(integrator_words), literal("\"velocity-verlet\""),
                           "How a step is made; the others are for comparison."));
-    keys.push_back(
-        choice("run.precision", all_of(precision_words), literal("\"double\""),
-               "mixed: contact laws and their histories in single precision, all else in double."));
+    keys.push_back(choice("run.precision", all_of(precision_words), literal("\"double\""),
+                          "mixed: contact laws, their histories and relative motion in single precision, all "
+                          "else in double; about "
+                          "1.25 times as fast."));
     keys.push_back(entry("run.contact_corrections", KeyKind::flag,
                          note("true where possible; false with draft"),
                          "walton-braun of constant restitution, with velocity-verlet: corrects onset, peak "

@@ -155,7 +155,7 @@ enum class Integrator { velocity_verlet, leapfrog, position_verlet, forest_ruth,
 // What stiffness, step and corrections are by default; docs/accuracy.md has what each costs.
 enum class Accuracy { draft, standard, reference };
 
-// Mixed: contact laws and their histories in single precision, all else in double.
+// Mixed: contact laws, their histories and relative motion in single precision, all else in double.
 enum class Precision { full, mixed };
 
 struct Run {

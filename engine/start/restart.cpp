@@ -26,6 +26,7 @@ std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
             write_value(out, p.model.normal);
             write_value(out, p.model.tangential);
             write_value(out, p.model.rolls);
+            write_value(out, p.model.precision);
             for (const double v :
                  {p.loading_stiffness, p.unloading_stiffness, p.hardening, p.modulus, p.tangential_stiffness,
                   p.tangential_ratio, p.gamma, p.friction, p.rolling_friction, p.normal_damping,

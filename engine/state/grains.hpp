@@ -27,7 +27,7 @@ struct alignas(32) Spin {
 // that little is lost by rounding.
 struct alignas(32) RoundedMotion {
     float velocity[3], inverse_mass;  // m/s, 1/kg
-    float rate[3], zero;              // rad/s
+    float rate[3], inverse_inertia;   // rad/s, 1/(kg m2)
 };
 
 // Force and torque of the last evaluation, gravity left out.

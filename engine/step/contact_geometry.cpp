@@ -66,6 +66,11 @@ std::uint64_t pairs_that_touch(const Grains& grains, const std::int32_t* i, cons
     return touching;
 }
 
+// As many contacts as laws may read: of what fills the last block, too, is known whether it touches.
+HWY_INLINE int whole_blocks(int count) {
+    return (count + kBlock - 1) / kBlock * kBlock;
+}
+
 // Where the records of a chunk's bodies start, in doubles: the same in all arrays, so that it is worked out
 // once.
 struct Places {
@@ -93,7 +98,7 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
     using Number = NumberOf<L>;
     const double* place = numbers(in.grains->place);
     out.touching = 0;
-    for (int c = 0; c < in.count; c += kLanes) {
+    for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         const auto one = load_records(place, 1, at.first + c), two = load_records(place, 1, at.second + c);
         Triple<Lanes> apart = triple(two) - triple(one);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
@@ -229,7 +234,7 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
     const double* spin = numbers(in.grains->spin);
     out.touching = 0;
     const Lanes turn(0.5 * in.turns_for);
-    for (int c = 0; c < in.count; c += kLanes) {
+    for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         const std::int32_t *i = in.first + c, *face = in.second + c;
         Triple<Lanes> into;
         const auto [out_from_axis, from_axis, distance, radius, round] = at_wall(place, walls, i, face, into);

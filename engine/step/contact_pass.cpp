@@ -183,6 +183,7 @@ LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& gro
                            rounded};
     group.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
     if (chunk.count < kChunk) touch_.touching &= (std::uint64_t{1} << chunk.count) - 1;  // not the fill
+    std::fill_n(kind_, kChunk, 0);
     if (group.needs_rows()) {
         for (int c = 0; c < chunk.count; ++c) {
             const std::int32_t one = grains.species[chunk.first[c]];

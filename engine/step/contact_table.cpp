@@ -43,13 +43,13 @@ void ContactTable::reserve(std::size_t room) {
     first_.reserve(room);
     second_.reserve(room);
     histories_.reserve(static_cast<std::int32_t>(room));
-    near_first_.reserve(room);
+    near_first_.reserve(room);  // which has the order of the contacts while they are sorted
     young_.reserve(room / 8);
     touching_.reserve(room / 64 + 1);
 }
 
 void ContactTable::reserve_candidates() {
-    const std::size_t room = near_first_.size() + near_first_.size() / 8 + 64;
+    const std::size_t room = (near_second_.size() * 9 / 8 + 64) / kBlock * kBlock;
     near_first_.reserve(room);
     near_second_.reserve(room);
 }

@@ -47,7 +47,7 @@ class ContactTable {
     void begin_candidates();
     void offer(std::int32_t i, std::int32_t j) {
         if (holds(i, j)) return;
-        if (near_first_.size() == near_first_.capacity()) reserve_candidates();
+        if (near_second_.size() == near_second_.capacity()) reserve_candidates();
         near_first_.push_back(i), near_second_.push_back(j);
     }
     void end_candidates();

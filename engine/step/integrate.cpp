@@ -185,7 +185,7 @@ void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::
         grains.rounded[i] = {{velocity.x(), velocity.y(), velocity.z()},
                              static_cast<float>(grains.motion[i].inverse_mass),
                              {rate.x(), rate.y(), rate.z()},
-                             0};
+                             static_cast<float>(grains.spin[i].inverse_inertia)};
     }
 }
 

@@ -11,7 +11,7 @@ struct KickInput {
     Vec3 gravity;           // m/s2
     bool rubs;              // spins follow torques
     double keep = 1;        // share of velocity and spin that drag leaves after an ending kick
-    Vec3 frame{0, 0, 0};    // m/s, velocity against which speeds are measured
+    Vec3 frame{0, 0, 0};    // m/s, velocity against which speeds are measured and motion is rounded
     double end_kick = 0;    // s, by the forces of now
     double begin_kick = 0;  // s, by the same forces once more
     double drift = 0;       // s
@@ -36,7 +36,7 @@ void begin_derivatives(Grains& grains, const KickInput& in);
 Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// Sets Grains::rounded, as kick_and_drift() and predict() do where there is any.
+// Sets Grains::rounded, as all that begin a step do where there is any.
 void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
 }  // namespace grainreel

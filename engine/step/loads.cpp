@@ -156,6 +156,7 @@ void pairs(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begi
 
 template <class L, bool rubs>
 void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains) {
+    constexpr int size = rubs ? 8 : 4;
     for (int c = 0; c < chunk.count; c += L::count) {
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
         store_as(p.force.x, scratch.force[0] + c);
@@ -166,7 +167,7 @@ void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains
         for (int k = 0; k < L::count && c + k < chunk.count; ++k) {
             if (!chunk.touch->touches(c + k)) continue;
             double* from = numbers(grains.load[chunk.first[c + k]]);
-            put(record_at < rubs ? 8 : 4 > (from)-lost[k], from);
+            put(record_at<size>(from) - lost[k], from);
         }
     }
 }

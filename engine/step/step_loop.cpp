@@ -209,13 +209,13 @@ bool StepLoop::lists_expired(const Member& mine, const Pose& now, const Vec3& dr
 
 double StepLoop::farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const {
     constexpr double kRounding = 1e-7;  // of floats
-    double squared = 0, from_origin = 0;
+    double farthest = 0;
     for (std::int32_t i = begin; i < end; ++i) {
         const Vec3 listed = listed_at_[i].cast<double>();
-        squared = std::max(squared, (grains_.place[i].position - listed - drift).squaredNorm());
-        from_origin = std::max(from_origin, listed.squaredNorm());
+        const double moved = (grains_.place[i].position - listed - drift).norm();
+        farthest = std::max(farthest, moved + kRounding * listed.norm());
     }
-    return std::sqrt(squared) + kRounding * std::sqrt(from_origin);
+    return farthest;
 }
 
 // The contact lists are to last for about kStepsPerRefresh steps at the speeds of now.

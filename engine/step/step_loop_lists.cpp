@@ -9,6 +9,7 @@ namespace grainreel {
 void StepLoop::rebuild(int member, const Pose& pose, double lasted) {
     Member& mine = members_[member];
     if (member == 0) {
+        note_speeds();
         next_skin_ = skin_after(lasted);  // skin_ may still be read by others
         put_in_order(cells_, grains_, next_skin_, around_.period, new_index_);
     }
@@ -33,6 +34,7 @@ void StepLoop::rebuild(int member, const Pose& pose, double lasted) {
     mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
     for (const Member& m : members_) mine.contacts.take(member, m.leaving);
     mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
+    mine.busy_before = team_.busy(member);
 }
 
 // m. Lists that did not last get a wider skin, and such as lasted longer than it pays for a narrower one.
@@ -78,7 +80,6 @@ void StepLoop::note_speeds() {
     for (int t = 0; t < size; ++t) {
         Member& m = members_[t];
         const double time = team_.busy(t) - m.busy_before;
-        m.busy_before += time;
         all_time += time;
         if (time > 0) now[t] = m.work / time;
     }
@@ -93,7 +94,7 @@ void StepLoop::note_speeds() {
 void StepLoop::share_out() {
     const std::int32_t n = static_cast<std::int32_t>(grains_.size());
     const auto work = [&](std::int32_t i) { return 3.0 * i + lists_.pairs.start[i]; };
-    note_speeds();
+    speed_.resize(team_.size(), 1.0);
     double speed_of_all = 0, speed_before = 0;
     for (const double speed : speed_) speed_of_all += speed;
     last_share_ = share_;

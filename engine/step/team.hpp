@@ -24,8 +24,8 @@ class Team {
     // Calls work(member) on every member and returns when all have come back. `work` must not throw.
     void run(const std::function<void(int)>& work);
 
-    // Waits until all members are here. Spins for some 20 us, then sleeps, so that a renderer or an encoder
-    // on the same processors gets its turn.
+    // Waits until all members are here. Spins for some 20 us, yields for 100 us, then sleeps, so that a
+    // renderer or an encoder on the same processors gets its turn.
     void barrier(int member);
     // s, that a member has been at work, not waiting, up to its last barrier.
     double busy(int member) const { return timings_[member].busy.load(std::memory_order_relaxed); }

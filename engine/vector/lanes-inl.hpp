@@ -23,7 +23,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Doubles = hn::CappedTag<double, 8>;  // as many as the machine has, at most a block of contacts
+using Doubles = hn::CappedTag<double, 8>;  // as many as the machine has, at most half a block of contacts
 using Floats = hn::CappedTag<float, 16>;
 
 template <class D>
@@ -35,6 +35,7 @@ struct MaskOf {
     friend HWY_INLINE bool none(MaskOf m) { return hn::AllFalse(D(), m.bits); }
     friend HWY_INLINE bool all(MaskOf m) { return hn::AllTrue(D(), m.bits); }
     friend HWY_INLINE std::uint64_t bits(MaskOf m) {  // the first lane is the lowest
+        static_assert(hn::MaxLanes(D()) <= 8);
         std::uint8_t byte[8] = {};
         hn::StoreMaskBits(D(), m.bits, byte);
         return byte[0];
@@ -131,14 +132,11 @@ HWY_INLINE T size_of(T a) {
 HWY_INLINE bool differ(bool a, bool b) {
     return a != b;
 }
-HWY_INLINE bool none(bool m) {
-    return !m;
-}
 HWY_INLINE bool all(bool m) {
     return m;
 }
 
-// Memory is laid out in rows of 8 numbers, whatever the width; `at` is aligned to the register.
+// Memory is laid out in blocks of 16 numbers, whatever the width; `at` is aligned to the register.
 template <class L = Lanes>
 HWY_INLINE L load(const typename L::Number* at) {
     if constexpr (requires { typename L::Half; })
@@ -174,8 +172,7 @@ requires(LanesOf<D>::count == 2 * kLanes) HWY_INLINE void widen(D d, hn::Vec<D> 
 }
 #endif
 template <class L>
-requires std::is_same_v < NumberOf<L>,
-float > HWY_INLINE L load_as(const float* at) {
+requires(std::is_same_v<NumberOf<L>, float>) HWY_INLINE L load_as(const float* at) {
     return load<L>(at);
 }
 template <class L>
