@@ -7,6 +7,7 @@
 #endif
 
 #include "engine/laws/law_kernel.hpp"
+#include "engine/laws/row-inl.hpp"
 #include "engine/laws/touch-inl.hpp"
 #include "engine/vector/twice-inl.hpp"
 
@@ -85,25 +86,13 @@ HWY_INLINE typename Law::template Parameters<L> parameters_at(const LawInput& in
     return p;
 }
 
-// Rows hold Numbers: those of L in steps, doubles for observers.
-template <class L, class Number>
-HWY_INLINE L row_at(const Row& from, int c) {
-    return load_as<L>(from.of<Number>() + c);
-}
-template <class L, class Number>
-HWY_INLINE Triple<L> triple_at(const Row* from, int c) {
-    return {row_at<L, Number>(from[0], c), row_at<L, Number>(from[1], c), row_at<L, Number>(from[2], c)};
-}
-
 template <class Number, class L>
 HWY_INLINE void put_where(typename L::Mask which, L value, Row& to, int c) {
-    store_as(select(which, value, L(0.0)), to.of<Number>() + c);
+    put<Number>(select(which, value, L(0.0)), to, c);
 }
 template <class Number, class L>
 HWY_INLINE void put_where(typename L::Mask which, const Triple<L>& t, Row* to, int c) {
-    put_where<Number>(which, t.x, to[0], c);
-    put_where<Number>(which, t.y, to[1], c);
-    put_where<Number>(which, t.z, to[2], c);
+    put<Number>(select(which, t, Triple<L>{L(0.0), L(0.0), L(0.0)}), to, c);
 }
 
 template <class L, class Number>

@@ -37,7 +37,7 @@ std::string vector_instructions() {
     const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
     const std::string name = hwy::TargetName(usable & -usable);  // the lowest bit is the best of them
     if (name == "AVX3") return "AVX-512";
-    return name == "Scalar" || name == "EMU128" ? "none (plain x86-64)" : name;
+    return name == "SCALAR" || name == "EMU128" ? "none (plain x86-64)" : name;
 }
 
 }  // namespace grainreel

@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "engine/step/contact_geometry.cpp"
 #include "engine/vector/targets.hpp"
 //
+#include "engine/laws/row-inl.hpp"
 #include "engine/vector/records-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,23 +13,6 @@ namespace grainreel::HWY_NAMESPACE {
 template <class Record>
 HWY_INLINE const double* numbers(const std::vector<Record>& records) {
     return reinterpret_cast<const double*>(records.data());
-}
-
-template <class Number, class L>
-HWY_INLINE void put(L value, Row& to, int c) {
-    store_as(value, to.of<Number>() + c);
-}
-template <class Number, class L>
-HWY_INLINE void put(const Triple<L>& t, Row* to, int c) {
-    put<Number>(t.x, to[0], c), put<Number>(t.y, to[1], c), put<Number>(t.z, to[2], c);
-}
-template <class L>
-HWY_INLINE L get(const Row& from, int c) {
-    return load<L>(from.of<NumberOf<L>>() + c);
-}
-template <class L>
-HWY_INLINE Triple<L> get(const Row* from, int c) {
-    return {get<L>(from[0], c), get<L>(from[1], c), get<L>(from[2], c)};
 }
 
 template <class D>
@@ -125,11 +109,11 @@ void sweep_distances(const GeometryInput& in, TouchChunk& out) {
     using Number = NumberOf<L>;
     const bool arms = in.wants >= Wants::spin && in.arms == LeverArms::contact_plane;
     for (int c = 0; c < in.count; c += L::count) {
-        const L distance = get<L>(out.inverse_distance, c), inverse = L(1.0) / distance;
-        put<Number>(get<L>(out.normal, c) * inverse, out.normal, c);
+        const L distance = row_at<L>(out.inverse_distance, c), inverse = L(1.0) / distance;
+        put<Number>(triple_at<L>(out.normal, c) * inverse, out.normal, c);
         put<Number>(inverse, out.inverse_distance, c);
         if (!arms) continue;
-        const L one = get<L>(out.first_arm, c), two = get<L>(out.second_arm, c);
+        const L one = row_at<L>(out.first_arm, c), two = row_at<L>(out.second_arm, c);
         const L first_arm = L(0.5) * multiply_add((one - two) * (one + two), inverse, distance);
         put<Number>(first_arm, out.first_arm, c);
         put<Number>(distance - first_arm, out.second_arm, c);
@@ -170,10 +154,10 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
     for (int c = 0; c < in.count; c += L::count) {
         const Triple<L> one = spins_of<L>(*in.grains, at.first + c);
         const Triple<L> two = spins_of<L>(*in.grains, at.second + c);
-        const Triple<L> k = get<L>(out.normal, c), velocity = get<L>(out.velocity, c);
-        const L turning = turn * get<L>(out.inverse_distance, c);
+        const Triple<L> k = triple_at<L>(out.normal, c), velocity = triple_at<L>(out.velocity, c);
+        const L turning = turn * row_at<L>(out.inverse_distance, c);
         const Triple<L> change = velocity.across(k) * turning;
-        const Triple<L> spins = (one * get<L>(out.first_arm, c)).plus(two, get<L>(out.second_arm, c));
+        const Triple<L> spins = (one * row_at<L>(out.first_arm, c)).plus(two, row_at<L>(out.second_arm, c));
         put<Number>(of_surfaces(velocity, spins, k, change), out.velocity, c);
         put<Number>(half_step * (one + two).dot(k), out.twist, c);
         if (in.wants == Wants::rolling) put<Number>((one - two).across(k), in.rolling->rate, c);

@@ -4,20 +4,11 @@
 #define HWY_TARGET_INCLUDE "engine/step/loads.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "engine/vector/record-inl.hpp"
+#include "engine/laws/row-inl.hpp"
 #include "engine/vector/records-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
-
-template <class L>
-HWY_INLINE L take(const Row& from, int c) {
-    return load<L>(from.of<NumberOf<L>>() + c);
-}
-template <class L>
-HWY_INLINE Triple<L> take(const Row* from, int c) {
-    return {take<L>(from[0], c), take<L>(from[1], c), take<L>(from[2], c)};
-}
 
 // Of L::count contacts: what the second body gains in force and the first loses, and what they lose and gain
 // in torque.
@@ -29,18 +20,18 @@ struct Pushes {
 // Torques are -arm * turning with turning = k x T, for both; what resists rolling comes on top.
 template <class L, bool rubs>
 HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
-    const Triple<L> k = take<L>(chunk.touch->normal, c);
-    const L normal = take<L>(chunk.force->normal, c);
+    const Triple<L> k = triple_at<L>(chunk.touch->normal, c);
+    const L normal = row_at<L>(chunk.force->normal, c);
     Pushes<L> p;
     if constexpr (!rubs) {
         p.force = k * normal;
     } else {
-        const Triple<L> across = take<L>(chunk.force->tangential, c), turning = k.cross(across);
+        const Triple<L> across = triple_at<L>(chunk.force->tangential, c), turning = k.cross(across);
         p.force = across.plus(k, normal);
-        p.first_loses = turning * take<L>(chunk.touch->first_arm, c);
-        p.second_gains = -(turning * take<L>(chunk.touch->second_arm, c));
+        p.first_loses = turning * row_at<L>(chunk.touch->first_arm, c);
+        p.second_gains = -(turning * row_at<L>(chunk.touch->second_arm, c));
         if (chunk.rolling) {
-            const Triple<L> rolling = take<L>(chunk.rolling->torque, c);
+            const Triple<L> rolling = triple_at<L>(chunk.rolling->torque, c);
             p.first_loses += rolling;
             p.second_gains += rolling;
         }

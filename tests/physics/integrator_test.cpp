@@ -37,12 +37,14 @@ double swing_error(Integrator integrator, int steps) {
 }
 
 TEST(Integrators, HaveTheirOrderOnSmoothMotion) {
-    if (mixed_precision()) GTEST_SKIP() << "the errors of fourth order are below the rounding of floats";
     for (const Integrator integrator : kAll) {
         const double ratio = swing_error(integrator, 50) / swing_error(integrator, 100);
         const int name = static_cast<int>(integrator);
         if (integrator == Integrator::forest_ruth) {
-            EXPECT_NEAR(std::log2(ratio), 4, 0.2);
+            // In floats what is left of it is their rounding already.
+            if (!mixed_precision()) {
+                EXPECT_NEAR(std::log2(ratio), 4, 0.2);
+            }
             EXPECT_LT(swing_error(integrator, 50), 1e-5);
         } else if (integrator == Integrator::gear) {
             EXPECT_NEAR(std::log2(ratio), 2, 0.1);

@@ -1,0 +1,37 @@
+// Registers from and to the rows of chunks.
+#if defined(GRAINREEL_LAWS_ROW_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_LAWS_ROW_INL
+#undef GRAINREEL_LAWS_ROW_INL
+#else
+#define GRAINREEL_LAWS_ROW_INL
+#endif
+
+#include "engine/laws/touch_chunk.hpp"
+#include "engine/vector/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+// Rows hold Numbers: those of L on the way through a law, doubles for observers.
+template <class L, class Number = NumberOf<L>>
+HWY_INLINE L row_at(const Row& from, int c) {
+    return load_as<L>(from.of<Number>() + c);
+}
+template <class L, class Number = NumberOf<L>>
+HWY_INLINE Triple<L> triple_at(const Row* from, int c) {
+    return {row_at<L, Number>(from[0], c), row_at<L, Number>(from[1], c), row_at<L, Number>(from[2], c)};
+}
+
+template <class Number, class L>
+HWY_INLINE void put(L value, Row& to, int c) {
+    store_as(value, to.of<Number>() + c);
+}
+template <class Number, class L>
+HWY_INLINE void put(const Triple<L>& t, Row* to, int c) {
+    put<Number>(t.x, to[0], c), put<Number>(t.y, to[1], c), put<Number>(t.z, to[2], c);
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
