@@ -101,6 +101,7 @@ class StepLoop {
         double farthest = 0;     // m, from where they were listed
         double work = 0;         // of its share of the grains, in units of a listed pair
         double busy_before = 0;  // s, when the grains were shared out
+        double speed = 1;        // lately, against the mean of all
     };
 
     // The forces of a stage: when (in steps), where the walls are then, and what went before.
@@ -144,8 +145,7 @@ class StepLoop {
     NeighbourLists lists_;
     std::vector<Member> members_;
     Shares share_, last_share_;
-    std::vector<double> speed_, speed_now_;  // of the threads, against their mean
-    std::vector<std::int32_t> new_index_;    // of the grains before the last reordering
+    std::vector<std::int32_t> new_index_;  // of the grains before the last reordering
 
     // Where and how the grains and walls were when the lists were made.
     std::vector<Eigen::Vector3f> listed_at_;  // half the memory, and its rounding is allowed for

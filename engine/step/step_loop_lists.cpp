@@ -71,22 +71,15 @@ void StepLoop::note_listing(const Pose& pose) {
 // use too differ by half for seconds. Equal where nothing is known.
 void StepLoop::note_speeds() {
     constexpr double kMost = 2, kNewShare = 0.5;
-    const int size = team_.size();
-    speed_.resize(size, 1.0);
-    double all_work = 0, all_time = 0;
-    for (Member& m : members_) all_work += m.work;
-    std::vector<double>& now = speed_now_;
-    now.assign(size, 1.0);
-    for (int t = 0; t < size; ++t) {
+    const auto time_of = [&](int t) { return team_.busy(t) - members_[t].busy_before; };
+    double work = 0, time = 0;
+    for (int t = 0; t < team_.size(); ++t) work += members_[t].work, time += time_of(t);
+    if (work <= 0 || time <= 0) return;
+    for (int t = 0; t < team_.size(); ++t) {
         Member& m = members_[t];
-        const double time = team_.busy(t) - m.busy_before;
-        all_time += time;
-        if (time > 0) now[t] = m.work / time;
+        const double now = (m.work / time_of(t)) / (work / time);
+        m.speed += kNewShare * (std::clamp(now, 1 / kMost, kMost) - m.speed);
     }
-    if (all_work <= 0 || all_time <= 0) return;
-    const double mean = all_work / all_time;
-    for (int t = 0; t < size; ++t)
-        speed_[t] += kNewShare * (std::clamp(now[t] / mean, 1 / kMost, kMost) - speed_[t]);
 }
 
 // Ranges of grains for the threads, of about as much work as they are fast: a grain costs about as much as
@@ -94,16 +87,15 @@ void StepLoop::note_speeds() {
 void StepLoop::share_out() {
     const std::int32_t n = static_cast<std::int32_t>(grains_.size());
     const auto work = [&](std::int32_t i) { return 3.0 * i + lists_.pairs.start[i]; };
-    speed_.resize(team_.size(), 1.0);
     double speed_of_all = 0, speed_before = 0;
-    for (const double speed : speed_) speed_of_all += speed;
+    for (const Member& m : members_) speed_of_all += m.speed;
     last_share_ = share_;
     share_.assign(team_.size() + 1, n);
     share_[0] = 0;
     std::int32_t i = 0;
     for (int t = 0; t < team_.size(); ++t) {
         const std::int32_t begin = i;
-        speed_before += speed_[t];
+        speed_before += members_[t].speed;
         while (i < n && work(i) * speed_of_all < work(n) * speed_before) ++i;
         share_[t + 1] = i = t + 1 < team_.size() ? i : n;
         members_[t].work = work(i) - work(begin);
