@@ -12,6 +12,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/team.hpp"
 #include "engine/scene/plan.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/grains.hpp"
@@ -21,7 +22,6 @@
 #include "engine/step/integrate.hpp"
 #include "engine/step/neighbours.hpp"
 #include "engine/step/scheme.hpp"
-#include "engine/step/team.hpp"
 
 namespace grainreel {
 

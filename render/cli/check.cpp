@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/team.hpp"
 #include "engine/chart/single_contact.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/step/team.hpp"
 #include "render/cli/thread_plan.hpp"
 #include "render/film/sampler.hpp"
 

@@ -6,10 +6,10 @@
 
 #include "build_info.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/scene/writer.hpp"
-#include "engine/step/team.hpp"
 #include "render/cli/stop_signal.hpp"
 #include "render/cli/version.hpp"
 

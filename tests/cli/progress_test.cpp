@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/step/team.hpp"
+#include "engine/base/team.hpp"
 #include "render/cli/pace.hpp"
 #include "render/cli/progress_text.hpp"
 #include "render/cli/thread_plan.hpp"

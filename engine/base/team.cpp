@@ -1,4 +1,4 @@
-#include "engine/step/team.hpp"
+#include "engine/base/team.hpp"
 
 #include <sched.h>
 
