@@ -2,14 +2,18 @@
 
 #include <netcdf.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/output/netcdf_layout.hpp"
 
 namespace grainreel {
 
@@ -127,6 +131,15 @@ std::string NetcdfFile::text_attribute(int variable, const std::string& name) co
     std::string text(length, '\0');
     if (nc_get_att_text(id_, variable, name.c_str(), text.data()) != NC_NOERR) return {};
     return text;
+}
+
+std::size_t NetcdfFile::whole_records(std::size_t records) const {
+    const std::optional<NetcdfLayout> layout = netcdf_layout(id_);
+    std::error_code error;
+    const std::uint64_t length = std::filesystem::file_size(path_, error);
+    if (!layout || layout->record == 0 || error) return records;
+    const std::uint64_t whole = length > layout->begin ? (length - layout->begin) / layout->record : 0;
+    return static_cast<std::size_t>(std::min<std::uint64_t>(records, whole));
 }
 
 using Index = std::vector<std::size_t>;

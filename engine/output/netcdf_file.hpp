@@ -35,6 +35,8 @@ class NetcdfFile {
     bool has_variable(const std::string& name) const;
     std::size_t length(const std::string& dimension) const;                   // UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
+    // Of the first `records`, how many are whole in the file; fewer when it was cut off.
+    std::size_t whole_records(std::size_t records) const;
 
     void put(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
              const int* values);

@@ -54,15 +54,18 @@ class TrajectoryWriter {
 
 class TrajectoryReader {
   public:
-    // Throws UserError when the file is missing or not such a trajectory.
+    // Throws UserError when the file is missing, was cut off, or is no such trajectory: then it says what it
+    // lacks.
     explicit TrajectoryReader(const std::filesystem::path& path);
     ~TrajectoryReader();
 
     std::size_t frames() const;
     const TrajectoryInfo& info() const;
 
-    // 0 <= index < frames().
+    // 0 <= index < frames(). Throw UserError when the file cannot be read.
     Frame read(std::size_t index) const;
+    // Likewise, but without the grains, which are most of the work: time, phase and pose alone.
+    Frame read_moment(std::size_t index) const;
 
   private:
     struct Impl;

@@ -1,5 +1,6 @@
 #include <netcdf.h>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -11,14 +12,39 @@
 
 namespace grainreel {
 
+namespace {
+
+constexpr std::array variables_of_ours{
+    "time",          "cycles",       "phase",          "step",        "grains",       "wall_offset",
+    "wall_velocity", "floor_offset", "floor_velocity", "cell_origin", "cell_lengths", "id",
+    "type",          "radius",       "coordinates",    "velocities",  "spin"};
+
+// Another program's file may follow the same convention; what counts is that nothing is missing.
+void check_complete(const NetcdfFile& file, const std::string& name) {
+    std::vector<std::string> missing;
+    for (const char* variable : variables_of_ours)
+        if (!file.has_variable(variable)) missing.emplace_back(variable);
+    if (missing.empty()) return;
+    throw UserError(
+        fmt::format("{}: not a trajectory of grainreel: it lacks {}; give the trajectory.nc of a run", name,
+                    fmt::join(missing, ", ")));
+}
+
+// The library would read zeros beyond the end.
+void check_whole(const NetcdfFile& file, std::size_t frames, const std::string& name) {
+    const std::size_t whole = file.whole_records(frames);
+    if (whole == frames) return;
+    throw UserError(
+        fmt::format("{}: was cut off: of its {} frames {} are whole; copy it again", name, frames, whole));
+}
+
+}  // namespace
+
 struct TrajectoryReader::Impl {
-    explicit Impl(const std::filesystem::path& path) : file(NetcdfFile::open(path)) {
-        if (file.text_attribute(NC_GLOBAL, "Conventions") != "AMBER" ||
-            file.text_attribute(NC_GLOBAL, "program") != "grainreel") {
-            throw UserError(fmt::format("{}: not a trajectory of grainreel; give the trajectory.nc of a run",
-                                        path.string()));
-        }
+    explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
+        check_complete(file, source);
         frames = file.length("frame");
+        check_whole(file, frames, source);
         info.title = file.text_attribute(NC_GLOBAL, "title");
         info.program_version = file.text_attribute(NC_GLOBAL, "programVersion");
         info.capacity = file.length("atom");
@@ -63,7 +89,12 @@ struct TrajectoryReader::Impl {
     }
 
     void read_grains(std::size_t index, Frame& frame) const {
-        const auto n = static_cast<std::size_t>(number("grains", index));
+        const double grains = number("grains", index);
+        if (!(grains >= 0 && grains <= static_cast<double>(info.capacity)))
+            throw UserError(fmt::format(
+                "{}: frame {} says that it has {} grains, in a file with places for {}; copy it again",
+                source, index, grains, info.capacity));
+        const auto n = static_cast<std::size_t>(grains);
         frame.id = integers("id", index, n);
         frame.species = integers("type", index, n);
         for (std::int32_t& species : frame.species) --species;
@@ -76,6 +107,7 @@ struct TrajectoryReader::Impl {
         for (std::size_t i = 0; i < n; ++i) frame.orientation.emplace_back(flat.data() + 4 * i);  // x y z w
     }
 
+    std::string source;  // for messages
     NetcdfFile file;
     std::size_t frames = 0;
     TrajectoryInfo info;
@@ -92,6 +124,12 @@ const TrajectoryInfo& TrajectoryReader::info() const {
 }
 
 Frame TrajectoryReader::read(std::size_t index) const {
+    Frame frame = read_moment(index);
+    impl_->read_grains(index, frame);
+    return frame;
+}
+
+Frame TrajectoryReader::read_moment(std::size_t index) const {
     GRAINREEL_CHECK(index < impl_->frames);
     Frame frame;
     frame.step = std::llround(impl_->number("step", index));
@@ -102,7 +140,6 @@ Frame TrajectoryReader::read(std::size_t index) const {
     frame.wall_velocity = impl_->vector("wall_velocity", index);
     frame.floor_offset = impl_->vector("floor_offset", index);
     frame.floor_velocity = impl_->vector("floor_velocity", index);
-    impl_->read_grains(index, frame);
     return frame;
 }
 

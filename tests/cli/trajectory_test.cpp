@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/contacts_file.hpp"
+#include "engine/output/netcdf_layout.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -182,6 +183,96 @@ TEST(Trajectory, OtherFilesAreUserErrors) {
     EXPECT_THROW(TrajectoryReader(here / "missing.nc"), UserError);
     test::write_text(here / "text.nc", "not NetCDF at all");
     EXPECT_THROW(TrajectoryReader(here / "text.nc"), UserError);
+}
+
+std::string mistake_in(const std::filesystem::path& path) {
+    try {
+        const TrajectoryReader reader(path);
+        return "none";
+    } catch (const UserError& error) {
+        return error.what();
+    }
+}
+
+TEST(Trajectory, AForeignFileIsToldWhatItLacks) {
+    const TemporaryFolder here;
+    int file = -1, frame = -1, atom = -1, variable = -1;
+    ASSERT_EQ(nc_create((here / "other.nc").c_str(), NC_CLOBBER, &file), NC_NOERR);
+    nc_def_dim(file, "frame", NC_UNLIMITED, &frame);
+    nc_def_dim(file, "atom", 3, &atom);
+    for (const char* name :
+         {"time", "step", "grains", "id", "type", "radius", "coordinates", "velocities", "spin"})
+        nc_def_var(file, name, NC_DOUBLE, 1, &frame, &variable);
+    nc_close(file);
+    EXPECT_EQ(mistake_in(here / "other.nc"),
+              (here / "other.nc").string() +
+                  ": not a trajectory of grainreel: it lacks cycles, phase, wall_offset, wall_velocity, "
+                  "floor_offset, floor_velocity, cell_origin, cell_lengths; give the trajectory.nc of a run");
+}
+
+// The library reads zeros there; one byte less must show.
+TEST(Trajectory, AFileThatWasCutOffIsAUserError) {
+    const TemporaryFolder here;
+    {
+        TrajectoryWriter writer(here / "t.nc", made_info(200, true));
+        for (int i = 0; i < 3; ++i) writer.write(made_frame(200, i, true));
+    }
+    const std::string whole = test::text_of(here / "t.nc");
+    const std::size_t record = (whole.size() - 1) / 3;  // and part of the header
+    const std::vector<std::pair<std::size_t, int>> cuts = {{1, 2}, {600, 2}, {record, 1}};
+    for (const auto& [cut, left] : cuts) {
+        test::write_text(here / "cut.nc", whole.substr(0, whole.size() - cut));
+        EXPECT_THAT(mistake_in(here / "cut.nc"),
+                    testing::HasSubstr("cut.nc: was cut off: of its 3 frames " + std::to_string(left)));
+    }
+    EXPECT_EQ(mistake_in(here / "t.nc"), "none");
+}
+
+TEST(Trajectory, AMomentIsAFrameWithoutGrains) {
+    const TemporaryFolder here;
+    TrajectoryWriter(here / "t.nc", made_info(5)).write(made_frame(5, 4));
+    const Frame moment = TrajectoryReader(here / "t.nc").read_moment(0), wanted = made_frame(5, 4);
+    EXPECT_EQ(moment.step, wanted.step);
+    EXPECT_EQ(moment.time, wanted.time);
+    EXPECT_EQ(moment.phase, wanted.phase);
+    EXPECT_EQ(moment.wall_offset, wanted.wall_offset);
+    EXPECT_EQ(moment.size(), 0u);
+}
+
+// Against what the library writes, in each of the classic formats.
+TEST(NetcdfLayout, IsWhatLiesOnDisk) {
+    const TemporaryFolder here;
+    for (const int format : {0, NC_64BIT_OFFSET, NC_64BIT_DATA}) {
+        for (const int columns : {1, 3}) {
+            const std::filesystem::path path = here / "layout.nc";
+            int file = -1, rows = -1, width = -1, fixed = -1;
+            ASSERT_EQ(nc_create(path.c_str(), NC_CLOBBER | format, &file), NC_NOERR);
+            nc_def_dim(file, "row", NC_UNLIMITED, &rows);
+            nc_def_dim(file, "width", 5, &width);
+            nc_def_var(file, "a_fixed_one", NC_SHORT, 1, &width, &fixed);
+            nc_put_att_text(file, fixed, "units", 7, "furlong");
+            nc_put_att_text(file, NC_GLOBAL, "title", 9, "a layout!");
+            const std::array<int, 2> dimensions = {rows, width};
+            std::vector<int> variables(static_cast<std::size_t>(columns));
+            for (int i = 0; i < columns; ++i)
+                nc_def_var(file, ("column_" + std::to_string(i)).c_str(), i == 1 ? NC_BYTE : NC_SHORT, 2,
+                           dimensions.data(), &variables[static_cast<std::size_t>(i)]);
+            nc_enddef(file);
+            const std::array<std::size_t, 2> start = {0, 0}, count = {4, 5};
+            const std::vector<int> values(20, 7);
+            for (const int variable : variables)
+                ASSERT_EQ(nc_put_vara_int(file, variable, start.data(), count.data(), values.data()),
+                          NC_NOERR);
+            nc_close(file);
+            ASSERT_EQ(nc_open(path.c_str(), NC_NOWRITE, &file), NC_NOERR);
+            const std::optional<NetcdfLayout> layout = netcdf_layout(file);
+            nc_close(file);
+            ASSERT_TRUE(layout.has_value());
+            EXPECT_EQ(layout->record, columns == 1 ? 10u : 12u + 8u + 12u) << format;
+            EXPECT_EQ(layout->begin + 4 * layout->record, std::filesystem::file_size(path))
+                << format << ", columns " << columns;
+        }
+    }
 }
 
 TEST(Trajectory, AFileThatCannotBeMadeIsARunError) {
