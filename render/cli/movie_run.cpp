@@ -1,23 +1,16 @@
 #include "render/cli/movie_run.hpp"
 
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
-#include "build_info.hpp"
-#include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
-#include "engine/base/text_file.hpp"
-#include "engine/laws/law_kernel.hpp"
-#include "engine/scene/writer.hpp"
 #include "render/cli/stop_signal.hpp"
-#include "render/cli/version.hpp"
 
 namespace grainreel {
 
 namespace {
-
-constexpr double checkpoint_interval = 30;  // s, of wall time
 
 std::vector<Shot> schedule(const Scene& scene, const Plan& plan, bool wanted) {
     return wanted ? film_schedule(scene.film, plan.clock, plan.steps) : std::vector<Shot>();
@@ -28,90 +21,53 @@ ThreadPlan threads_for(const Scene& scene, bool film) {
     return plan_threads(processors, film, scene.grains());
 }
 
+double mean_diameter(const Species& species) {
+    return species.diameter.mean;
+}
+
 }  // namespace
 
 MovieRun::MovieRun(const Options& options, Reporter& reporter, const Scene& scene, const Plan& plan)
-    : options_(options),
-      reporter_(reporter),
-      scene_(scene),
-      plan_(plan),
-      threads_(threads_for(scene, wants_pictures())),
+    : FilmRun(options, reporter),
       shots_(schedule(scene, plan, wants_pictures())),
-      simulation_(std::in_place, scene, plan, threads_.engine),
-      folder_({scene.name, options.base, options.out, options.force}),
-      log_(folder_.path() / "log.txt") {
-    reporter_.keep_log(&log_);
+      run_(scene, plan, threads_for(scene, wants_pictures()).engine) {
+    threads_ = threads_for(scene, wants_pictures());
+    make_folder({scene.name, options.base, options.out, options.force});
 }
 
-MovieRun::~MovieRun() {
-    reporter_.keep_log(nullptr);
-}
-
-int MovieRun::run() {
-    bool stopped = false;
-    try {
-        describe();
-        stopped = !pack() || !vibrate();
-    } catch (const UserError&) {
-        if (files_) throw;  // cannot be: all that the user gave has been read by then
-        reporter_.keep_log(nullptr);
-        folder_.discard();
-        throw;
-    } catch (const std::exception& problem) {
-        failure_ = problem.what();
-    }
-    if (stopped)
-        reporter_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
-    close_film();
-    close_state();
-    record_.status = !failure_.empty() ? RunStatus::failed
-                     : stopped         ? RunStatus::interrupted
-                                       : RunStatus::complete;
-    record_.exit_status = !failure_.empty() ? 1 : stopped ? 128 + stop_signal() : 0;
-    close_record();
-    report_end();
-    std::printf("%s\n", folder_.path().c_str());
-    return *record_.exit_status;
+bool MovieRun::work() {
+    describe();
+    if (!pack()) return false;
+    begun_ = true;
+    run_.start(std::move(shots_));
+    pictures_planned_ = run_.shots();
+    open_film(run_.scene());
+    vibrating_.emplace();
+    const auto go_on = [this] {
+        show_progress();
+        return stop_signal() == 0;
+    };
+    while (const std::optional<SceneRun::Taken> shot = run_.next(go_on)) take(*shot);
+    return stop_signal() == 0;
 }
 
 void MovieRun::describe() {
-    std::vector<std::string> warnings = plan_.warnings;
+    const Scene& scene = run_.scene();
+    std::vector<std::string> warnings = run_.plan().warnings;
     if (wants_pictures()) {
-        const std::vector<std::string> strobes = strobe_warnings(scene_.film, scene_.drive);
+        const std::vector<std::string> strobes = strobe_warnings(scene.film, scene.drive);
         warnings.insert(warnings.end(), strobes.begin(), strobes.end());
     }
-    for (const std::string& warning : warnings) reporter_.warning(warning);
+    run_.describe(record_);
     begin_record(warnings);
-    replace_file(folder_.path() / "scene.toml", resolved_scene(scene_, plan_));
-    reporter_.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene_.file, scene_.grains(),
-                                 plan_.steps, plan_.clock.step, plan_.step_reason));
-    reporter_.detail(fmt::format("threads: engine {}, raster {}, encoder {}", simulation_->threads(),
+    run_.use_folder(folder_->path());
+    reporter_.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene.file, scene.grains(),
+                                 run_.plan().steps, run_.plan().clock.step, run_.plan().step_reason));
+    reporter_.detail(fmt::format("threads: engine {}, raster {}, encoder {}", run_.simulation().threads(),
                                  threads_.raster, threads_.encoder));
 }
 
-void MovieRun::begin_record(const std::vector<std::string>& warnings) {
-    record_.command = options_.command;
-    record_.scene_file = scene_.file;
-    record_.version = build_info::version;
-    record_.commit = build_info::commit;
-    record_.compiler = build_info::compiler;
-    record_.build_flags = build_info::flags;
-    record_.libraries = library_versions();
-    record_.vector = vector_instructions();
-    record_.seed = scene_.run.seed;
-    record_.engine_threads = simulation_->threads();
-    record_.raster_threads = wants_pictures() ? threads_.raster : 0;
-    record_.encoder_threads = wants_pictures() ? threads_.encoder : 0;
-    record_.started = utc_now();
-    record_.grains = scene_.grains();
-    record_.steps_planned = plan_.steps;
-    record_.step = plan_.clock.step;
-    record_.warnings = warnings;
-    write_run_json(folder_.path() / "run.json", record_);
-}
-
 bool MovieRun::pack() {
-    const auto timer = times_.during("packing");
     Stopwatch packing;
     const auto watcher = [&](const PackingProgress& now) {
         Progress progress;
@@ -119,108 +75,37 @@ bool MovieRun::pack() {
         progress.stage = growing ? Progress::Stage::growing : Progress::Stage::settling;
         progress.done = now.done;
         if (packing.seconds() > 0.5) {
-            progress.particle_steps_per_second =
-                static_cast<double>(now.steps) * static_cast<double>(scene_.grains()) / packing.seconds();
+            progress.particle_steps_per_second = static_cast<double>(now.steps) *
+                                                 static_cast<double>(run_.scene().grains()) /
+                                                 packing.seconds();
         }
         progress.elapsed = watch_.seconds();
         reporter_.progress(progress);
         return stop_signal() == 0;
     };
-    const PackingResult packing_result = simulation_->pack(watcher);
-    if (!packing_result.finished) return false;
-    first_step_ = simulation_->step();
-    if (first_step_ >= plan_.steps) {
-        throw UserError(
-            fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
-                        scene_.where("run.duration"), first_step_, plan_.steps));
-    }
-    packed_ = true;
-    reporter_.detail(fmt::format("packed {} grains: {:.3g} s of settling, solid fraction {:.3f}",
-                                 simulation_->grains(), packing_result.settle_time,
-                                 packing_result.solid_fraction));
-    if (!packing_result.settled) {
-        reporter_.warning(
-            fmt::format("{}: the bed still moves after {:.3g} s of settling ({:.2g} J a grain); raise "
-                        "start.settle_limit",
-                        scene_.where("start.settle_limit"), packing_result.settle_time,
-                        packing_result.kinetic_per_grain));
-    }
+    if (!run_.pack(watcher)) return false;
+    reporter_.detail(run_.packing_text());
+    if (const auto warning = run_.packing_warning()) reporter_.warning(*warning);
     return stop_signal() == 0;
 }
 
-void MovieRun::open_files() {
-    files_.emplace(folder_.path(), scene_, plan_, simulation_->grains());
-    if (!wants_pictures()) return;
-    FilmOptions film;
-    film.folder = folder_.path();
-    film.film = options_.film;
-    film.frames = options_.frames;
-    film.raster_threads = threads_.raster;
-    film.encoder_threads = threads_.encoder;
-    film_ = std::make_unique<FilmMaker>(scene_, film);
-}
-
-bool MovieRun::vibrate() {
-    open_files();
-    Agenda agenda(std::move(shots_), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps);
-    pictures_planned_ = agenda.shots();
-    vibrating_.emplace();
-    since_checkpoint_ = Stopwatch();
-    while (const std::optional<Stop> stop = agenda.next()) {
-        if (!advance_to(stop->step)) return false;
-        serve(*stop);
-        show_progress();
-    }
-    return true;
-}
-
-bool MovieRun::advance_to(std::int64_t target) {
-    while (simulation_->step() < target) {
-        if (stop_signal() != 0) return false;
-        const std::int64_t from = simulation_->step();
-        const std::int64_t to = std::min(target, from + pace_.steps());
-        Stopwatch stretch;
-        {
-            const auto timer = times_.during("engine");
-            simulation_->advance(to);
-        }
-        const double seconds = stretch.seconds();
-        pace_.took(to - from, seconds);
-        const double work = static_cast<double>(to - from) * static_cast<double>(simulation_->grains());
-        particle_steps_ += work;
-        rate_.add(work, seconds);
-        if (since_checkpoint_.seconds() > checkpoint_interval) save_checkpoint();
-        show_progress();
-    }
-    return stop_signal() == 0;
-}
-
-void MovieRun::serve(const Stop& stop) {
-    if (stop.measures) {
-        const auto timer = times_.during("measuring");
-        files_->add_measures(simulation_->measures());
-    }
-    if (!stop.trajectory && stop.segments.empty()) return;
-    const auto frame = std::make_shared<const Frame>(simulation_->frame());
-    if (stop.trajectory) {
-        const auto timer = times_.during("writing");
-        files_->add_frame(*frame, *simulation_);
-    }
+void MovieRun::take(const SceneRun::Taken& shot) {
+    const Scene& scene = run_.scene();
     const auto timer = times_.during("waiting for the film");
-    for (const int segment : stop.segments) {
-        const FilmSegment& rule = scene_.film.segments.at(static_cast<std::size_t>(segment));
-        film_->take(frame, playback_caption(rule, scene_.drive, scene_.film.rate));
+    for (const int segment : shot.segments) {
+        const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(segment));
+        film_->take(shot.frame, playback_caption(rule, scene.drive, scene.film.rate));
     }
 }
 
 void MovieRun::show_progress() {
-    const std::int64_t step = simulation_->step();
+    const Plan& plan = run_.plan();
     Progress progress;
     progress.stage = Progress::Stage::vibrating;
-    progress.done = static_cast<double>(step - first_step_) / static_cast<double>(plan_.steps - first_step_);
-    progress.time = plan_.clock.time(step);
-    progress.end = plan_.clock.time(plan_.steps);
-    progress.particle_steps_per_second = rate_.value();
+    progress.done = run_.done();
+    progress.time = plan.clock.time(run_.simulation().step());
+    progress.end = plan.clock.time(plan.steps);
+    progress.particle_steps_per_second = run_.recent_speed();
     progress.frames = film_ ? film_->frames_done() : 0;
     progress.frames_planned = pictures_planned_;
     progress.elapsed = watch_.seconds();
@@ -230,10 +115,42 @@ void MovieRun::show_progress() {
     reporter_.progress(progress);
 }
 
-void MovieRun::save_checkpoint() {
-    const auto timer = times_.during("writing");
-    simulation_->save_checkpoint(folder_.path() / "checkpoint.grs");
-    since_checkpoint_ = Stopwatch();
+void MovieRun::close_state() {
+    run_.close(failure_);
+    run_.conclude(record_);
+    record_.wall_seconds = run_.times().all();
+}
+
+std::string MovieRun::stopped_text() const {
+    return fmt::format("stopped at {:.2f} of {:.2f} s", record_.simulated,
+                       run_.plan().clock.time(run_.plan().steps));
+}
+
+void MovieRun::report_written() {
+    reporter_.info(fmt::format("wrote {}: {}{}, log.txt", folder_->path().string(), film_files_text(),
+                               run_.files_text()));
+    report_segregation();
+    reporter_.info(fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s)",
+                               duration_text(watch_.seconds()), duration_text(run_.times().of("packing")),
+                               duration_text(run_.times().of("engine")), run_.speed() * 1e-6));
+}
+
+void MovieRun::report_segregation() const {
+    const Scene& scene = run_.scene();
+    const RunFiles& files = *run_.files();
+    if (scene.species.size() < 2 || !files.last_measures()) return;
+    const auto [small, big] = std::minmax_element(
+        scene.species.begin(), scene.species.end(),
+        [](const Species& a, const Species& b) { return mean_diameter(a) < mean_diameter(b); });
+    const Measures& from = *files.first_measures();
+    const Measures& to = *files.last_measures();
+    std::string text =
+        fmt::format("segregation: mean height of {} minus {}, over the bed's height, from {:+.2f} to {:+.2f}",
+                    big->name, small->name, from.height_difference, to.height_difference);
+    if (std::isfinite(from.lacey) && std::isfinite(to.lacey)) {
+        text += fmt::format("; Lacey mixing index from {:.2f} to {:.2f} (1 is mixed)", from.lacey, to.lacey);
+    }
+    reporter_.info(text);
 }
 
 }  // namespace grainreel

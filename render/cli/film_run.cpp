@@ -1,0 +1,144 @@
+#include "render/cli/film_run.hpp"
+
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "build_info.hpp"
+#include "engine/base/error.hpp"
+#include "render/cli/stop_signal.hpp"
+#include "render/cli/version.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr int signal_base = 128;
+
+std::int64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace
+
+FilmRun::FilmRun(const Options& options, Reporter& reporter) : options_(options), reporter_(reporter) {}
+
+FilmRun::~FilmRun() {
+    reporter_.keep_log(nullptr);
+}
+
+void FilmRun::make_folder(const RunFolderRequest& request) {
+    folder_.emplace(request);
+    log_.emplace(folder_->path() / "log.txt");
+    reporter_.keep_log(&*log_);
+}
+
+int FilmRun::run() {
+    bool stopped = false;
+    try {
+        stopped = !work();
+    } catch (const UserError& mistake) {
+        if (!begun_) {
+            reporter_.keep_log(nullptr);
+            folder_->discard();
+            throw;
+        }
+        failure_.note(mistake.what());
+    } catch (const std::exception& problem) {
+        failure_.note(problem.what());
+    }
+    if (stopped)
+        reporter_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
+    close_film();
+    close_state();
+    record_.status = failure_.any() ? RunStatus::failed
+                     : stopped      ? RunStatus::interrupted
+                                    : RunStatus::complete;
+    record_.exit_status = failure_.any() ? 1 : stopped ? signal_base + stop_signal() : 0;
+    close_record();
+    report_end();
+    std::printf("%s\n", folder_->path().c_str());
+    return *record_.exit_status;
+}
+
+void FilmRun::begin_record(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) reporter_.warning(warning);
+    record_.command = options_.command;
+    record_.version = build_info::version;
+    record_.commit = build_info::commit;
+    record_.compiler = build_info::compiler;
+    record_.build_flags = build_info::flags;
+    record_.libraries = library_versions();
+    record_.raster_threads = wants_pictures() ? threads_.raster : 0;
+    record_.encoder_threads = wants_pictures() ? threads_.encoder : 0;
+    record_.started = utc_now();
+    record_.warnings = warnings;
+    write_run_json(folder_->path() / "run.json", record_);
+}
+
+void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
+    if (!wants_pictures()) return;
+    FilmOptions film;
+    film.folder = folder_->path();
+    film.film = options_.film;
+    film.frames = options_.frames;
+    film.raster_threads = threads_.raster;
+    film.encoder_threads = threads_.encoder;
+    film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
+                 : std::make_unique<FilmMaker>(scene, film);
+}
+
+void FilmRun::close_film() {
+    if (!film_) return;
+    failure_.attempt([&] {
+        const auto timer = times_.during("finishing the film");
+        film_report_ = film_->finish();
+        for (const std::string& note : film_report_.notes) reporter_.info(note);
+    });
+    film_report_.frames = film_->frames_done();
+    times_.add("drawing (beside the engine)", film_report_.draw_seconds);
+    times_.add("encoding (beside the engine)", film_report_.encode_seconds);
+}
+
+void FilmRun::close_record() {
+    record_.error = failure_.what();
+    record_.gl = film_report_.gl;
+    record_.finished = utc_now();
+    record_.film_frames = film_report_.frames;
+    record_.peak_memory = peak_memory();
+    times_.add("total", watch_.seconds());
+    for (const auto& time : times_.all()) record_.wall_seconds.push_back(time);
+    failure_.attempt([&] { write_run_json(folder_->path() / "run.json", record_); });
+    if (record_.status == RunStatus::complete && !failure_.any()) folder_->remove_previous();
+}
+
+void FilmRun::report_end() {
+    const std::string folder = folder_->path().string();
+    if (failure_.any()) {
+        record_.exit_status = 1;
+        reporter_.error(failure_.what());
+        reporter_.info(fmt::format("what was made until then is in {}", folder));
+    } else if (record_.status == RunStatus::interrupted) {
+        reporter_.info(fmt::format("{}; what was made is in {}{}", stopped_text(), folder,
+                                   begun_ ? "" : " (still packing: no film)"));
+    }
+    if (begun_ && !failure_.any()) report_written();
+    if (!folder_->previous().empty()) {
+        reporter_.info(
+            fmt::format("the run that was to be replaced is kept in {}", folder_->previous().string()));
+    }
+}
+
+std::string FilmRun::film_files_text() const {
+    std::string text;
+    if (options_.film) text += fmt::format("movie.mp4 ({} frames), poster.png, ", film_report_.frames);
+    if (options_.frames) text += fmt::format("frames/ ({} pictures), ", film_report_.frames);
+    return text;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,161 @@
+#include "render/cli/scene_run.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/laws/law_kernel.hpp"
+#include "engine/scene/writer.hpp"
+#include "engine/start/grain_table.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double checkpoint_interval = 30;  // s, of wall time
+
+}  // namespace
+
+SceneRun::SceneRun(const Scene& scene, const Plan& plan, int threads)
+    : scene_(scene), plan_(plan), simulation_(scene, plan, threads) {}
+
+void SceneRun::use_folder(const std::filesystem::path& folder) {
+    folder_ = folder;
+    replace_file(folder_ / "scene.toml", resolved_scene(scene_, plan_));
+}
+
+bool SceneRun::pack(const PackingWatcher& watcher) {
+    const auto timer = times_.during("packing");
+    packing_ = simulation_.pack(watcher);
+    if (!packing_.finished) return false;
+    first_step_ = simulation_.step();
+    if (first_step_ >= plan_.steps) {
+        throw UserError(
+            fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
+                        scene_.where("run.duration"), first_step_, plan_.steps));
+    }
+    packed_ = true;
+    return true;
+}
+
+std::string SceneRun::packing_text() const {
+    return fmt::format("packed {} grains: {:.3g} s of settling, solid fraction {:.3f}", simulation_.grains(),
+                       packing_.settle_time, packing_.solid_fraction);
+}
+
+std::optional<std::string> SceneRun::packing_warning() const {
+    if (packing_.settled) return std::nullopt;
+    return fmt::format(
+        "{}: the bed still moves after {:.3g} s of settling ({:.2g} J a grain); raise start.settle_limit",
+        scene_.where("start.settle_limit"), packing_.settle_time, packing_.kinetic_per_grain);
+}
+
+void SceneRun::start(std::vector<Shot> shots) {
+    files_.emplace(folder_, scene_, plan_, simulation_.grains());
+    agenda_.emplace(std::move(shots), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps);
+    shots_ = agenda_->shots();
+    since_checkpoint_ = Stopwatch();
+}
+
+std::optional<SceneRun::Taken> SceneRun::next(const GoOn& go_on) {
+    while (const std::optional<Stop> stop = agenda_->next()) {
+        if (!advance_to(stop->step, go_on)) return std::nullopt;
+        FramePtr frame = serve(*stop);
+        if (!stop->segments.empty()) return Taken{std::move(frame), stop->segments};
+    }
+    return std::nullopt;
+}
+
+bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
+    while (simulation_.step() < target) {
+        if (!go_on()) return false;
+        const std::int64_t from = simulation_.step();
+        const std::int64_t to = std::min(target, from + pace_.steps());
+        Stopwatch stretch;
+        {
+            const auto timer = times_.during("engine");
+            simulation_.advance(to);
+        }
+        const double seconds = stretch.seconds();
+        pace_.took(to - from, seconds);
+        const double work = static_cast<double>(to - from) * static_cast<double>(simulation_.grains());
+        particle_steps_ += work;
+        rate_.add(work, seconds);
+        if (since_checkpoint_.seconds() > checkpoint_interval) save_checkpoint();
+    }
+    return go_on();
+}
+
+FramePtr SceneRun::serve(const Stop& stop) {
+    if (stop.measures) {
+        const auto timer = times_.during("measuring");
+        files_->add_measures(simulation_.measures());
+    }
+    if (!stop.trajectory && stop.segments.empty()) return nullptr;
+    auto frame = std::make_shared<const Frame>(simulation_.frame());
+    if (stop.trajectory) {
+        const auto timer = times_.during("writing");
+        files_->add_frame(*frame, simulation_);
+    }
+    return frame;
+}
+
+void SceneRun::save_checkpoint() {
+    const auto timer = times_.during("writing");
+    simulation_.save_checkpoint(folder_ / "checkpoint.grs");
+    since_checkpoint_ = Stopwatch();
+}
+
+void SceneRun::close(FirstFailure& failure) {
+    if (!packed_) return;
+    failure.attempt([&] {
+        if (files_ && files_->last_measures() && files_->last_measures()->step != simulation_.step())
+            files_->add_measures(simulation_.measures());
+    });
+    failure.attempt([&] { write_grain_table(folder_ / "final.csv", simulation_.frame()); });
+    failure.attempt([&] { save_checkpoint(); });
+    failure.attempt([&] { state_hash_ = simulation_.state_hash(); });
+}
+
+double SceneRun::done() const {
+    return static_cast<double>(simulation_.step() - first_step_) /
+           static_cast<double>(plan_.steps - first_step_);
+}
+
+double SceneRun::speed() const {
+    const double engine = times_.of("engine");
+    return engine > 0 ? particle_steps_ / engine : 0;
+}
+
+std::string SceneRun::files_text() const {
+    std::string text;
+    if (plan_.trajectory_every > 0)
+        text += fmt::format("trajectory.nc ({} frames), ", files_->trajectory_frames());
+    if (files_->has_contacts()) text += "contacts.nc, ";
+    return text + fmt::format("measures.csv ({} rows), final.csv, checkpoint.grs, scene.toml, run.json",
+                              files_->measures_rows());
+}
+
+void SceneRun::describe(RunRecord& record) const {
+    record.scene_file = scene_.file;
+    record.vector = vector_instructions();
+    record.seed = scene_.run.seed;
+    record.engine_threads = simulation_.threads();
+    record.grains = scene_.grains();
+    record.steps_planned = plan_.steps;
+    record.step = plan_.clock.step;
+}
+
+void SceneRun::conclude(RunRecord& record) const {
+    record.particle_steps_per_second = speed();
+    record.trajectory_frames = files_ ? files_->trajectory_frames() : 0;
+    record.measures_rows = files_ ? files_->measures_rows() : 0;
+    record.state_hash = state_hash_;
+    if (!packed_) return;
+    record.steps = simulation_.step();
+    record.simulated = plan_.clock.time(record.steps);
+}
+
+}  // namespace grainreel

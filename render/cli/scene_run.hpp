@@ -1,0 +1,87 @@
+// One scene being run: packing, vibration up to the moments that somebody wants to see, and the files it
+// leaves in its folder. Knows no film; `movie` has one of these, `compare` several.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/output/run_json.hpp"
+#include "engine/run/simulation.hpp"
+#include "engine/scene/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/cli/agenda.hpp"
+#include "render/cli/first_failure.hpp"
+#include "render/cli/pace.hpp"
+#include "render/cli/run_files.hpp"
+#include "render/cli/stage_times.hpp"
+
+namespace grainreel {
+
+class SceneRun {
+  public:
+    // Asked every tenth of a second or so; false: stop.
+    using GoOn = std::function<bool()>;
+    struct Taken {
+        FramePtr frame;
+        std::vector<int> segments;  // of the film, one a picture
+    };
+
+    // Throws UserError for what scene or plan get wrong; nothing is on disk then.
+    SceneRun(const Scene& scene, const Plan& plan, int threads);
+
+    // Writes scene.toml there; the other files follow with start().
+    void use_folder(const std::filesystem::path& folder);
+    // False when the watcher stopped it. Throws UserError when the run would end before it begins.
+    bool pack(const PackingWatcher& watcher);
+    const PackingResult& packing() const { return packing_; }
+    // After packing: opens the files. Shots: what next() is to stop for.
+    void start(std::vector<Shot> shots);
+    // To the next shot, keeping on the way what is to be kept. None at the end, or when told to stop.
+    std::optional<Taken> next(const GoOn& go_on);
+    // Of a run that was packed, in whatever state: last row of measures, end state, checkpoint.
+    void close(FirstFailure& failure);
+
+    const Scene& scene() const { return scene_; }
+    const Plan& plan() const { return plan_; }
+    const Simulation& simulation() const { return simulation_; }
+    const StageTimes& times() const { return times_; }
+    const std::optional<RunFiles>& files() const { return files_; }
+    bool packed() const { return packed_; }
+    std::int64_t shots() const { return shots_; }
+    double done() const;                                   // share of the vibration
+    double recent_speed() const { return rate_.value(); }  // particle-steps/s
+    double speed() const;                                  // particle-steps/s, time in the engine alone
+    std::string packing_text() const;
+    std::optional<std::string> packing_warning() const;
+    // "trajectory.nc (4 frames), measures.csv (30 rows), ..."
+    std::string files_text() const;
+    // What is known when the run begins, and when it has ended.
+    void describe(RunRecord& record) const;
+    void conclude(RunRecord& record) const;
+
+  private:
+    bool advance_to(std::int64_t target, const GoOn& go_on);
+    FramePtr serve(const Stop& stop);
+    void save_checkpoint();
+
+    Scene scene_;
+    Plan plan_;
+    Simulation simulation_;
+    std::filesystem::path folder_;
+    PackingResult packing_;
+    bool packed_ = false;
+    std::int64_t first_step_ = 0, shots_ = 0;
+    std::optional<RunFiles> files_;
+    std::optional<Agenda> agenda_;
+    StageTimes times_;
+    Pace pace_;
+    Stopwatch since_checkpoint_;
+    double particle_steps_ = 0;                // of vibration
+    RecentRate rate_;                          // particle-steps/s
+    std::optional<std::uint64_t> state_hash_;  // of the end state
+};
+
+}  // namespace grainreel
