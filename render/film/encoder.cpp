@@ -73,7 +73,7 @@ void Encoder::open_file() {
 
     // Each fragment reaches the disk whole as soon as it ends.
     context->flags |= AVFMT_FLAG_FLUSH_PACKETS;
-    Options options;
+    AvOptions options;
     options.set("movflags", "frag_keyframe+empty_moov+default_base_moof");
     options.set("frag_duration", std::to_string(fragment_microseconds));
     int code = avio_open(&context->pb, ffmpeg_url(settings_.path).c_str(), AVIO_FLAG_WRITE);

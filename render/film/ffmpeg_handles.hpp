@@ -45,12 +45,12 @@ void quiet_ffmpeg();
 std::string ffmpeg_error(int code);
 
 // A dictionary of options that is freed in any case.
-class Options {
+class AvOptions {
   public:
-    Options() = default;
-    Options(const Options&) = delete;
-    Options& operator=(const Options&) = delete;
-    ~Options() { av_dict_free(&dictionary_); }
+    AvOptions() = default;
+    AvOptions(const AvOptions&) = delete;
+    AvOptions& operator=(const AvOptions&) = delete;
+    ~AvOptions() { av_dict_free(&dictionary_); }
     void set(const std::string& key, const std::string& value) {
         av_dict_set(&dictionary_, key.c_str(), value.c_str(), 0);
     }

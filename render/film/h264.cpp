@@ -27,7 +27,7 @@ void set_picture(AVCodecContext& codec, const H264Settings& settings) {
 
 // What a kill loses is what the encoder holds back: look-ahead, B-frames twice (x264 looks ahead for them in
 // a thread of its own) and a frame a thread. This is about a second; slow films hold nothing back.
-void set_groups(AVCodecContext& codec, Options& options, const H264Settings& settings) {
+void set_groups(AVCodecContext& codec, AvOptions& options, const H264Settings& settings) {
     const double rate = av_q2d(settings.rate);
     codec.gop_size = std::max(1, static_cast<int>(rate));
     codec.flags |= AV_CODEC_FLAG_CLOSED_GOP | AV_CODEC_FLAG_GLOBAL_HEADER;
@@ -76,7 +76,7 @@ CodecPtr open_h264(const H264Settings& settings, const std::vector<std::string>&
                         fmt::join(names, ", ")));
     CodecPtr codec(avcodec_alloc_context3(encoder));
     if (!codec) throw RunError("film: no memory for the encoder");
-    Options options;
+    AvOptions options;
     set_picture(*codec, settings);
     codec->thread_count = settings.threads;
     if (std::string(encoder->name) == "libx264") {

@@ -33,7 +33,7 @@ int open_output(const AVFormatContext& input, const std::filesystem::path& path,
     to->time_base = from.time_base;
     to->avg_frame_rate = from.avg_frame_rate;
     av_dict_copy(&context->metadata, input.metadata, 0);
-    Options options;
+    AvOptions options;
     options.set("movflags", "faststart");
     code = avio_open(&context->pb, context->url, AVIO_FLAG_WRITE);
     return code < 0 ? code : avformat_write_header(context, options.get());
