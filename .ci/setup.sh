@@ -24,6 +24,7 @@ libpango1.0-dev      pangocairo, pangoft2, cairo
 fonts-dejavu-core    the DejaVu fonts
 libosmesa6-dev       osmesa (Mesa before 25.1), headers and library
 libgl-dev            GL/glcorearb.h
+libegl-dev           EGL/eglext.h, and libEGL.so.1 for --gl egl
 libavformat-dev      libavformat
 libavcodec-dev       libavcodec, with libx264
 libswscale-dev       libswscale

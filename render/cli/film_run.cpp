@@ -89,8 +89,11 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     film.frames = options_.frames;
     film.raster_threads = threads_.raster;
     film.encoder_threads = threads_.encoder;
+    film.gl = options_.gl;
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
                  : std::make_unique<FilmMaker>(scene, film);
+    record_.gl = film_->drawer();
+    reporter_.detail("drawn with " + record_.gl);
 }
 
 void FilmRun::close_film() {
@@ -107,7 +110,6 @@ void FilmRun::close_film() {
 
 void FilmRun::close_record() {
     record_.error = failure_.what();
-    record_.gl = film_report_.gl;
     record_.finished = utc_now();
     record_.film_frames = film_report_.frames;
     record_.peak_memory = peak_memory();

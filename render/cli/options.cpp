@@ -39,6 +39,21 @@ Form progress_form(const std::string& word) {
     return found->second;
 }
 
+gl::Provider provider_of(const std::string& word, const std::string& said_by) {
+    if (word == "osmesa") return gl::Provider::osmesa;
+    if (word == "egl") return gl::Provider::egl;
+    throw UserError(
+        fmt::format("{}={}: no such maker of OpenGL contexts; choose osmesa or egl", said_by, word));
+}
+
+void add_gl(CLI::App& verb, Options& options) {
+    verb.add_option_function<std::string>(
+            "--gl", [&options](const std::string& word) { options.gl = provider_of(word, "--gl"); },
+            "Draw with osmesa (software, the same everywhere) or egl (a graphics card where there is one)\n"
+            "[$GRAINREEL_GL, else osmesa]")
+        ->type_name("WHICH");
+}
+
 // An option that stands for a key of the scene.
 void add_key(CLI::App& verb, Options& options, const char* flag, const char* key, const char* type,
              const char* about) {
@@ -97,6 +112,7 @@ void add_movie(CLI::App& app, Options& options) {
     movie.add_flag_callback(
         "--no-film", [&options] { options.film = false; },
         "Leave out the film; with --frames, keep the pictures alone");
+    add_gl(movie, options);
     add_reporting(movie, options);
     movie.footer(
         "The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the film so that it\n"
@@ -177,6 +193,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     for (int i = 0; i < argc; ++i) options.command += (i == 0 ? "" : " ") + quoted(argv[i]);
     if (const char* base = std::getenv("GRAINREEL_OUTPUT"); base != nullptr && *base != '\0')
         options.base = base;
+    if (const char* word = std::getenv("GRAINREEL_GL"); word != nullptr && *word != '\0')
+        options.gl = provider_of(word, "GRAINREEL_GL");
 
     CLI::App app("One scene file becomes a film of vibrated grains and the numbers behind it.", "grainreel");
     app.require_subcommand(1);

@@ -8,6 +8,7 @@
 
 #include "engine/bench/bench_run.hpp"
 #include "render/cli/reporter.hpp"
+#include "render/gl/provider.hpp"
 
 namespace grainreel {
 
@@ -24,9 +25,10 @@ struct Options {
     bool force = false;
     bool film = true;
     bool frames = false;
-    std::string chart;   // which, with `chart`
-    bool quick = false;  // of charts
-    std::string bench;   // which case, with `bench`
+    gl::Provider gl = gl::Provider::automatic;  // $GRAINREEL_GL when that is set and --gl is not
+    std::string chart;                          // which, with `chart`
+    bool quick = false;                         // of charts
+    std::string bench;                          // which case, with `bench`
     BenchRequest bench_request;
     bool json = false;  // of bench
     ReporterOptions report;

@@ -35,14 +35,14 @@ class Stopwatch {
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(const Scene& s, int raster_threads)
+    Impl(const Scene& s, int raster_threads, gl::Provider provider)
         : scene(s),
           palette(make_palette(s.film.background)),
           layout(plan_layout(s)),
           port(layout.port),
           view(frame_container(s, layout)),
           overlay(scene, palette, layout, view),
-          context(gl::make_osmesa_context(raster_threads)),
+          context(gl::make_context(provider, raster_threads)),
           target(context->gl(), port.width, port.height, bytes),
           shape_painter(context->gl()),
           sphere_painter(context->gl(), s, port.width, port.height),
@@ -104,8 +104,8 @@ void Renderer::Impl::read_back() {
         std::memcpy(picture.pixel(port.x, port.y + y), rows.data() + row * (port.height - 1 - y), row);
 }
 
-Renderer::Renderer(const Scene& scene, int raster_threads)
-    : impl_(std::make_unique<Impl>(scene, raster_threads)) {}
+Renderer::Renderer(const Scene& scene, int raster_threads, gl::Provider provider)
+    : impl_(std::make_unique<Impl>(scene, raster_threads, provider)) {}
 
 Renderer::~Renderer() = default;
 
@@ -122,6 +122,10 @@ DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) 
 
 std::string Renderer::gl_description() const {
     return impl_->context->description();
+}
+
+std::string Renderer::gl_note() const {
+    return impl_->context->note();
 }
 
 }  // namespace grainreel

@@ -7,6 +7,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/picture.hpp"
+#include "render/gl/provider.hpp"
 
 namespace grainreel {
 
@@ -20,13 +21,14 @@ class Renderer {
   public:
     // Makes an off-screen OpenGL context, current on the calling thread: construct, use and destroy it on one
     // thread. raster_threads: of the software rasteriser, >= 1. Throws RunError when no context is to be had.
-    Renderer(const Scene& scene, int raster_threads);
+    Renderer(const Scene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic);
     ~Renderer();
 
     // playback: what the caption says of time ("slow motion, 1/10 speed"). The size is the scene's film size.
     const Picture& draw(const Frame& frame, const std::string& playback);
 
     std::string gl_description() const;  // vendor, renderer and version of the context
+    std::string gl_note() const;         // why it is not the context one would have expected; mostly empty
 
     // The same picture, and what each of its stages cost.
     DrawTimes draw_timed(const Frame& frame, const std::string& playback);

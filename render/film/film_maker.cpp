@@ -58,6 +58,8 @@ struct FilmMaker::Impl {
     void draw_all() {
         const std::unique_ptr<Drawer> drawer = make();
         gl = drawer->description();
+        note = drawer->note();
+        tell_drawer();
         while (std::optional<Order> order = frames.pop()) {
             std::optional<Picture> canvas = spare.pop();
             if (!canvas) return;
@@ -87,7 +89,13 @@ struct FilmMaker::Impl {
             const std::scoped_lock lock(failure_mutex);
             if (failure.empty()) failure = words;
         }
+        tell_drawer();
         cancel();
+    }
+
+    void tell_drawer() {
+        drawer_known = true;
+        drawer_known.notify_all();
     }
 
     void cancel() {
@@ -114,8 +122,10 @@ struct FilmMaker::Impl {
     std::atomic<bool> complete = false;  // finish() was called: the film is to be closed, not abandoned
     std::atomic<std::int64_t> done = 0;
     std::mutex failure_mutex;
-    std::string failure;  // of the stage that failed first; empty when none did
-    std::string gl;       // from here on: written by one thread, read after join()
+    std::string failure;                     // of the stage that failed first; empty when none did
+    std::atomic<bool> drawer_known = false;  // it is made, or something failed
+    std::string gl, note;                    // of the drawer: read once it is known
+    // From here on: written by one thread, read after join().
     double draw_seconds = 0, encode_seconds = 0, waited_seconds = 0;
     std::thread drawing, encoding;
 };
@@ -133,6 +143,12 @@ void FilmMaker::take(FramePtr frame, std::string playback) {
     if (!taken) impl_->throw_failure();
 }
 
+std::string FilmMaker::drawer() {
+    impl_->drawer_known.wait(false);
+    impl_->throw_failure();
+    return impl_->gl;
+}
+
 FilmReport FilmMaker::finish() {
     impl_->complete = true;
     impl_->frames.close();
@@ -146,6 +162,7 @@ FilmReport FilmMaker::finish() {
     report.gl = impl_->gl;
     report.encoder = impl_->files.encoder();
     report.notes = impl_->files.notes();
+    if (!impl_->note.empty()) report.notes.push_back(impl_->note);
     return report;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/picture.hpp"
+#include "render/gl/provider.hpp"
 
 namespace grainreel {
 
@@ -21,6 +22,7 @@ struct FilmOptions {
     bool frames = false;           // frames/000000.png ...
     int raster_threads = 1;
     int encoder_threads = 1;
+    gl::Provider gl = gl::Provider::automatic;
 };
 
 struct FilmReport {
@@ -38,6 +40,7 @@ class Drawer {
     virtual ~Drawer() = default;
     virtual const Picture& draw(const Frame& frame, const std::string& playback) = 0;
     virtual std::string description() const = 0;
+    virtual std::string note() const { return {}; }  // what its user should know about it
 };
 using DrawerMaker = std::function<std::unique_ptr<Drawer>()>;
 
@@ -47,6 +50,9 @@ class FilmMaker {
     FilmMaker(const Scene& scene, const FilmOptions& options);  // draws with the Renderer
     FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer);
     ~FilmMaker();  // abandons what is queued; the film on disk still plays
+
+    // Waits until the drawer is made and says what it is. Throws RunError when it cannot be made.
+    std::string drawer();
 
     // Takes one frame with its caption; waits while the queue is full. Throws RunError when drawing or
     // encoding failed (disk full), with the first failure's words.

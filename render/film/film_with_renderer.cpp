@@ -7,11 +7,13 @@ namespace {
 
 class RendererDrawer final : public Drawer {
   public:
-    RendererDrawer(const Scene& scene, int raster_threads) : renderer_(scene, raster_threads) {}
+    RendererDrawer(const Scene& scene, const FilmOptions& options)
+        : renderer_(scene, options.raster_threads, options.gl) {}
     const Picture& draw(const Frame& frame, const std::string& playback) override {
         return renderer_.draw(frame, playback);
     }
     std::string description() const override { return renderer_.gl_description(); }
+    std::string note() const override { return renderer_.gl_note(); }
 
   private:
     Renderer renderer_;
@@ -20,8 +22,7 @@ class RendererDrawer final : public Drawer {
 }  // namespace
 
 FilmMaker::FilmMaker(const Scene& scene, const FilmOptions& options)
-    : FilmMaker(scene, options, [scene, threads = options.raster_threads] {
-          return std::make_unique<RendererDrawer>(scene, threads);
-      }) {}
+    : FilmMaker(scene, options,
+                [scene, options] { return std::make_unique<RendererDrawer>(scene, options); }) {}
 
 }  // namespace grainreel

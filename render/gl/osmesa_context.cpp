@@ -1,7 +1,6 @@
 #include <dlfcn.h>
 
 #include <array>
-#include <cstdlib>
 #include <string>
 
 #include "engine/base/error.hpp"
@@ -49,7 +48,7 @@ Library open_library() {
 
 class OSMesaContext final : public Context {
   public:
-    OSMesaContext() {
+    OSMesaContext() : Context("OSMesa") {
         static const Library opened = open_library();
         library_ = &opened;
         const std::array<int, 9> attributes = {
@@ -57,24 +56,29 @@ class OSMesaContext final : public Context {
         handle_ = library_->create(attributes.data(), nullptr);
         if (!handle_) throw RunError("OSMesa offers no OpenGL 3.3 core context; Mesa 13 or later is needed");
         try {
-            OSMesaContext::make_current();
+            make_current();
             functions_.fill(library_->address);
             check_version();
         } catch (...) {
+            forget();
             library_->destroy(handle_);
             throw;
         }
     }
 
-    ~OSMesaContext() override { library_->destroy(handle_); }
+    ~OSMesaContext() override {
+        forget();
+        library_->destroy(handle_);
+    }
 
-    void make_current() override {
+  private:
+    void bind() override {
         constexpr GLsizei side = 4;
         if (!library_->make_current(handle_, dummy_.data(), GL_UNSIGNED_BYTE, side, side))
             throw RunError("OSMesa refuses to make its context current");
     }
+    void release() override { library_->make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
-  private:
     const Library* library_ = nullptr;
     OSMesaHandle handle_ = nullptr;
     // The default framebuffer, copied at every glFinish and so kept tiny: pictures go to framebuffer objects.
@@ -84,10 +88,7 @@ class OSMesaContext final : public Context {
 }  // namespace
 
 std::unique_ptr<Context> make_osmesa_context(int raster_threads) {
-    GRAINREEL_CHECK(raster_threads >= 1);
-    // With 0 Mesa rasterises on the calling thread itself, which is what one thread means here.
-    const std::string threads = std::to_string(raster_threads == 1 ? 0 : raster_threads);
-    setenv("LP_NUM_THREADS", threads.c_str(), 1);
+    set_raster_threads(raster_threads);
     return std::make_unique<OSMesaContext>();
 }
 

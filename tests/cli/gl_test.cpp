@@ -1,0 +1,78 @@
+// `--gl`: who draws, and what is said when a library is missing. A library goes missing here by a file of its
+// name that is none, first on the search path.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::AllOf, testing::HasSubstr, testing::Not, testing::StartsWith;
+
+class GlChoice : public testing::Test {
+  protected:
+    Ended movie(std::vector<std::string> words, const std::vector<std::string>& environment = {}) {
+        words.insert(words.begin(), {"movie", scene.string(), "--duration", "0.02s", "--progress", "none"});
+        words.insert(words.end(), {"--out", "run", "--force"});
+        return run_program(words, {here.path(), environment});
+    }
+    std::string without(const std::vector<std::string>& libraries) {
+        fs::create_directory(here / "broken");
+        for (const std::string& name : libraries) std::ofstream(here / "broken" / name) << "not a library";
+        return "LD_LIBRARY_PATH=" + (here / "broken").string();
+    }
+    std::string gl() { return nlohmann::json::parse(text_of(here / "run/run.json"))["gl"]; }
+
+    TemporaryFolder here;
+    fs::path scene = write_small_scene(here.path());
+};
+
+TEST_F(GlChoice, TheOptionGoesBeforeTheEnvironment) {
+    EXPECT_EQ(movie({}, {"GRAINREEL_GL=egl"}).status, 0);
+    EXPECT_THAT(gl(), StartsWith("EGL: "));
+    const Ended ended = movie({"--gl", "osmesa", "--verbose"}, {"GRAINREEL_GL=egl"});
+    EXPECT_THAT(gl(), StartsWith("OSMesa: "));
+    EXPECT_THAT(ended.err, HasSubstr("drawn with " + gl()));
+}
+
+TEST_F(GlChoice, AnUnknownOneIsRefused) {
+    for (const Ended& ended : {movie({"--gl", "vulkan"}), movie({}, {"GRAINREEL_GL=vulkan"})}) {
+        EXPECT_EQ(ended.status, 2);
+        EXPECT_THAT(ended.err, HasSubstr("vulkan: no such maker of OpenGL contexts; choose osmesa or egl"));
+    }
+    EXPECT_FALSE(fs::exists(here / "run"));
+}
+
+TEST_F(GlChoice, WithoutOSMesaItIsEglAndSaid) {
+    const std::string lost = without({"libOSMesa.so.8", "libOSMesa.so.6"});
+    const Ended ended = movie({}, {lost});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(gl(), StartsWith("EGL: "));
+    EXPECT_THAT(ended.err, HasSubstr("drawn through EGL: libOSMesa.so.8 cannot be opened"));
+    const Ended asked = movie({"--gl", "osmesa"}, {lost});
+    EXPECT_EQ(asked.status, 1);
+    EXPECT_THAT(asked.err, AllOf(HasSubstr("install Debian's libosmesa6"), Not(HasSubstr("EGL"))));
+}
+
+TEST_F(GlChoice, WithoutEglTheRemedyIsNamed) {
+    const Ended ended = movie({"--gl", "egl"}, {without({"libEGL.so.1"})});
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_THAT(ended.err,
+                HasSubstr("libEGL.so.1 cannot be opened; install Debian's libegl1 and libegl-mesa0"));
+}
+
+TEST_F(GlChoice, WithoutEitherBothAreNamed) {
+    const Ended ended = movie({}, {without({"libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so.6"})});
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("libosmesa6"), HasSubstr("libegl-mesa0")));
+}
+
+}  // namespace
+}  // namespace grainreel
