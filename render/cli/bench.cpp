@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/bench/bench_run.hpp"
+#include "render/cli/bench_render.hpp"
 #include "render/cli/share_watcher.hpp"
 
 namespace grainreel {
@@ -69,6 +70,7 @@ std::string as_table(const BenchReport& report) {
 }  // namespace
 
 int run_bench(const Options& options, Reporter& reporter) {
+    if (options.bench == "render") return bench_render(options, reporter);
     const auto& cases = bench_cases();
     const auto found =
         std::find_if(cases.begin(), cases.end(), [&](const BenchCase& c) { return c.name == options.bench; });

@@ -1,5 +1,6 @@
 #include "render/cli/options.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -153,6 +154,15 @@ void add_chart(CLI::App& app, Options& options) {
     verb.callback([&options] { options.verb = Options::Verb::chart; });
 }
 
+void read_bench_size(const std::string& size, Film& film) {
+    int end = 0;
+    const bool read = std::sscanf(size.c_str(), "%dx%d%n", &film.width, &film.height, &end) == 2;
+    if (!read || end != static_cast<int>(size.size()) || std::min(film.width, film.height) < 64 ||
+        std::max(film.width, film.height) > 8192)
+        throw UserError(
+            fmt::format("--size {}: must be width x height, each from 64 to 8192, as in 1920x1080", size));
+}
+
 void add_bench(CLI::App& app, Options& options) {
     CLI::App& verb = *app.add_subcommand("bench", "Time the engine on a bed of known kind");
     std::string about;
@@ -161,6 +171,8 @@ void add_bench(CLI::App& app, Options& options) {
         names.push_back(bench.name);
         about += fmt::format("{}{} ({})", about.empty() ? "" : "; ", bench.name, bench.about);
     }
+    names.push_back("render");
+    about += "; render (the drawing of the peers' bed at rest, by stage)";
     verb.add_option("CASE", options.bench, about)->required()->check(CLI::IsMember(names))->type_name("CASE");
     verb.add_option("--threads", options.bench_request.threads, "Threads [as many as there are processors]")
         ->check(CLI::Range(1, 1024))
@@ -179,6 +191,18 @@ void add_bench(CLI::App& app, Options& options) {
     verb.add_option("--repeat", options.bench_request.repeats, "Run it all so often and give medians [1]")
         ->check(CLI::Range(1, 1000))
         ->type_name("K");
+    verb.add_option("--grains", options.bench_render.grains, "render: grains in the bed [10125]")
+        ->check(CLI::Range(100, 10000000))
+        ->type_name("N");
+    verb.add_option_function<std::string>(
+            "--size",
+            [&options](const std::string& size) { read_bench_size(size, options.bench_render.film); },
+            "render: of the picture in pixels [1920x1080]")
+        ->type_name("WxH");
+    verb.add_option_function<std::string>(
+            "--out", [&options](const std::string& file) { options.out = file; },
+            "render: keep the picture as this PNG file")
+        ->type_name("FILE");
     verb.add_flag("--quick", options.bench_request.quick, "A tenth of the steps");
     verb.add_flag("--json", options.json, "One JSON object in place of a table");
     add_reporting(verb, options);

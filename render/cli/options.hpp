@@ -7,10 +7,16 @@
 #include <vector>
 
 #include "engine/bench/bench_run.hpp"
+#include "engine/scene/scene.hpp"
 #include "render/cli/reporter.hpp"
 #include "render/gl/provider.hpp"
 
 namespace grainreel {
+
+struct BenchRenderRequest {
+    int grains = 10125;
+    Film film;
+};
 
 struct Options {
     enum class Verb { movie, check, chart, bench };
@@ -31,6 +37,7 @@ struct Options {
     std::string bench;                          // which case, with `bench`
     BenchRequest bench_request;
     bool json = false;  // of bench
+    BenchRenderRequest bench_render;
     ReporterOptions report;
 
     std::string command;  // as typed, for run.json

@@ -28,7 +28,9 @@ class Shapes {
         float x, y;                     // pixels
         float across, half_width;       // signed distance from the line's middle; half its width
         float red, green, blue, alpha;  // sRGB, not premultiplied
+        bool operator==(const Vertex&) const = default;
     };
+    bool operator==(const Shapes&) const = default;
     const std::vector<Vertex>& vertices() const { return vertices_; }
 
   private:

@@ -7,25 +7,24 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "render/draw/light.hpp"
 #include "render/draw/palette.hpp"
+#include "render/spheres/lamp.hpp"
 
 namespace grainreel {
 namespace {
 
-// The same formula as `lit` in sphere_shaders.cpp, seen straight on and with nothing around.
+// The same formula as light_as() in light-inl.hpp, seen straight on and with nothing around.
 Colour lit(const Vec3& normal, const Colour& albedo) {
-    const Vec3 to_light =
-        Vec3(light::key_direction[0], light::key_direction[1], light::key_direction[2]).normalized();
-    const double facing = std::clamp(-normal.z(), 0.0, 1.0);
-    const double key = light::key * std::max(0.0, 0.15 + 0.85 * normal.dot(to_light));
-    const double ambient = light::ground + (light::sky - light::ground) * (0.5 + 0.5 * normal.y());
-    const double t = std::clamp(facing / light::rim_width, 0.0, 1.0);
-    const double rim = light::rim + (1 - light::rim) * t * t * (3 - 2 * t);
-    const Vec3 halfway = (to_light - Vec3(0, 0, 1)).normalized();
-    const double shine = light::shine * std::pow(std::max(0.0, normal.dot(halfway)), light::shine_power);
+    const Lamp lamp;
+    const Vec3 key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]), eye(0, 0, -1);
+    const double falls = std::max(0.0, normal.dot(key));
+    const double ambient = lamp.ground + (lamp.sky - lamp.ground) * (0.5 + 0.5 * normal.y());
+    const double t = std::clamp(normal.dot(eye) / lamp.rim_width, 0.0, 1.0);
+    const double rim = lamp.rim + (1 - lamp.rim) * t * t * (3 - 2 * t);
+    const double gloss = std::max(0.0, normal.dot((key + eye).normalized()));
+    const double shine = lamp.shine * std::pow(gloss, 32) * std::min(4 * falls, 1.0);
     const auto channel = [&](double srgb) {
-        return to_srgb(std::clamp(to_linear(srgb) * (ambient + key) * rim + shine, 0.0, 1.0));
+        return to_srgb(std::clamp(to_linear(srgb) * (ambient + lamp.key * falls) * rim + shine, 0.0, 1.0));
     };
     return {channel(albedo.red), channel(albedo.green), channel(albedo.blue)};
 }

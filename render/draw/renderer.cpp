@@ -2,8 +2,8 @@
 
 #include <array>
 #include <chrono>
-#include <cstring>
 
+#include "render/draw/compose.hpp"
 #include "render/draw/container_drawing.hpp"
 #include "render/draw/overlay.hpp"
 #include "render/draw/spheres.hpp"
@@ -32,6 +32,51 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// What OpenGL draws on one side of the grains; drawn again only when it changes.
+class SideLayer {
+  public:
+    SideLayer(const gl::Functions& gl, const Rectangle& port, const std::array<float, 4>& clear_colour)
+        : gl_(gl),
+          target_(gl, port.width, port.height, bytes),
+          clear_colour_(clear_colour),
+          width_(port.width),
+          height_(port.height),
+          pixels_(static_cast<std::size_t>(port.width) * port.height) {}
+
+    void draw(const ShapePainter& painter, const Shapes& shapes) {
+        if (drawn_ && shapes == last_) return;
+        drawn_ = true;
+        last_ = shapes;
+        target_.bind();
+        gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
+        painter.paint(shapes, width_, height_);
+        gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+        stale_ = true;
+    }
+    // Rows from the bottom.
+    const std::vector<std::uint32_t>& read() {
+        if (!stale_) return pixels_;
+        stale_ = false;
+        target_.bind();
+        gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+        return pixels_;
+    }
+
+  private:
+    const gl::Functions& gl_;
+    gl::Framebuffer target_;
+    const std::array<float, 4> clear_colour_;
+    const int width_, height_;
+    bool drawn_ = false, stale_ = false;
+    Shapes last_;
+    std::vector<std::uint32_t> pixels_;
+};
+
+std::array<float, 4> opaque(const Colour& colour) {
+    return {static_cast<float>(colour.red), static_cast<float>(colour.green), static_cast<float>(colour.blue),
+            1.0f};
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -43,14 +88,11 @@ struct Renderer::Impl {
           view(frame_container(s, layout)),
           overlay(scene, palette, layout, view),
           context(gl::make_context(provider, raster_threads)),
-          target(context->gl(), port.width, port.height, bytes),
           shape_painter(context->gl()),
-          sphere_painter(context->gl(), s, port.width, port.height),
-          clear_colour{static_cast<float>(palette.background.red),
-                       static_cast<float>(palette.background.green),
-                       static_cast<float>(palette.background.blue), 1.0f},
-          picture(s.film.width, s.film.height),
-          rows(static_cast<std::size_t>(port.width) * port.height * 4) {}
+          behind(context->gl(), port, opaque(palette.background)),
+          before(context->gl(), port, {0, 0, 0, 0}),
+          sphere_painter(s, port.width, port.height, raster_threads),
+          picture(s.film.width, s.film.height) {}
 
     Scene scene;
     Palette palette;
@@ -59,16 +101,14 @@ struct Renderer::Impl {
     View view;
     Overlay overlay;
     std::unique_ptr<gl::Context> context;
-    gl::Framebuffer target;
     ShapePainter shape_painter;
+    SideLayer behind, before;
     SpherePainter sphere_painter;
     ContainerShapes shapes;
-    std::array<float, 4> clear_colour;
     Picture picture;
-    std::vector<std::uint8_t> rows;
 
     void draw(const Frame& frame, const std::string& playback, DrawTimes* times);
-    void read_back();
+    const Layer& draw_grains(const View& eye, const Frame& frame, Stopwatch& watch);
 };
 
 void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawTimes* times) {
@@ -78,30 +118,25 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawT
     overlay.write(picture, frame, playback);
     watch.lap(&DrawTimes::overlay);
     const View eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
-    sphere_painter.find_visible(eye, frame);
-    watch.lap(&DrawTimes::spheres);
-    sphere_painter.upload(eye, frame);
-    watch.lap(&DrawTimes::upload);
     draw_container(scene, view, eye, frame, palette, scene.film.height, shapes);
-    target.bind();
-    gl.ClearBufferfv(GL_COLOR, 0, clear_colour.data());
-    shape_painter.paint(shapes.behind, port.width, port.height);
+    behind.draw(shape_painter, shapes.behind);
+    before.draw(shape_painter, shapes.before);
     watch.lap(&DrawTimes::walls);
-    sphere_painter.paint(eye);
-    watch.lap(&DrawTimes::shading);
-    shape_painter.paint(shapes.before, port.width, port.height);
-    watch.lap(&DrawTimes::walls);
-    read_back();
+    const Layer& grains = draw_grains(eye, frame, watch);
+    compose(behind.read(), grains, before.read(), port, picture);
     watch.lap(&DrawTimes::readback);
 }
 
-void Renderer::Impl::read_back() {
-    const gl::Functions& gl = context->gl();
-    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.ReadPixels(0, 0, port.width, port.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-    const std::size_t row = static_cast<std::size_t>(port.width) * 4;
-    for (int y = 0; y < port.height; ++y)
-        std::memcpy(picture.pixel(port.x, port.y + y), rows.data() + row * (port.height - 1 - y), row);
+const Layer& Renderer::Impl::draw_grains(const View& eye, const Frame& frame, Stopwatch& watch) {
+    sphere_painter.take(eye, frame);
+    watch.lap(&DrawTimes::upload);
+    sphere_painter.find_visible();
+    watch.lap(&DrawTimes::spheres);
+    sphere_painter.find_neighbours();
+    watch.lap(&DrawTimes::occlusion);
+    const Layer& layer = sphere_painter.light();
+    watch.lap(&DrawTimes::shading);
+    return layer;
 }
 
 Renderer::Renderer(const Scene& scene, int raster_threads, gl::Provider provider)

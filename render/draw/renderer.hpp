@@ -13,8 +13,8 @@ namespace grainreel {
 
 // ms a frame. Only measured on demand, because OpenGL has to be waited for after each stage.
 struct DrawTimes {
-    double upload = 0, spheres = 0, walls = 0, shading = 0, overlay = 0, readback = 0;
-    double total() const { return upload + spheres + walls + shading + overlay + readback; }
+    double upload = 0, spheres = 0, shading = 0, occlusion = 0, shadow = 0, walls = 0, overlay = 0,
+           readback = 0;
 };
 
 class Renderer {

@@ -1,42 +1,38 @@
-// The grains: found pixel by pixel on the processor, then lit by OpenGL, each pixel once.
+// From a frame's grains to a layer of lit spheres.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "engine/base/team.hpp"
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/draw/density_field.hpp"
 #include "render/draw/view.hpp"
-#include "render/draw/visibility.hpp"
-#include "render/gl/objects.hpp"
+#include "render/spheres/sphere_layer.hpp"
 
 namespace grainreel {
 
 class SpherePainter {
   public:
-    // width, height: pixels of the port.
-    SpherePainter(const gl::Functions& gl, const Scene& scene, int width, int height);
+    // width, height: pixels of the port. threads: >= 1.
+    SpherePainter(const Scene& scene, int width, int height, int threads);
 
-    void find_visible(const View& view, const Frame& frame);
-    void upload(const View& view, const Frame& frame);
-    // Over what the bound framebuffer of the port's size already holds.
-    void paint(const View& view) const;
+    // One after the other.
+    void take(const View& view, const Frame& frame);
+    void find_visible();
+    void find_neighbours();
+    const Layer& light();
+
+    Lamp& lamp() { return lamp_; }
 
   private:
-    void upload_visibility() const;
-
-    const gl::Functions& gl_;
-    const int width_, height_;
-    std::vector<std::array<float, 4>> palette_;  // linear colour by species
-    DensityField density_;
-    Visibility visibility_;
-    gl::Program light_;
-    gl::Texture seen_;
-    gl::VertexArray none_;
-    gl::BufferTexture spheres_, crowding_, colours_;
-    std::vector<ViewSphere> view_spheres_;
-    std::vector<std::array<float, 4>> staging_;
+    std::vector<std::array<float, 3>> palette_;  // linear colour by species
+    Team team_;
+    SphereLayer layer_;
+    Spheres spheres_;
+    Sight sight_;
+    Cut cut_;
+    Lamp lamp_;
 };
 
 }  // namespace grainreel

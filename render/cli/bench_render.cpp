@@ -1,0 +1,180 @@
+#include "render/cli/bench_render.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
+#include "engine/bench/peers_bed.hpp"
+#include "engine/bench/settled_bed.hpp"
+#include "render/cli/share_watcher.hpp"
+#include "render/draw/renderer.hpp"
+#include "render/film/encoder.hpp"
+#include "render/film/png.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int kSignalBase = 128;
+
+Species species(const char* name, double diameter, const Colour& colour) {
+    Species s;
+    s.name = name;
+    s.diameter = {SizeSpread::Kind::fixed, diameter, diameter, diameter, 0};
+    s.density = 2500;
+    s.colour = colour;
+    return s;
+}
+
+// A box as high as the bed, so that the grains fill the picture's height.
+Scene scene_of(const SettledBed& bed, const BenchRenderRequest& request) {
+    Scene scene;
+    scene.name = "bench";
+    scene.film = request.film;
+    scene.species = {species("small", kPeersSmall, {0.337, 0.706, 0.914}),
+                     species("big", kPeersBig, {0.902, 0.624, 0.0})};
+    for (const std::int32_t kind : bed.grains.species) ++scene.species[static_cast<std::size_t>(kind)].count;
+    scene.container.shape = Container::Shape::box;
+    scene.container.half_width = 0.5 * bed.side;
+    scene.container.depth = bed.side;
+    scene.container.height = bed.height;
+    scene.container.lid = false;
+    scene.drive.present = true;
+    scene.drive.frequency = 25;
+    scene.drive.amplitude = 1.19e-3;
+    return scene;
+}
+
+Frame frame_of(const SettledBed& bed) {
+    Frame frame;
+    const Grains& g = bed.grains;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+        frame.id.push_back(g.id[i]);
+        frame.species.push_back(g.species[i]);
+        frame.radius.push_back(g.place[i].radius);
+        frame.position.push_back(g.place[i].position);
+    }
+    frame.velocity.assign(g.size(), Vec3(0, 0, 0));
+    frame.spin = frame.velocity;
+    return frame;
+}
+
+double milliseconds() {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+}
+
+struct Stage {
+    const char* name;
+    double DrawTimes::*time;
+};
+constexpr std::array<Stage, 8> kStages = {{{"upload", &DrawTimes::upload},
+                                           {"spheres", &DrawTimes::spheres},
+                                           {"shading", &DrawTimes::shading},
+                                           {"occlusion", &DrawTimes::occlusion},
+                                           {"shadow", &DrawTimes::shadow},
+                                           {"walls", &DrawTimes::walls},
+                                           {"overlay", &DrawTimes::overlay},
+                                           {"readback", &DrawTimes::readback}}};
+
+// The share of the picture that shows grains: where it differs from one without them.
+double coverage(Renderer& renderer, const Frame& frame) {
+    const Picture full = renderer.draw(frame, "");
+    const Picture& bare = renderer.draw(Frame{}, "");
+    std::int64_t covered = 0;
+    for (std::size_t i = 0; i < full.rgba.size(); i += 4)
+        covered += !std::equal(&full.rgba[i], &full.rgba[i] + 3, &bare.rgba[i]);
+    return static_cast<double>(covered) / (static_cast<double>(full.width) * full.height);
+}
+
+double encode_time(const Picture& picture, const Film& film, int threads) {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("grainreel-bench-{}.mp4", ::getpid());
+    constexpr int kFrames = 30;
+    const double begin = milliseconds();
+    {
+        EncoderSettings settings;
+        settings.path = path;
+        settings.width = film.width;
+        settings.height = film.height;
+        settings.crf = film.quality;
+        settings.preset = film.preset;
+        settings.threads = threads;
+        Encoder encoder(settings);
+        for (int i = 0; i < kFrames; ++i) encoder.add(picture);
+        encoder.finish();
+    }
+    const double taken = milliseconds() - begin;
+    std::filesystem::remove(path);
+    return taken / kFrames;
+}
+
+}  // namespace
+
+int bench_render(const Options& options, Reporter& reporter) {
+    const BenchRenderRequest& request = options.bench_render;
+    const int threads =
+        options.bench_request.threads > 0 ? options.bench_request.threads : usable_processors();
+    const ShareWatcher watcher(reporter, Progress::Stage::timing);
+    const SettledBed bed =
+        settled_bed(request.grains, threads, [&](double done) { return watcher("settling", 0.5 * done); });
+    if (bed.grains.size() == 0) {
+        reporter.info("stopped; nothing was measured to its end");
+        return kSignalBase + stop_signal();
+    }
+    const Scene scene = scene_of(bed, request);
+    const Frame frame = frame_of(bed);
+    Renderer renderer(scene, threads);
+    const double covered = coverage(renderer, frame);
+    std::vector<double> totals;
+    std::array<std::vector<double>, kStages.size()> stages;
+    for (int r = 0; r < options.bench_request.repeats; ++r) {
+        if (!watcher("drawing", 0.5 + 0.5 * r / options.bench_request.repeats)) break;
+        const double begin = milliseconds();
+        renderer.draw(frame, "");
+        totals.push_back(milliseconds() - begin);
+        const DrawTimes times = renderer.draw_timed(frame, "");
+        for (std::size_t s = 0; s < kStages.size(); ++s) stages[s].push_back(times.*kStages[s].time);
+    }
+    reporter.clear();
+    if (totals.empty()) return kSignalBase + stop_signal();
+    const Picture& picture = renderer.draw(frame, "");
+    if (options.out) write_png(*options.out, picture, {});
+    using Json = nlohmann::ordered_json;
+    Json ms = {{"total", median(totals)}};
+    for (std::size_t s = 0; s < kStages.size(); ++s) ms[kStages[s].name] = median(stages[s]);
+    ms["encode"] = encode_time(picture, scene.film, threads);
+    const Json all = {{"grains", bed.grains.size()},
+                      {"width", scene.film.width},
+                      {"height", scene.film.height},
+                      {"style", "studio"},
+                      {"gl", renderer.gl_description()},
+                      {"threads", threads},
+                      {"coverage", covered},
+                      {"ms_per_frame", ms}};
+    if (options.json) {
+        std::cout << all.dump(2) << std::endl;
+        return 0;
+    }
+    std::cout << fmt::format(
+        "{} grains, {}x{}, {}, {} threads, coverage {:.2f}; ms a frame (median of {}):\n", bed.grains.size(),
+        scene.film.width, scene.film.height, renderer.gl_description(), threads, covered, totals.size());
+    for (const auto& [name, value] : ms.items())
+        std::cout << fmt::format("{:>12}{:>9.2f}\n", name, value.get<double>());
+    return 0;
+}
+
+}  // namespace grainreel

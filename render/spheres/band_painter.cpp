@@ -1,0 +1,231 @@
+#include "render/spheres/band_painter.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "render/spheres/sphere_layer.hpp"
+#include "render/spheres/tone.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int kLongRun = 8;          // pixels: from here on a run fills a register well enough
+constexpr int kManyNeighbours = 40;  // from here on they are looked through for each few pixels
+
+}  // namespace
+
+void BandPainter::paint(const PaintJob& job, int y0, int y1, Layer& layer) {
+    parts_.clear();
+    soft_.clear();
+    block_size_ = 0;
+    edge_bits_.resize(static_cast<std::size_t>(layer.width) / 8 + 1);
+    make_room(static_cast<std::size_t>(layer.width));
+    for (int y = y0; y < y1; ++y) paint_row(job, y, layer);
+    settle_edges(job);
+    light_parts(job);
+    encode(layer);
+}
+
+void BandPainter::make_room(std::size_t points) {
+    if (x_.size() >= points + kPointBlock) return;
+    for (auto* room : {&x_, &y_, &red_, &green_, &blue_}) room->resize(points + kPointBlock);
+}
+
+// Runs of pixels that show one grain, between edges.
+void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
+    const Visibility& seen = job.visibility;
+    const std::uint32_t* row = seen.row(y);
+    std::uint32_t* out = layer.row(y);
+    std::fill_n(out, layer.width, 0u);
+    sphere_kernels().mark_edges(row, seen.row(std::max(0, y - 1)),
+                                seen.row(std::min(y + 1, seen.height() - 1)), layer.width, edge_bits_.data());
+    const auto edge = [&](int x) { return (edge_bits_[static_cast<std::size_t>(x) / 8] >> (x % 8)) & 1; };
+    for (int x = 0; x < layer.width;) {
+        if (edge(x)) {
+            take_edge(job, x++, y);
+            continue;
+        }
+        int end = x + 1;
+        while (end < layer.width && !edge(end)) ++end;
+        const std::uint32_t number = row[x];
+        if (number && end - x >= kLongRun)
+            paint_run(job, y, x, end, number - 1, out);
+        else if (number)
+            for (int at = x; at < end; ++at) take_pixel(at, y, number - 1);
+        x = end;
+    }
+}
+
+void BandPainter::paint_run(const PaintJob& job, int y, int x0, int x1, std::uint32_t grain,
+                            std::uint32_t* out) {
+    const int count = x1 - x0;
+    for (int i = 0; i < count + kPointBlock; ++i)
+        x_[static_cast<std::size_t>(i)] = static_cast<float>(x0 + i) + 0.5f;
+    std::fill_n(y_.begin(), count + kPointBlock, static_cast<float>(y) + 0.5f);
+    light(job, grain, {x_.data(), y_.data(), red_.data(), green_.data(), blue_.data(), count});
+    const ToneTable& tone = ToneTable::get();
+    for (int i = 0; i < count; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        out[x0 + i] = tone.pixel(red_[at], green_[at], blue_[at]);
+    }
+}
+
+void BandPainter::take_pixel(int x, int y, std::uint32_t grain) {
+    parts_.push_back({grain, static_cast<std::uint32_t>(soft_.size()), static_cast<float>(x) + 0.5f,
+                      static_cast<float>(y) + 0.5f, 1});
+    soft_.push_back({x, y});
+}
+
+// The different grains that the pixel and its four neighbours show.
+void BandPainter::take_edge(const PaintJob& job, int x, int y) {
+    const Visibility& seen = job.visibility;
+    const std::uint32_t* row = seen.row(y);
+    const std::uint32_t around[5] = {row[x], row[x - 1], row[x + 1], seen.row(std::max(0, y - 1))[x],
+                                     seen.row(std::min(y + 1, seen.height() - 1))[x]};
+    const int at = block_size_;
+    int found = 0;
+    for (const std::uint32_t number : around) {
+        bool is_new = number != 0 && found < kCandidates;
+        for (int c = 0; c < found && is_new; ++c) is_new = block_who_[c][at] != number - 1;
+        if (!is_new) continue;
+        block_who_[found][at] = number - 1;
+        block_.candidate[found++][at] = job.spheres.spheres[number - 1];
+    }
+    for (int c = found; c < kCandidates; ++c) block_.candidate[c][at] = {0, 0, 1, -1};
+    block_.candidates = at == 0 ? found : std::max(block_.candidates, found);
+    block_.x[at] = static_cast<float>(x) + 0.5f;
+    block_.y[at] = static_cast<float>(y) + 0.5f;
+    block_x_[at] = x;
+    block_y_[at] = y;
+    if (++block_size_ == kPointBlock) settle_edges(job);
+}
+
+void BandPainter::settle_edges(const PaintJob& job) {
+    if (block_size_ == 0) return;
+    for (int i = block_size_; i < kPointBlock; ++i) {
+        block_.x[i] = block_.y[i] = 0;
+        for (int c = 0; c < kCandidates; ++c) block_.candidate[c][i] = {0, 0, 1, -1};
+    }
+    sphere_kernels().settle(job.sight, job.cut, block_);
+    for (int i = 0; i < block_size_; ++i) {
+        bool any = false;
+        for (int c = 0; c < block_.candidates; ++c) {
+            if (block_.candidate[c][i].radius < 0 || block_.share[c][i] <= 0) continue;
+            any = true;
+            parts_.push_back({block_who_[c][i], static_cast<std::uint32_t>(soft_.size()),
+                              block_.x[i] + block_.mean_x[c][i], block_.y[i] + block_.mean_y[c][i],
+                              block_.share[c][i]});
+        }
+        if (any) soft_.push_back({block_x_[i], block_y_[i]});
+    }
+    block_size_ = 0;
+}
+
+// Sorted by grain, so that all of a grain's parts are lit together.
+void BandPainter::light_parts(const PaintJob& job) {
+    count_.resize(std::max(count_.size(), job.visibility.shown().size()), 0);
+    met_.clear();
+    for (const Part& part : parts_)
+        if (count_[job.slot_of[part.grain]]++ == 0) met_.push_back(part.grain);
+    std::uint32_t sum = 0;
+    for (const std::uint32_t grain : met_) {
+        const std::uint32_t count = count_[job.slot_of[grain]];
+        count_[job.slot_of[grain]] = sum;
+        sum += count;
+    }
+    sorted_.resize(parts_.size());
+    for (const Part& part : parts_) sorted_[count_[job.slot_of[part.grain]]++] = part;
+    std::size_t begin = 0;
+    for (const std::uint32_t grain : met_) {
+        const std::size_t end = count_[job.slot_of[grain]];
+        count_[job.slot_of[grain]] = 0;
+        make_room(end - begin);
+        for (std::size_t i = begin; i < end; ++i) x_[i - begin] = sorted_[i].x, y_[i - begin] = sorted_[i].y;
+        std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(end - begin), kPointBlock, x_[0]);
+        std::fill_n(y_.begin() + static_cast<std::ptrdiff_t>(end - begin), kPointBlock, y_[0]);
+        light(
+            job, grain,
+            {x_.data(), y_.data(), red_.data(), green_.data(), blue_.data(), static_cast<int>(end - begin)});
+        add_parts(begin, end);
+        begin = end;
+    }
+}
+
+void BandPainter::add_parts(std::size_t begin, std::size_t end) {
+    const auto clipped = [](float linear) { return std::min(linear, 1.0f); };  // or highlights fray the edge
+    for (std::size_t i = begin; i < end; ++i) {
+        const Part& part = sorted_[i];
+        Soft& pixel = soft_[part.pixel];
+        pixel.red += part.share * clipped(red_[i - begin]);
+        pixel.green += part.share * clipped(green_[i - begin]);
+        pixel.blue += part.share * clipped(blue_[i - begin]);
+        pixel.share += part.share;
+    }
+}
+
+void BandPainter::light(const PaintJob& job, std::uint32_t grain, const LitPoints& points) {
+    const std::size_t slot = job.slot_of[grain];
+    LitGrain lit;
+    lit.sphere = job.spheres.spheres[grain];
+    for (std::size_t c = 0; c < 3; ++c) {
+        lit.albedo[c] = job.spheres.albedo[grain][c];
+        if (!job.spheres.poles.empty()) lit.pole[c] = job.spheres.poles[grain][c];
+    }
+    if (job.lamp.shadows) lit.casters = job.neighbourhood.casters(slot);
+    if (!job.lamp.occlusion) return sphere_kernels().light(job.sight, job.cut, job.lamp, lit, points);
+    const NeighbourSpan all = job.neighbourhood.occluders(slot);
+    if (all.count <= kManyNeighbours) {
+        lit.occluders = all;
+        return sphere_kernels().light(job.sight, job.cut, job.lamp, lit, points);
+    }
+    for (int first = 0; first < points.count; first += kPointBlock) {
+        const LitPoints some{points.x + first,    points.y + first,
+                             points.red + first,  points.green + first,
+                             points.blue + first, std::min(kPointBlock, points.count - first)};
+        lit.occluders = nearest(job, lit.sphere, all, some);
+        sphere_kernels().light(job.sight, job.cut, job.lamp, lit, some);
+    }
+}
+
+// Of the many neighbours of a large grain, those that its few points feel.
+NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, const NeighbourSpan& all,
+                                   const LitPoints& points) {
+    const auto slope = [&](float px, float py) {
+        const float depth = job.sight.orthographic ? 1 : own.z;
+        return Eigen::Vector2f(job.sight.slope_x(px) * depth - own.x, job.sight.slope_y(py) * depth - own.y);
+    };
+    Eigen::Vector2f low = slope(points.x[0], points.y[0]), high = low;
+    for (int i = 1; i < points.count; ++i) {
+        const Eigen::Vector2f at = slope(points.x[i], points.y[i]);
+        low = low.cwiseMin(at);
+        high = high.cwiseMax(at);
+    }
+    // Beside the line of sight, with room for what perspective shifts within the grain.
+    const float room = job.sight.orthographic ? 0 : own.radius * own.radius / std::max(own.z, own.radius);
+    const Eigen::Vector2f middle = 0.5f * (low + high);
+    const float spread = 0.5f * (high - low).norm() + room;
+    near_.clear();
+    for (int i = 0; i < all.count; ++i) {
+        const Neighbour& n = all.first[i];
+        const float beside = (Eigen::Vector2f(n.x, n.y) - middle).norm();
+        if (beside < spread + (1 + Neighbourhood::kReach) * n.radius && n.z < 0.5f * own.radius + n.radius)
+            near_.push_back(n);
+    }
+    return {near_.data(), static_cast<int>(near_.size())};
+}
+
+void BandPainter::encode(Layer& layer) const {
+    const ToneTable& tone = ToneTable::get();
+    for (const Soft& pixel : soft_) {
+        const float inverse = 1 / pixel.share;
+        const auto alpha = static_cast<std::uint32_t>(std::lround(255 * std::min(pixel.share, 1.0f)));
+        const std::uint32_t bytes[3] = {tone.byte(pixel.red * inverse), tone.byte(pixel.green * inverse),
+                                        tone.byte(pixel.blue * inverse)};
+        std::uint32_t out = alpha << 24;
+        for (int c = 0; c < 3; ++c) out |= (bytes[c] * alpha + 127) / 255 << (8 * c);
+        layer.row(pixel.y)[pixel.x] = out;
+    }
+}
+
+}  // namespace grainreel

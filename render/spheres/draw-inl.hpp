@@ -1,0 +1,93 @@
+// Spheres into depth and number, pixel by pixel; and what that leaves to be told about it.
+#if defined(GRAINREEL_SPHERES_DRAW_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_SPHERES_DRAW_INL
+#undef GRAINREEL_SPHERES_DRAW_INL
+#else
+#define GRAINREEL_SPHERES_DRAW_INL
+#endif
+
+#include "render/spheres/meet-inl.hpp"
+#include "render/spheres/sphere_kernels.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+using Numbers = hn::Rebind<std::uint32_t, Floats>;
+
+HWY_INLINE void keep_nearer(F away, std::uint32_t number, float* depth, std::uint32_t* seen) {
+    const F before = load_any(depth);
+    const auto nearer = away < before;
+    if (none(nearer)) return;
+    store_any(select(nearer, away, before), depth);
+    const auto old = hn::LoadU(Numbers(), seen);
+    const auto mask = hn::RebindMask(Numbers(), nearer.bits);
+    hn::StoreU(hn::IfThenElse(mask, hn::Set(Numbers(), number), old), Numbers(), seen);
+}
+
+template <bool orthographic, bool cut_open>
+void draw_as(const Sight& sight, const Cut& cut, const DepthRows& rows, const ViewSphere& s,
+             const PixelBox& box, std::uint32_t number) {
+    const F x(s.x), y(s.y), z(s.z), radius(s.radius);
+    for (int row = box.y0; row < box.y1; ++row) {
+        const F slope_y(sight.slope_y(static_cast<float>(row) + 0.5f));
+        const std::size_t first = static_cast<std::size_t>(row - rows.first_row) * rows.stride;
+        for (int at = box.x0; at < box.x1; at += F::count) {
+            const Ray<orthographic> ray(load_any(rows.slope_x + at), slope_y);
+            const Meeting m = meet<orthographic>(ray, x, y, z, radius);
+            F away;
+            if constexpr (cut_open)
+                away = seen_at<orthographic>(m, kept<orthographic>(ray, cut));
+            else
+                away = seen_at<orthographic>(m);
+            keep_nearer(away, number, rows.depth + first + at, rows.seen + first + at);
+        }
+    }
+}
+
+void draw(const Sight& sight, const Cut& cut, const DepthRows& rows, const ViewSphere& s, const PixelBox& box,
+          std::uint32_t number) {
+    if (sight.orthographic)
+        (cut.planes ? draw_as<true, true> : draw_as<true, false>)(sight, cut, rows, s, box, number);
+    else
+        (cut.planes ? draw_as<false, true> : draw_as<false, false>)(sight, cut, rows, s, box, number);
+}
+
+float farthest(const DepthRows& rows, const PixelBox& box) {
+    F most(0);
+    float last = 0;
+    for (int row = box.y0; row < box.y1; ++row) {
+        const float* depth = rows.depth + static_cast<std::size_t>(row - rows.first_row) * rows.stride;
+        int at = box.x0;
+        for (; at + F::count <= box.x1; at += F::count) most = larger(most, load_any(depth + at));
+        for (; at < box.x1; ++at) last = std::max(last, depth[at]);
+    }
+    return std::max(last, hn::GetLane(hn::MaxOfLanes(Floats(), most.value)));
+}
+
+// Eight pixels to a byte, the first in the lowest bit.
+void mark_edges(const std::uint32_t* row, const std::uint32_t* above, const std::uint32_t* below, int count,
+                std::uint8_t* bits) {
+    const hn::CappedTag<std::uint32_t, 8> d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    for (int at = 0; at < count; at += 8) {
+        unsigned byte = 0;
+        for (int part = 0; part < 8; part += lanes) {
+            const std::uint32_t* here = row + at + part;
+            const auto own = hn::LoadU(d, here);
+            const auto differs = [&](const std::uint32_t* other) {
+                return hn::Xor(own, hn::LoadU(d, other));
+            };
+            const auto other = hn::Or(hn::Or(differs(here - 1), differs(here + 1)),
+                                      hn::Or(differs(above + at + part), differs(below + at + part)));
+            std::uint8_t some[8] = {};
+            hn::StoreMaskBits(d, hn::Ne(other, hn::Zero(d)), some);
+            byte |= static_cast<unsigned>(some[0]) << part;
+        }
+        bits[at / 8] = static_cast<std::uint8_t>(byte);
+    }
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
