@@ -43,6 +43,14 @@ Json engine(const RunRecord& r) {
             {"state_hash", r.state_hash ? Json(fmt::format("{:016x}", *r.state_hash)) : Json(nullptr)}};
 }
 
+Json drawn(const RunRecord& r) {
+    Json runs = Json::array();
+    for (const DrawnRun& run : r.drawn)
+        runs.push_back(
+            {{"run", run.folder}, {"frames", run.frames}, {"first_s", run.first}, {"last_s", run.last}});
+    return runs;
+}
+
 }  // namespace
 
 std::string to_string(RunStatus status) {
@@ -77,7 +85,8 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"gl", text_or_null(r.gl)},
         {"threads",
          {{"engine", r.engine_threads}, {"raster", r.raster_threads}, {"encoder", r.encoder_threads}}},
-        {"engine", engine(r)},
+        {"engine", r.drawn.empty() ? engine(r) : Json(nullptr)},
+        {"drawn", drawn(r)},
         {"wall_s", table(r.wall_seconds)},
         {"written",
          {{"film_frames", r.film_frames},

@@ -13,10 +13,20 @@ namespace grainreel {
 
 enum class RunStatus { running, complete, interrupted, failed };
 
+// A finished run whose frames were drawn.
+struct DrawnRun {
+    std::string folder;
+    std::int64_t frames = 0;     // drawn of it
+    double first = 0, last = 0;  // s, their times
+};
+
 struct RunRecord {
     RunStatus status = RunStatus::running;
     std::optional<int> exit_status;  // of the program; none while running
     std::string error;               // what ended a failed run
+
+    // What was drawn without being run; then nothing is said of the engine.
+    std::vector<DrawnRun> drawn;
 
     std::string command;  // as typed, words quoted where the shell needs it
     std::string scene_file;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "engine/base/error.hpp"
 #include "engine/scene/plan_parts.hpp"
@@ -73,6 +75,15 @@ void plan_output(const Scene& scene, Plan& plan) {
         every(output.measures_interval, period / 8, rows_without_drive, "output.measures_interval");
 }
 
+// Here and not in the reader: a finished run is drawn again though its start file may be gone.
+void check_start_file(const Scene& scene) {
+    std::error_code ignored;
+    if (scene.start.method != Start::Method::file || std::filesystem::exists(scene.start.file, ignored))
+        return;
+    throw UserError(fmt::format("{}: 'file' names {}, which does not exist; give a checkpoint or final.csv",
+                                scene.where("start.file"), scene.start.file));
+}
+
 bool any_contact(const Plan& plan, bool (*is)(const PairPlan&)) {
     return std::any_of(plan.grain.begin(), plan.grain.end(), is) ||
            std::any_of(plan.wall.begin(), plan.wall.end(), is);
@@ -88,6 +99,7 @@ bool Plan::rolls() const {
 }
 
 Plan make_plan(const Scene& scene) {
+    check_start_file(scene);
     Plan plan;
     plan.arms = scene.contact.arms;
     plan.integrator = scene.run.integrator;

@@ -201,10 +201,6 @@ void read_start(Document& document, Scene& scene) {
     const std::filesystem::path file = document.required_text("start.file");
     const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
     start.file = std::filesystem::absolute(folder / file).lexically_normal().string();
-    if (std::error_code ignored; !std::filesystem::exists(start.file, ignored))
-        document.fail(
-            "start.file",
-            fmt::format("names {}, which does not exist; give a checkpoint or final.csv", start.file));
     start.keep_clock = document.flag("start.keep_clock").value_or(start.keep_clock);
 }
 

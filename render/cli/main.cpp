@@ -11,6 +11,7 @@
 #include "render/cli/check.hpp"
 #include "render/cli/movie.hpp"
 #include "render/cli/options.hpp"
+#include "render/cli/render.hpp"
 #include "render/cli/reporter.hpp"
 #include "render/cli/stop_signal.hpp"
 
@@ -30,6 +31,8 @@ int run(const grainreel::Options& options, grainreel::Reporter& reporter) {
         switch (options.verb) {
             case grainreel::Options::Verb::movie:
                 return grainreel::make_movie(options, reporter);
+            case grainreel::Options::Verb::render:
+                return grainreel::draw_again(options, reporter);
             case grainreel::Options::Verb::chart:
                 return grainreel::make_chart(options, reporter);
             case grainreel::Options::Verb::bench:

@@ -13,6 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/chart/chart.hpp"
+#include "engine/scene/units.hpp"
 #include "render/cli/version.hpp"
 
 namespace grainreel {
@@ -67,24 +68,39 @@ void add_key(CLI::App& verb, Options& options, const char* flag, const char* key
         ->type_name(type);
 }
 
-void add_scene(CLI::App& verb, Options& options) {
-    verb.add_option("SCENE", options.scene, "The scene, a TOML file; docs/scenes.md lists its keys")
-        ->required()
-        ->type_name("FILE");
+void add_sets(CLI::App& verb, Options& options, const char* about) {
     verb.add_option_function<std::vector<std::string>>(
             "--set",
             [&options](const std::vector<std::string>& values) {
                 options.sets.insert(options.sets.end(), values.begin(), values.end());
             },
-            "Give a key of the scene another value, as in --set drive.frequency=\"25 Hz\"; may be repeated")
+            about)
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->take_all();
-    add_key(verb, options, "--size", "film.size", "WxH", "Size of the film in pixels [1920x1080]");
-    add_key(verb, options, "--fps", "film.rate", "N", "Frames a second of film [30]");
-    add_key(verb, options, "--duration", "run.duration", "TIME", "Simulated time of vibration, as in 10s");
+}
+
+void add_picture_keys(CLI::App& verb, Options& options) {
+    add_key(verb, options, "--size", "film.size", "WxH",
+            "Size of the film in pixels [the scene's, or 1920x1080]");
+    add_key(verb, options, "--fps", "film.rate", "N", "Frames a second of film [the scene's, or 30]");
+    add_key(verb, options, "--title", "film.title", "TEXT", "Title on the film [that of the scene]");
     add_key(verb, options, "--threads", "run.threads", "N", "Processors to keep busy [as many as there are]");
+}
+
+void add_scene_keys(CLI::App& verb, Options& options) {
+    add_sets(verb, options,
+             "Give a key of the scene another value, as in --set drive.frequency=\"25 Hz\"; may be repeated");
+    add_picture_keys(verb, options);
+    add_key(verb, options, "--duration", "run.duration", "TIME", "Simulated time of vibration, as in 10s");
     add_key(verb, options, "--seed", "run.seed", "N", "Of every random choice [1]");
+}
+
+void add_scene(CLI::App& verb, Options& options) {
+    verb.add_option("SCENE", options.scene, "The scene, a TOML file; docs/scenes.md lists its keys")
+        ->required()
+        ->type_name("FILE");
+    add_scene_keys(verb, options);
 }
 
 void add_reporting(CLI::App& verb, Options& options) {
@@ -98,29 +114,83 @@ void add_reporting(CLI::App& verb, Options& options) {
     verb.add_flag("--verbose", options.report.verbose, "Say more on stderr");
 }
 
+constexpr const char* exit_statuses =
+    "Exit status: 0 done, 1 the run failed, 2 a mistake in the scene or the options, 129 the\n"
+    "terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.";
+
+// Where the film goes, and what is kept of it.
+void add_film(CLI::App& verb, Options& options, const char* about_out) {
+    CLI::Option* out =
+        verb.add_option_function<std::string>(
+                "--out", [&options](const std::string& folder) { options.out = folder; }, about_out)
+            ->type_name("DIR");
+    verb.add_flag("--force", options.force, "Replace the run in --out, once the new one is complete")
+        ->needs(out);
+    verb.add_flag("--frames", options.frames, "Keep every frame of the film as frames/*.png too");
+    verb.add_flag_callback(
+        "--no-film", [&options] { options.film = false; },
+        "Leave out the film; with --frames, keep the pictures alone");
+    add_gl(verb, options);
+}
+
 void add_movie(CLI::App& app, Options& options) {
     CLI::App& movie = *app.add_subcommand("movie", "Run a scene and make its film");
     add_scene(movie, options);
-    CLI::Option* out =
-        movie
-            .add_option_function<std::string>(
-                "--out", [&options](const std::string& folder) { options.out = folder; },
-                "Folder of the run [output/ and the scene's name, numbered when that is taken]")
-            ->type_name("DIR");
-    movie.add_flag("--force", options.force, "Replace the run in --out, once the new one is complete")
-        ->needs(out);
-    movie.add_flag("--frames", options.frames, "Keep every frame of the film as frames/*.png too");
-    movie.add_flag_callback(
-        "--no-film", [&options] { options.film = false; },
-        "Leave out the film; with --frames, keep the pictures alone");
-    add_gl(movie, options);
+    add_film(movie, options, "Folder of the run [output/ and the scene's name, numbered when that is taken]");
     add_reporting(movie, options);
     movie.footer(
-        "The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the film so that it\n"
-        "plays and keeps the end state; a second one stops at once.\n"
-        "Exit status: 0 done, 1 the run failed, 2 a mistake in the scene or the options, 129 the\n"
-        "terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.");
+        std::string(
+            "The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the film so "
+            "that it\nplays and keeps the end state; a second one stops at once.\n") +
+        exit_statuses);
     movie.callback([&options] { options.verb = Options::Verb::movie; });
+}
+
+// An option that is a time of a finished run.
+CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about) {
+    return verb
+        .add_option_function<std::string>(
+            flag,
+            [flag, &into](const std::string& text) {
+                try {
+                    const bool bare = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+                    into = parse_quantity(bare ? text + " s" : text, Dimension::time);
+                } catch (const UserError& mistake) {
+                    throw UserError(fmt::format("{} {}", flag, mistake.what()));
+                }
+            },
+            about)
+        ->type_name("TIME");
+}
+
+void add_render(CLI::App& app, Options& options) {
+    CLI::App& render = *app.add_subcommand("render", "Draw a finished run again, without running it");
+    RenderRequest& request = options.render;
+    render.add_option("RUN", request.run, "Folder of a run, with its scene.toml and trajectory.nc")
+        ->required()
+        ->type_name("DIR");
+    add_sets(render, options,
+             "Another value for a key of [film] or a species' colour, as in --set film.camera.azimuth=60 or "
+             "--set species.big.colour=orange; may be repeated");
+    add_picture_keys(render, options);
+    CLI::Option* from = add_time(render, "--from", request.from, "First moment to draw [the run's first]");
+    CLI::Option* to = add_time(render, "--to", request.to, "Last moment to draw [the run's last]");
+    CLI::Option* every =
+        render.add_option("--every", request.every, "Draw one of so many frames of the trajectory [1]")
+            ->check(CLI::Range(1, 1000000000))
+            ->type_name("N");
+    CLI::Option* at =
+        add_time(render, "--at", request.at, "Draw the frame nearest to this moment alone, to a PNG file");
+    add_film(render, options,
+             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
+    for (CLI::Option* other :
+         {from, to, every, render.get_option("--frames"), render.get_option("--no-film")})
+        at->excludes(other);
+    add_reporting(render, options);
+    render.footer(
+        std::string("RUN itself is never changed. The folder or file that was made goes to stdout.\n") +
+        exit_statuses);
+    render.callback([&options] { options.verb = Options::Verb::render; });
 }
 
 void add_check(CLI::App& app, Options& options) {
@@ -228,6 +298,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
         "Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
         "More about a verb:  grainreel movie --help");
     add_movie(app, options);
+    add_render(app, options);
     add_check(app, options);
     add_chart(app, options);
     add_bench(app, options);

@@ -18,8 +18,15 @@ struct BenchRenderRequest {
     Film film;
 };
 
+// What `render` is to draw of a finished run. Times in s, of the run; whole numbers of frames.
+struct RenderRequest {
+    std::filesystem::path run;  // its folder
+    std::optional<double> from, to, at;
+    int every = 1;
+};
+
 struct Options {
-    enum class Verb { movie, check, chart, bench };
+    enum class Verb { movie, render, check, chart, bench };
     Verb verb = Verb::movie;
     std::filesystem::path scene;
     // What --set, then --size, --fps, --duration, --threads and --seed say, as assignments for the scene's
@@ -31,6 +38,7 @@ struct Options {
     bool force = false;
     bool film = true;
     bool frames = false;
+    RenderRequest render;
     gl::Provider gl = gl::Provider::automatic;  // $GRAINREEL_GL when that is set and --gl is not
     std::string chart;                          // which, with `chart`
     bool quick = false;                         // of charts

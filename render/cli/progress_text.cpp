@@ -18,6 +18,8 @@ std::string to_string(Progress::Stage stage) {
             return "charting";
         case Progress::Stage::timing:
             return "timing";
+        case Progress::Stage::drawing:
+            return "drawing";
         case Progress::Stage::vibrating:
             break;
     }

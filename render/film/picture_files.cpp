@@ -32,6 +32,17 @@ std::unique_ptr<Encoder> make_encoder(const Scene& scene, const FilmOptions& opt
 
 }  // namespace
 
+std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
+                              const std::string& playback) {
+    return {{"Title", title},
+            {"Scene", scene},
+            {"Time", fmt::format("{:.9g} s", frame.time)},
+            {"Drive phase", fmt::format("{:.9g}", frame.phase)},
+            {"Step", std::to_string(frame.step)},
+            {"Playback", playback},
+            {"Software", "grainreel"}};
+}
+
 PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
     : folder_(options.folder),
       name_(scene.name),
@@ -78,15 +89,7 @@ void PictureFiles::finish() {
 }
 
 void PictureFiles::write(const std::filesystem::path& path, const DrawnFrame& drawn) const {
-    const Frame& frame = *drawn.frame;
-    write_png(path, drawn.picture,
-              {{"Title", title_},
-               {"Scene", name_},
-               {"Time", fmt::format("{:.9g} s", frame.time)},
-               {"Drive phase", fmt::format("{:.9g}", frame.phase)},
-               {"Step", std::to_string(frame.step)},
-               {"Playback", drawn.playback},
-               {"Software", "grainreel"}});
+    write_png(path, drawn.picture, texts_of(name_, title_, *drawn.frame, drawn.playback));
 }
 
 }  // namespace grainreel

@@ -21,6 +21,10 @@ struct DrawnFrame {
     std::string playback;
 };
 
+// What a PNG file says of the picture in it.
+std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
+                              const std::string& playback);
+
 class PictureFiles {
   public:
     // Creates movie.mp4 and the folder of frames. Throws RunError.

@@ -10,8 +10,6 @@
 namespace grainreel {
 namespace {
 
-constexpr double least_frames_a_period = 8;
-
 std::vector<FilmSegment> segments_of(const Film& film) {
     return film.segments.empty() ? std::vector<FilmSegment>(1) : film.segments;
 }
@@ -122,6 +120,10 @@ double poster_time(const Film& film, double duration) {
     return 0.8 * ends.back();
 }
 
+double apparent_frequency(double frequency, double frames) {
+    return std::abs(frequency - std::round(frequency / frames) * frames);
+}
+
 std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive) {
     std::vector<std::string> warnings;
     if (!drive.present || drive.frequency <= 0) return warnings;
@@ -132,12 +134,11 @@ std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive) {
         const double frames = film.rate / segments[i].playback;  // per simulated second
         // A hair of tolerance: exactly 8 frames a period must not warn for rounding.
         if (frames >= least_frames_a_period * f * (1 - 1e-12)) continue;
-        const double apparent = std::abs(f - std::round(f / frames) * frames);
-        warnings.push_back(
-            fmt::format("film segment {} shows {:.3g} frames a period: the {:.4g} Hz drive will seem to move "
-                        "at {:.4g} Hz; "
-                        "lock it to a phase, or set its playback to {:.3g} or less",
-                        i + 1, frames / f, f, apparent, film.rate / (least_frames_a_period * f)));
+        warnings.push_back(fmt::format(
+            "film segment {} shows {:.3g} frames a period: the {:.4g} Hz drive will seem to move "
+            "at {:.4g} Hz; "
+            "lock it to a phase, or set its playback to {:.3g} or less",
+            i + 1, frames / f, f, apparent_frequency(f, frames), film.rate / (least_frames_a_period * f)));
     }
     return warnings;
 }

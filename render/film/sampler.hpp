@@ -31,8 +31,15 @@ std::vector<Shot> film_schedule(const Film& film, const Clock& clock, std::int64
 // locked segment, since there the result shows at a known phase; without one, 0.8 of the film.
 double poster_time(const Film& film, double duration);
 
-// One line for each segment that shows fewer than 8 frames a period without being locked, with the apparent
-// frequency |f - k F|, F being frames per simulated second and k the whole number nearest to f / F.
+// Fewer, and the eye loses the drive's motion.
+constexpr double least_frames_a_period = 8;
+
+// Hz, at which a motion of `frequency` (Hz) seems to go in a film of F = `frames` a simulated second:
+// |f - k F|, k being the whole number nearest to f / F.
+double apparent_frequency(double frequency, double frames);
+
+// One line for each segment that shows fewer frames a period than that without being locked, with the
+// apparent frequency.
 std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive);
 
 }  // namespace grainreel

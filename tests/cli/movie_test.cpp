@@ -198,7 +198,7 @@ TEST_F(MovieProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     const std::string fifty = scene.string();
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{}, "subcommand is required"},
-        {{"render", fifty}, "subcommand is required"},
+        {{"draw", fifty}, "subcommand is required"},
         {{"movie"}, "SCENE is required"},
         {{"movie", "missing.toml"}, "missing.toml: "},
         {{"movie", "broken.toml"}, "broken.toml:1:"},
@@ -233,7 +233,7 @@ TEST_F(MovieProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
 
 TEST_F(MovieProgram, HelpAndVersionGoToStdout) {
     for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"--help"}, {"movie", "--help"}, {"check", "--help"}, {"--version"}}) {
+         {std::vector<std::string>{"--help"}, {"movie", "--help"}, {"render", "--help"}, {"check", "--help"}, {"--version"}}) {
         const Ended ended = run_program(words, {here.path(), {}});
         EXPECT_EQ(ended.status, 0);
         EXPECT_THAT(ended.out, Not(IsEmpty()));

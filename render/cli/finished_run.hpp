@@ -1,0 +1,37 @@
+// The folder of a run as something to draw from: its scene and its trajectory.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/output/trajectory.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+class FinishedRun {
+  public:
+    // sets: changes to the scene, of what is drawn only: keys of [film], colours of species, run.threads.
+    // Throws UserError for another key, and when the folder has no scene.toml or no trajectory.nc that goes
+    // with it and holds a frame. A run that was stopped or killed will do.
+    FinishedRun(const std::filesystem::path& folder, const std::vector<std::string>& sets);
+
+    const std::filesystem::path& folder() const { return folder_; }
+    const Scene& scene() const { return scene_; }  // named after the folder
+    const TrajectoryReader& trajectory() const { return trajectory_; }
+    std::filesystem::path measures() const { return folder_ / "measures.csv"; }  // may be missing
+
+    // Every frame without its grains, in order of time.
+    const std::vector<Frame>& moments() const { return moments_; }
+    // The frame nearest in time.
+    std::size_t nearest(double time) const;
+
+  private:
+    std::filesystem::path folder_;
+    Scene scene_;
+    TrajectoryReader trajectory_;
+    std::vector<Frame> moments_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,60 @@
+#include "render/cli/still.hpp"
+
+#include <cstdio>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/cli/redraw_run.hpp"
+#include "render/draw/renderer.hpp"
+#include "render/film/picture_files.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Beside the run: "wedge-1.250s.png", and a number when that is taken.
+fs::path free_name(const FinishedRun& run, double time) {
+    const std::string stem = fmt::format("{}-{:.3f}s", run.scene().name, time);
+    const fs::path beside = run.folder().parent_path();
+    fs::path path = beside / (stem + ".png");
+    for (int number = 2; fs::exists(path); ++number) path = beside / fmt::format("{}-{}.png", stem, number);
+    return path;
+}
+
+void check_free(const fs::path& path, bool force) {
+    std::error_code error;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, error))
+        throw UserError(
+            fmt::format("--out {}: there is no folder {}; make it first", path.string(), folder.string()));
+    if (fs::is_directory(path, error))
+        throw UserError(fmt::format("--out {}: is a folder; with --at, name a PNG file", path.string()));
+    if (path.extension() != ".png")
+        throw UserError(fmt::format("--out {}: with --at, name a file that ends in .png", path.string()));
+    if (fs::exists(path, error) && !force)
+        throw UserError(fmt::format("--out {}: exists already; choose another name, or --force to replace it",
+                                    path.string()));
+}
+
+}  // namespace
+
+int draw_still(const Options& options, Reporter& reporter, const FinishedRun& run) {
+    const std::size_t index = run.nearest(*options.render.at);
+    const Frame frame = run.trajectory().read(index);
+    if (options.out) check_free(*options.out, options.force);
+    const fs::path path = options.out ? *options.out : free_name(run, frame.time);
+    Renderer renderer(run.scene(), drawing_threads(run.scene().run.threads).raster, options.gl);
+    if (const std::string note = renderer.gl_note(); !note.empty()) reporter.info(note);
+    const std::string& title = run.scene().film.title;
+    write_png(path, renderer.draw(frame, ""), texts_of(run.scene().name, title, frame, ""));
+    reporter.info(fmt::format("wrote {}: frame {} of {}, at {:.6g} s", path.string(), index + 1,
+                              run.trajectory().frames(), frame.time));
+    std::printf("%s\n", path.c_str());
+    return 0;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,187 @@
+// `grainreel render` from the outside: a finished run drawn again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/output/trajectory.hpp"
+#include "tests/cli/film_length.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+
+std::ptrdiff_t entries_of(const fs::path& folder) {
+    return std::distance(fs::directory_iterator(folder), {});
+}
+
+class RenderProgram : public testing::Test {
+  protected:
+    Ended program(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
+    // A run of the small scene in run/, its [[film.segment]] and what follows replaced.
+    void run(const std::string& segment, const std::vector<std::string>& more) {
+        std::string text = small_scene_text;
+        text.replace(text.find("[[film.segment]]"), std::string::npos, segment);
+        write_text(here / "run.toml", text);
+        std::vector<std::string> words = {"movie", "run.toml", "--out", "run", "--duration", "0.3 s"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = program(words);
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+    void short_run() { run("[[film.segment]]\nkind = \"locked\"\n", {"--no-film"}); }
+
+    TemporaryFolder here;
+};
+
+// Words in the PNG files included: name, title, time, phase, step and playback.
+void expect_same_pictures(const fs::path& a, const fs::path& b) {
+    ASSERT_EQ(entries_of(a), entries_of(b));
+    for (const fs::directory_entry& entry : fs::directory_iterator(a)) {
+        const fs::path other = b / entry.path().filename();
+        ASSERT_TRUE(fs::exists(other)) << other;
+        EXPECT_TRUE(text_of(entry.path()) == text_of(other)) << other;
+    }
+}
+
+TEST_F(RenderProgram, DrawsTheLockedFilmOfTheRunToTheByte) {
+    run("[[film.segment]]\nkind = \"locked\"\n", {"--frames"});
+    const Ended ended = program({"render", "run", "--frames"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, "run-render\n");
+    EXPECT_EQ(decoded_pictures(here / "run-render/movie.mp4"), 7);  // 0.3 s at 20 Hz, both ends
+    expect_same_pictures(here / "run/frames", here / "run-render/frames");
+}
+
+TEST_F(RenderProgram, DrawsTheFilmInMotionOfTheRunToTheByte) {
+    // 0.375 / 30 s are a quarter of a period, which is a whole number of steps.
+    run("[[film.segment]]\nplayback = 0.375\n", {"--frames", "--set", "output.trajectory_interval=0.0125"});
+    ASSERT_EQ(program({"render", "run", "--frames", "--no-film", "--out", "again"}).status, 0);
+    expect_same_pictures(here / "run/frames", here / "again/frames");
+    EXPECT_FALSE(fs::exists(here / "again/movie.mp4"));
+}
+
+TEST_F(RenderProgram, FromToAndEveryChooseFrames) {
+    short_run();
+    const Ended ended =
+        program({"render", "run", "--from", "0.1 s", "--to", "0.25", "--every", "2", "--frames"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(entries_of(here / "run-render/frames"), 2);  // of 0.10, 0.15, 0.20 and 0.25 s
+    const nlohmann::json record = nlohmann::json::parse(text_of(here / "run-render/run.json"));
+    EXPECT_EQ(record["status"], "complete");
+    EXPECT_TRUE(record["engine"].is_null());
+    ASSERT_EQ(record["drawn"].size(), 1u);
+    EXPECT_EQ(record["drawn"][0]["run"], "run");
+    EXPECT_EQ(record["drawn"][0]["frames"], 2);
+    EXPECT_NEAR(record["drawn"][0]["first_s"].get<double>(), 0.1, 1e-9);
+    EXPECT_NEAR(record["drawn"][0]["last_s"].get<double>(), 0.2, 1e-9);
+    EXPECT_THAT(text_of(here / "run-render/frames/000000.png"),
+                HasSubstr("1 frame every 2 periods at phase 0 (plays 3×)"));
+}
+
+TEST_F(RenderProgram, AnotherSizeAnotherCameraAnotherColour) {
+    short_run();
+    ASSERT_EQ(program({"render", "run", "--frames", "--no-film", "--out", "plain"}).status, 0);
+    for (const char* set : {"film.camera.azimuth=70", "species.big.colour=#102030", "film.title=Other"}) {
+        const Ended ended =
+            program({"render", "run", "--frames", "--no-film", "--out", "other", "--force", "--set", set});
+        ASSERT_EQ(ended.status, 0) << ended.err;
+        EXPECT_NE(text_of(here / "plain/frames/000003.png"), text_of(here / "other/frames/000003.png"))
+            << set;
+    }
+    ASSERT_EQ(program({"render", "run", "--at", "0", "--size", "200x100", "--out", "one.png"}).status, 0);
+    // IHDR: width and height, big-endian, after the signature and the chunk's head.
+    EXPECT_EQ(text_of(here / "one.png").substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x64", 8));
+}
+
+TEST_F(RenderProgram, AtDrawsTheNearestFrame) {
+    short_run();
+    const Ended ended = program({"render", "run", "--at", "0.17 s"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, "run-0.150s.png\n");
+    EXPECT_THAT(ended.err, HasSubstr("frame 4 of 7"));
+    EXPECT_THAT(text_of(here / "run-0.150s.png"), HasSubstr("0.15 s"));
+    EXPECT_EQ(program({"render", "run", "--at", "0.17 s"}).out, "run-0.150s-2.png\n");
+    EXPECT_EQ(text_of(here / "run-0.150s.png"), text_of(here / "run-0.150s-2.png"));
+}
+
+TEST_F(RenderProgram, AStartFileThatIsGoneDoesNotMatter) {
+    short_run();
+    ASSERT_EQ(program({"movie", "run.toml", "--out", "second", "--no-film", "--duration", "0.1 s", "--set",
+                       "start.method=file", "--set", "start.file=run/checkpoint.grs"})
+                  .status,
+              0);
+    fs::remove(here / "run/checkpoint.grs");
+    const Ended ended = program({"render", "second"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+}
+
+TEST_F(RenderProgram, CtrlCLeavesAFilmThatPlays) {
+    run("[[film.segment]]\nplayback = 0.1\n", {"--no-film", "--set", "output.trajectory_interval=0.0003"});
+    Program render({"render", "run", "--size", "1280x720"}, {here.path(), {}});
+    ASSERT_TRUE(wait_until(render, [&] { return decoded_pictures(here / "run-render/movie.mp4") >= 30; }));
+    render.send(SIGINT);
+    const Ended ended = render.wait();
+    EXPECT_EQ(ended.status, 130) << ended.err;
+    const nlohmann::json record = nlohmann::json::parse(text_of(here / "run-render/run.json"));
+    EXPECT_EQ(record["status"], "interrupted");
+    const int frames = record["written"]["film_frames"].get<int>();
+    EXPECT_EQ(decoded_pictures(here / "run-render/movie.mp4"), frames);
+    EXPECT_GE(frames, 30);
+    EXPECT_LT(frames, 1000);
+}
+
+// Exit status 2, one line that says what is wrong, and nothing on disk.
+TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
+    short_run();
+    fs::create_directory(here / "empty");
+    fs::copy(here / "run", here / "cut");
+    const std::string whole = text_of(here / "run/trajectory.nc");
+    write_text(here / "cut/trajectory.nc", whole.substr(0, whole.size() - 100));
+    fs::copy(here / "run", here / "silent");
+    fs::remove(here / "silent/trajectory.nc");
+    write_text(here / "taken.png", "mine");
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"render"}, "RUN is required"},
+        {{"render", "nowhere"}, "nowhere: no such folder; give the folder of a run"},
+        {{"render", "run.toml"}, "run.toml: no such folder"},
+        {{"render", "empty"}, "empty: has no scene.toml"},
+        {{"render", "silent"}, "silent: has no trajectory.nc"},
+        {{"render", "cut"}, "cut/trajectory.nc: was cut off: of its 7 frames 6 are whole"},
+        {{"render", "run", "--set", "drive.frequency=3"}, "--set drive.frequency: the run is over"},
+        {{"render", "run", "--set", "species.big.count=3"}, "the run is over"},
+        {{"render", "run", "--set", "film.colour=3"}, "unknown key"},
+        {{"render", "run", "--from", "1 s"},
+         "--from: no frame of the run lies there; they go from 0 to 0.3 s"},
+        {{"render", "run", "--to", "3 kg"}, "--to must be a time, but \"3 kg\" is a mass"},
+        {{"render", "run", "--every", "0"}, "--every"},
+        {{"render", "run", "--at", "0", "--from", "0"}, "--at"},
+        {{"render", "run", "--no-film"}, "--no-film"},
+        {{"render", "run", "--out", "run", "--force"}, "--out run: is the run that is drawn"},
+        {{"render", "run", "--out", "run/", "--force"}, "is the run that is drawn"},
+        {{"render", "run", "--out", "empty/..", "--force"}, "--out"},
+        {{"render", "run", "--at", "0", "--out", "taken.png"}, "--out taken.png: exists already"},
+        {{"render", "run", "--at", "0", "--out", "gone/x.png"}, "there is no folder gone"},
+        {{"render", "run", "--at", "0", "--out", "x.jpg"}, "ends in .png"},
+    };
+    const auto entries = entries_of(here.path()), of_run = entries_of(here / "run");
+    for (const auto& [words, part] : cases) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 2) << testing::PrintToString(words) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(part)) << testing::PrintToString(words);
+        EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+        EXPECT_EQ(ended.out, "");
+        EXPECT_EQ(entries_of(here.path()), entries) << testing::PrintToString(words);
+        EXPECT_EQ(entries_of(here / "run"), of_run) << testing::PrintToString(words);
+    }
+    EXPECT_EQ(text_of(here / "taken.png"), "mine");
+}
+
+}  // namespace
+}  // namespace grainreel
