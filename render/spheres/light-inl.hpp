@@ -54,15 +54,16 @@ HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours
     for (int i = 0; i < neighbours.count; ++i) {
         const Neighbour& n = neighbours.first[i];
         const Triple<F> to{F(n.x) - point.at.x, F(n.y) - point.at.y, F(n.z) - point.at.z};
+        const F rise = point.normal.dot(to);
+        if (none(rise > F(-n.radius))) continue;  // below the horizon
         const F inverse = inverse_root(to.squared());
         const F share = smaller(F(n.square) * inverse * inverse, F(1));  // of the sphere's squared sine
-        const F rise = point.normal.dot(to);
         const F sunk = rise * F(n.inverse_radius);  // -1 to 1: it stands in the horizon
         const F whole = larger(rise, F(0)) * inverse * share;
         const F base = zero_to_one(F(0.5) * (sunk + F(1)) * share);
         const F part = base * base * inverse_root(larger(base, F(1e-12)));
         const F taken = select(size_of(sunk) < F(1), part, whole);
-        open *= less_product(F(1), F(n.weight), smaller(taken, F(1)));
+        open *= larger(less_product(F(1), F(n.weight), taken), F(0));
     }
     return open;
 }
@@ -82,6 +83,7 @@ HWY_INLINE F unshadowed(const SurfacePoint& point, const Lamp& lamp, const Neigh
         const F t = zero_to_one(multiply_add((beside - F(n.square)) * inverse_of(soft), F(0.5), F(0.5)));
         const F hidden = F(1) - t * t * less_product(F(3), F(2), t);
         lit *= select(ahead > F(0), less_product(F(1), F(n.weight), hidden), F(1));
+        if (none(lit > F(1e-3))) break;
     }
     return lit;
 }

@@ -8,6 +8,8 @@ namespace grainreel {
 namespace {
 
 constexpr std::size_t kMostCasters = 24;
+// Neighbours stand for what is farther away, too.
+constexpr float kFarther = 1.3f;
 
 Neighbour neighbour(const ViewSphere& own, const ViewSphere& other, float weight) {
     return {other.x - own.x, other.y - own.y,  other.z - own.z,
@@ -22,7 +24,7 @@ float Neighbourhood::weight(const ViewSphere& own, const ViewSphere& other) cons
     const float dx = other.x - own.x, dy = other.y - own.y, dz = other.z - own.z;
     const float gap = std::sqrt(dx * dx + dy * dy + dz * dz) - own.radius - other.radius;
     const float left = 1 - gap / (kReach * other.radius);
-    return std::clamp(2 * left, 0.0f, 1.0f) * cut_.share(other);
+    return kFarther * std::clamp(2 * left, 0.0f, 1.0f) * cut_.share(other);
 }
 
 void Neighbourhood::find_occluders(std::size_t slot, std::uint32_t pool) {

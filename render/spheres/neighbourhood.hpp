@@ -22,7 +22,7 @@ class Neighbourhood {
     NeighbourSpan casters(std::size_t slot) const { return span(casters_[slot]); }
 
     // Radii from its surface up to which a grain takes ambient light from another.
-    static constexpr float kReach = 2.0f;
+    static constexpr float kReach = 1.0f;
 
   private:
     struct Range {
