@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/step/flush_denormals.hpp"
+#include "engine/base/flush_denormals.hpp"
 #include "engine/step/integrate.hpp"
 
 namespace grainreel {

@@ -18,18 +18,45 @@ std::uint32_t over(std::uint32_t top, std::uint32_t below) {
     return top + scaled(below & kEven) + (scaled((below >> 8) & kEven) << 8);
 }
 
+// Eight pixels at once where there is nothing to lay over, as in most of a picture.
+constexpr int kSpan = 8;
+bool nothing(const std::uint32_t* pixels) {
+    std::uint32_t any = 0;
+    for (int i = 0; i < kSpan; ++i) any |= pixels[i];
+    return any == 0;
+}
+
+struct Row {
+    const std::uint32_t *behind, *grains, *before;
+    std::uint32_t* out;
+};
+
+void compose_row(const Row& row, int width) {
+    int x = 0;
+    for (; x + kSpan <= width; x += kSpan) {
+        if (nothing(row.grains + x) && nothing(row.before + x)) {
+            std::memcpy(row.out + x, row.behind + x, kSpan * sizeof *row.out);
+            continue;
+        }
+        for (int i = x; i < x + kSpan; ++i)
+            row.out[i] = over(row.before[i], over(row.grains[i], row.behind[i]));
+    }
+    for (; x < width; ++x) row.out[x] = over(row.before[x], over(row.grains[x], row.behind[x]));
+}
+
 }  // namespace
 
 void compose(const std::vector<std::uint32_t>& behind, const Layer& grains,
-             const std::vector<std::uint32_t>& before, const Rectangle& port, Picture& picture) {
-    std::vector<std::uint32_t> row(static_cast<std::size_t>(port.width));
-    for (int y = 0; y < port.height; ++y) {
-        const std::size_t first = static_cast<std::size_t>(port.height - 1 - y) * row.size();
-        const std::uint32_t* middle = grains.row(y);
-        for (std::size_t x = 0; x < row.size(); ++x)
-            row[x] = over(before[first + x], over(middle[x], behind[first + x]));
-        std::memcpy(picture.pixel(port.x, port.y + y), row.data(), row.size() * sizeof row[0]);
-    }
+             const std::vector<std::uint32_t>& before, const Rectangle& port, Picture& picture, Team& team) {
+    const auto width = static_cast<std::size_t>(port.width);
+    team.run([&](int member) {
+        for (int y = member; y < port.height; y += team.size()) {
+            const std::size_t first = static_cast<std::size_t>(port.height - 1 - y) * width;
+            compose_row({behind.data() + first, grains.row(y), before.data() + first,
+                         reinterpret_cast<std::uint32_t*>(picture.pixel(port.x, port.y + y))},
+                        port.width);
+        }
+    });
 }
 
 }  // namespace grainreel

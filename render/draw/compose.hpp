@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/team.hpp"
 #include "render/draw/picture.hpp"
 #include "render/draw/view.hpp"
 #include "render/spheres/layer.hpp"
@@ -13,6 +14,6 @@ namespace grainreel {
 // behind, before: as OpenGL gives them, rows from the bottom; all of the port's size; colours multiplied by
 // alpha. The result goes into the port's part of the picture.
 void compose(const std::vector<std::uint32_t>& behind, const Layer& grains,
-             const std::vector<std::uint32_t>& before, const Rectangle& port, Picture& picture);
+             const std::vector<std::uint32_t>& before, const Rectangle& port, Picture& picture, Team& team);
 
 }  // namespace grainreel

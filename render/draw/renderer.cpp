@@ -123,7 +123,7 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawT
     before.draw(shape_painter, shapes.before);
     watch.lap(&DrawTimes::walls);
     const Layer& grains = draw_grains(eye, frame, watch);
-    compose(behind.read(), grains, before.read(), port, picture);
+    compose(behind.read(), grains, before.read(), port, picture, sphere_painter.team());
     watch.lap(&DrawTimes::readback);
 }
 

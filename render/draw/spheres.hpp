@@ -24,6 +24,7 @@ class SpherePainter {
     const Layer& light();
 
     Lamp& lamp() { return lamp_; }
+    Team& team() { return team_; }
 
   private:
     std::vector<std::array<float, 3>> palette_;  // linear colour by species

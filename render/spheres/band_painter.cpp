@@ -19,7 +19,6 @@ void BandPainter::paint(const PaintJob& job, int y0, int y1, Layer& layer) {
     parts_.clear();
     soft_.clear();
     block_size_ = 0;
-    edge_bits_.resize(static_cast<std::size_t>(layer.width) / 8 + 1);
     make_room(static_cast<std::size_t>(layer.width));
     for (int y = y0; y < y1; ++y) paint_row(job, y, layer);
     settle_edges(job);
@@ -39,15 +38,14 @@ void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
     std::uint32_t* out = layer.row(y);
     std::fill_n(out, layer.width, 0u);
     sphere_kernels().mark_edges(row, seen.row(std::max(0, y - 1)),
-                                seen.row(std::min(y + 1, seen.height() - 1)), layer.width, edge_bits_.data());
-    const auto edge = [&](int x) { return (edge_bits_[static_cast<std::size_t>(x) / 8] >> (x % 8)) & 1; };
+                                seen.row(std::min(y + 1, seen.height() - 1)), layer.width,
+                                edges_.room(layer.width));
     for (int x = 0; x < layer.width;) {
-        if (edge(x)) {
+        const int end = edges_.next(x);
+        if (end == x) {
             take_edge(job, x++, y);
             continue;
         }
-        int end = x + 1;
-        while (end < layer.width && !edge(end)) ++end;
         const std::uint32_t number = row[x];
         if (number && end - x >= kLongRun)
             paint_run(job, y, x, end, number - 1, out);

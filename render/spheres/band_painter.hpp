@@ -6,6 +6,7 @@
 
 #include "render/spheres/layer.hpp"
 #include "render/spheres/neighbourhood.hpp"
+#include "render/spheres/row_bits.hpp"
 #include "render/spheres/sphere_kernels.hpp"
 #include "render/spheres/visibility.hpp"
 
@@ -53,7 +54,7 @@ class BandPainter {
     void encode(Layer& layer) const;
     void make_room(std::size_t points);
 
-    std::vector<std::uint8_t> edge_bits_;
+    RowBits edges_;
     std::vector<Part> parts_, sorted_;
     std::vector<std::uint32_t> count_, met_;  // parts a grain shown (kept at 0); grains met in this band
     std::vector<Soft> soft_;

@@ -6,6 +6,8 @@
 #define GRAINREEL_SPHERES_DRAW_INL
 #endif
 
+#include <cstring>
+
 #include "render/spheres/meet-inl.hpp"
 #include "render/spheres/sphere_kernels.hpp"
 
@@ -64,27 +66,39 @@ float farthest(const DepthRows& rows, const PixelBox& box) {
     return std::max(last, hn::GetLane(hn::MaxOfLanes(Floats(), most.value)));
 }
 
-// Eight pixels to a byte, the first in the lowest bit.
-void mark_edges(const std::uint32_t* row, const std::uint32_t* above, const std::uint32_t* below, int count,
-                std::uint8_t* bits) {
-    const hn::CappedTag<std::uint32_t, 8> d;
+// differs(at): lanes of pixels from `at` on, not 0 where one is to be marked. Past the row's end bits are 0.
+template <class Differs>
+HWY_INLINE void mark(int count, std::uint64_t* bits, const Differs& differs) {
+    const hn::CappedTag<std::uint32_t, 16> d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int at = 0; at < count; at += 8) {
-        unsigned byte = 0;
-        for (int part = 0; part < 8; part += lanes) {
-            const std::uint32_t* here = row + at + part;
-            const auto own = hn::LoadU(d, here);
-            const auto differs = [&](const std::uint32_t* other) {
-                return hn::Xor(own, hn::LoadU(d, other));
-            };
-            const auto other = hn::Or(hn::Or(differs(here - 1), differs(here + 1)),
-                                      hn::Or(differs(above + at + part), differs(below + at + part)));
+    for (int first = 0; first < count; first += 64) {
+        std::uint64_t word = 0;
+        for (int part = 0; part < 64 && first + part < count; part += lanes) {
             std::uint8_t some[8] = {};
-            hn::StoreMaskBits(d, hn::Ne(other, hn::Zero(d)), some);
-            byte |= static_cast<unsigned>(some[0]) << part;
+            hn::StoreMaskBits(d, hn::Ne(differs(d, first + part), hn::Zero(d)), some);
+            std::uint64_t few = 0;
+            std::memcpy(&few, some, sizeof few);
+            word |= few << part;
         }
-        bits[at / 8] = static_cast<std::uint8_t>(byte);
+        const int left = count - first;
+        bits[first / 64] = left < 64 ? word & ((std::uint64_t{1} << left) - 1) : word;
     }
+}
+
+void mark_changes(const std::uint32_t* row, int count, std::uint64_t* bits) {
+    mark(count, bits,
+         [&](auto d, int at) { return hn::Xor(hn::LoadU(d, row + at), hn::LoadU(d, row + at - 1)); });
+}
+
+void mark_edges(const std::uint32_t* row, const std::uint32_t* above, const std::uint32_t* below, int count,
+                std::uint64_t* bits) {
+    mark(count, bits, [&](auto d, int at) {
+        const auto own = hn::LoadU(d, row + at);
+        const auto differs = [&](const std::uint32_t* other) {
+            return hn::Xor(own, hn::LoadU(d, other + at));
+        };
+        return hn::Or(hn::Or(differs(row - 1), differs(row + 1)), hn::Or(differs(above), differs(below)));
+    });
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -58,7 +58,7 @@ HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours
         if (none(rise > F(-n.radius))) continue;  // below the horizon
         const F inverse = inverse_root(to.squared());
         const F share = smaller(F(n.square) * inverse * inverse, F(1));  // of the sphere's squared sine
-        const F sunk = rise * F(n.inverse_radius);  // -1 to 1: it stands in the horizon
+        const F sunk = rise * F(n.inverse_radius);                       // -1 to 1: it stands in the horizon
         const F whole = larger(rise, F(0)) * inverse * share;
         const F base = zero_to_one(F(0.5) * (sunk + F(1)) * share);
         const F part = base * base * inverse_root(larger(base, F(1e-12)));

@@ -11,7 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 const SphereKernels* kernels_here() {
-    static constexpr SphereKernels kernels{draw, farthest, mark_edges, settle, light};
+    static constexpr SphereKernels kernels{draw, farthest, mark_changes, mark_edges, settle, light};
     return &kernels;
 }
 

@@ -62,10 +62,11 @@ struct SphereKernels {
                  std::uint32_t number);
     // The largest depth in a box.
     float (*farthest)(const DepthRows&, const PixelBox&);
-    // A bit for each of `count` pixels of a row: set where a pixel differs from one of its four neighbours.
-    // Reads one pixel before and after the row.
+    // Bits of a row of `count` pixels, 64 to a word, the first the lowest: set where a pixel differs from the
+    // one before it; or from one of its four neighbours. Pixels past the row's ends are read, see Visibility.
+    void (*mark_changes)(const std::uint32_t* row, int count, std::uint64_t* bits);
     void (*mark_edges)(const std::uint32_t* row, const std::uint32_t* above, const std::uint32_t* below,
-                       int count, std::uint8_t* bits);
+                       int count, std::uint64_t* bits);
     void (*settle)(const Sight&, const Cut&, EdgeBlock&);
     void (*light)(const Sight&, const Cut&, const Lamp&, const LitGrain&, const LitPoints&);
 };

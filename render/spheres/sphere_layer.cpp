@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "engine/base/flush_denormals.hpp"
+
 namespace grainreel {
 
 void SphereLayer::find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team) {
@@ -24,6 +26,7 @@ const Layer& SphereLayer::light(const Sight& sight, const Cut& cut, const Lamp& 
     painters_.resize(static_cast<std::size_t>(team.size()));
     std::atomic<int> next{0};
     team.run([&](int member) {
+        const FlushDenormals flush;
         BandPainter& painter = painters_[static_cast<std::size_t>(member)];
         for (int y; (y = kRows * next.fetch_add(1, std::memory_order_relaxed)) < layer_.height;)
             painter.paint(job, y, std::min(y + kRows, layer_.height), layer_);

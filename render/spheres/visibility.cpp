@@ -127,15 +127,14 @@ void Visibility::draw_band(int band, Worker& worker, const Sight& sight, const C
 void Visibility::note_shown(int band, Worker& worker) {
     for (int y = band * kBand; y < std::min(height_, (band + 1) * kBand); ++y) {
         std::uint32_t* own = seen_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
-        own[-1] = own[0];
         std::fill_n(own + width_, kPad, own[width_ - 1]);
-        std::uint32_t last = 0;
-        for (int x = 0; x < width_; ++x) {
-            if (own[x] == last) continue;
-            last = own[x];
-            if (last == 0 || worker.seen_in[last - 1] == static_cast<std::uint32_t>(band) + 1) continue;
-            worker.seen_in[last - 1] = static_cast<std::uint32_t>(band) + 1;
-            worker.shown.push_back(last - 1);
+        own[-1] = 0;
+        sphere_kernels().mark_changes(own, width_, worker.changes.room(width_));
+        own[-1] = own[0];
+        for (int x = worker.changes.next(0); x < width_; x = worker.changes.next(x + 1)) {
+            if (own[x] == 0 || worker.seen_in[own[x] - 1] == static_cast<std::uint32_t>(band) + 1) continue;
+            worker.seen_in[own[x] - 1] = static_cast<std::uint32_t>(band) + 1;
+            worker.shown.push_back(own[x] - 1);
         }
     }
 }

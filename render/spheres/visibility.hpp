@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/team.hpp"
+#include "render/spheres/row_bits.hpp"
 #include "render/spheres/sphere.hpp"
 
 namespace grainreel {
@@ -38,6 +39,7 @@ class Visibility {
         std::vector<int> drawn;              // a tile: grains since `far` was found
         std::vector<std::uint32_t> seen_in;  // a grain: the last band in which it was seen
         std::vector<std::uint32_t> shown;
+        RowBits changes;
     };
 
     PixelBox bounds(const Sight& sight, const ViewSphere& sphere) const;

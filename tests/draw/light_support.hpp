@@ -25,12 +25,14 @@ struct Hit {
 };
 
 // The first sphere that a ray of unit direction meets, `skip` left out.
-inline Hit first_hit(const std::vector<ViewSphere>& spheres, const Point& from, const Point& direction, int skip) {
+inline Hit first_hit(const std::vector<ViewSphere>& spheres, const Point& from, const Point& direction,
+                     int skip) {
     Hit hit;
     for (int i = 0; i < static_cast<int>(spheres.size()); ++i) {
         if (i == skip) continue;
         const Point to = centre(spheres[i]) - from;
-        const float along = to.dot(direction), rest = spheres[i].radius * spheres[i].radius - (to - along * direction).squaredNorm();
+        const float along = to.dot(direction),
+                    rest = spheres[i].radius * spheres[i].radius - (to - along * direction).squaredNorm();
         if (rest < 0 || along < 0) continue;
         const float entry = along - std::sqrt(rest);
         if (entry < hit.distance) hit = {i, entry};

@@ -48,9 +48,11 @@ Agreement compare_with_rays(const std::vector<ViewSphere>& bed) {
         for (int x = 0; x < kWidth; x += 2) {
             if (picture.row(y)[x] >> 24 != 255) continue;
             const Point ray = Point(sight.slope_x(static_cast<float>(x) + 0.5f),
-                                    sight.slope_y(static_cast<float>(y) + 0.5f), 1).normalized();
+                                    sight.slope_y(static_cast<float>(y) + 0.5f), 1)
+                                  .normalized();
             const Hit hit = first_hit(bed, {0, 0, 0}, ray, -1);
-            if (hit.sphere < 0 || layer.visibility().row(y)[x] != static_cast<std::uint32_t>(hit.sphere) + 1) continue;
+            if (hit.sphere < 0 || layer.visibility().row(y)[x] != static_cast<std::uint32_t>(hit.sphere) + 1)
+                continue;
             const Point at = hit.distance * ray;
             const ViewSphere& s = bed[static_cast<std::size_t>(hit.sphere)];
             const double rays = openness_by_rays(bed, hit.sphere, at, (at - centre(s)) / s.radius);
@@ -66,7 +68,8 @@ void expect_agreement(const std::vector<ViewSphere>& bed) {
     const Agreement found = compare_with_rays(bed);
     testing::Test::RecordProperty("mean_error", std::to_string(found.mean_error));
     testing::Test::RecordProperty("correlation", std::to_string(found.correlation));
-    std::printf("error %.3f, ours - rays %.3f, correlation %.3f, %d points\n", found.mean_error, found.mean, found.correlation, found.points);
+    std::printf("error %.3f, ours - rays %.3f, correlation %.3f, %d points\n", found.mean_error, found.mean,
+                found.correlation, found.points);
     EXPECT_GT(found.points, 500);
     EXPECT_LT(found.mean_error, 0.1);
     EXPECT_GT(found.correlation, 0.8);
@@ -82,7 +85,8 @@ TEST(Occlusion, AgreesWithRaysInAMixture) {
 
 TEST(Occlusion, AgreesWithRaysAroundOneLargeGrain) {
     std::vector<ViewSphere> bed = loose_bed(400, {0.4f}, 3);
-    std::erase_if(bed, [](const ViewSphere& s) { return Point(s.x, s.y + 1, s.z - 12).norm() < 2 + s.radius; });
+    std::erase_if(bed,
+                  [](const ViewSphere& s) { return Point(s.x, s.y + 1, s.z - 12).norm() < 2 + s.radius; });
     bed.push_back({0, -1, 12, 2});
     expect_agreement(bed);
 }
