@@ -115,6 +115,28 @@ void check_drive(const Scene& scene) {
                  stroke, scene.container.height));
 }
 
+void check_film(const Scene& scene) {
+    const Film& film = scene.film;
+    const Camera& camera = film.camera;
+    if (camera.position && *camera.position == camera.target.value_or(extent_of(scene).middle()))
+        fail(scene, "film.camera.position", "is where the camera looks; move it, or the target");
+    if (film.wall_ghost && !scene.drive.present)
+        fail(scene, "film.wall_ghost",
+             "shows where the walls rest, but nothing moves; add [drive] or take it out");
+    if (film.exaggerate == 1) return;
+    if (!scene.drive.present)
+        fail(scene, "film.exaggerate",
+             "enlarges the container's motion, but nothing moves; add [drive] or take it out");
+    const bool floor_only = scene.drive.moves == Drive::Moves::floor;
+    const bool wall_apart = std::any_of(scene.walls.begin(), scene.walls.end(), [](const FreeWall& wall) {
+        return !wall.moves || wall.velocity != Vec3(0, 0, 0);
+    });
+    if (floor_only || wall_apart)
+        fail(scene, "film.exaggerate",
+             "needs walls that all move together, or grains would be drawn inside those that do not; take it "
+             "out");
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene) {
@@ -123,6 +145,7 @@ void check_scene(const Scene& scene) {
     check_grain_sizes(scene);
     check_room(scene);
     check_drive(scene);
+    check_film(scene);
 }
 
 }  // namespace grainreel

@@ -269,6 +269,37 @@ void add_run(Keys& keys) {
         entry("output.contacts", KeyKind::flag, literal("false"), "Contacts and forces in contacts.nc."));
 }
 
+// How the camera stands and moves, and how the walls' motion is shown.
+void add_camera_path(Keys& keys) {
+    const auto place = [&](const char* path, const char* fallback, const char* about) {
+        keys.push_back(
+            of_dimension(entry(path, KeyKind::vector, note(fallback), about), Dimension::length, any));
+    };
+    place("film.camera.position", "by azimuth, elevation and automatic framing",
+          "Where the camera stands; nothing is framed then.");
+    place("film.camera.target", "the container's middle",
+          "The middle of the picture, and what an orbit turns about.");
+    keys.push_back(quantity("film.camera.orbit", Dimension::degrees, any, literal("0"),
+                            "Turned about the vertical through the target; negative to the left."));
+    keys.push_back(quantity("film.camera.orbit_time", Dimension::time, positive, note("the film's length"),
+                            "Film time in which the orbit is turned; it goes on after that."));
+    keys.push_back(quantity("film.camera.key[].time", Dimension::time, not_negative, required(),
+                            "Film time at which the camera is there; smoothly in between."));
+    keys.push_back(quantity("film.camera.key[].azimuth", Dimension::degrees, any, note("from the other keys"),
+                            "As film.camera.azimuth; beyond 360 it turns on."));
+    keys.push_back(quantity("film.camera.key[].elevation", Dimension::degrees, {-90, 90, false, false},
+                            note("from the other keys"), "As film.camera.elevation."));
+    keys.push_back(quantity("film.camera.key[].zoom", Dimension::number, positive,
+                            note("from the other keys"), "As film.camera.zoom."));
+    place("film.camera.key[].target", "from the other keys", "As film.camera.target.");
+    keys.push_back(entry("film.axes", KeyKind::flag, note("true where the camera moves"),
+                         "Arrows along x, y and z as the camera sees them."));
+    keys.push_back(entry("film.wall_ghost", KeyKind::flag, literal("false"),
+                         "A faint outline of the container at rest."));
+    keys.push_back(quantity("film.exaggerate", Dimension::number, {1, 1000, false, false}, literal("1"),
+                            "The container's motion drawn so many times as large, its grains with it."));
+}
+
 void add_film(Keys& keys) {
     keys.push_back(
         entry("film.size", KeyKind::picture_size, literal("\"1920x1080\""), "Width and height, pixels."));
@@ -291,6 +322,7 @@ void add_film(Keys& keys) {
                             "Over the automatic framing."));
     keys.push_back(
         entry("film.camera.follow", KeyKind::flag, literal("false"), "Stand in the container's own frame."));
+    add_camera_path(keys);
     keys.push_back(choice("film.segment[].kind", {"motion", "locked"}, literal("\"motion\""),
                           "Even in time, or one frame every so many periods at a fixed phase."));
     keys.push_back(quantity("film.segment[].duration", Dimension::time, positive,

@@ -38,14 +38,6 @@ void read_size(Document& document, Film& film) {
     film.height = static_cast<int>(size[1]);
 }
 
-void read_camera(Document& document, Camera& camera) {
-    camera.azimuth = document.quantity("film.camera.azimuth").value_or(camera.azimuth);
-    camera.elevation = document.quantity("film.camera.elevation").value_or(camera.elevation);
-    camera.field_of_view = document.quantity("film.camera.field_of_view").value_or(camera.field_of_view);
-    camera.zoom = document.quantity("film.camera.zoom").value_or(camera.zoom);
-    camera.follow = document.flag("film.camera.follow").value_or(camera.follow);
-}
-
 FilmSegment read_segment(Document& document, const Scene& scene, const std::string& table) {
     using Kind = FilmSegment::Kind;
     FilmSegment segment;
@@ -124,7 +116,7 @@ void read_film(Document& document, Scene& scene) {
                             *text));
         film.background = *colour;
     }
-    read_camera(document, film.camera);
+    read_camera(document, film);
     for (std::size_t i = 0; i < document.size("film.segment"); ++i)
         film.segments.push_back(read_segment(document, scene, fmt::format("film.segment[{}]", i)));
     if (film.segments.empty()) film.segments = default_segments(scene);

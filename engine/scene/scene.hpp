@@ -194,12 +194,26 @@ struct FilmSegment {
     bool operator==(const FilmSegment&) const = default;
 };
 
+// Where the camera is at one moment of the film; what is left empty follows from the other keys.
+struct CameraKey {
+    double time = 0;  // s of film
+    std::optional<double> azimuth, elevation, zoom;
+    std::optional<Vec3> target;
+    bool operator==(const CameraKey&) const = default;
+};
+
 struct Camera {
     double azimuth = 20;    // degrees, about z: 0 looks along -x at the wide face, positive goes to the right
     double elevation = 10;  // degrees above the horizon
-    double field_of_view = 25;  // degrees, vertical; 0 for orthographic
-    double zoom = 1;            // over the automatic framing
-    bool follow = false;        // true: the container's own frame, false: the lab's
+    double field_of_view = 25;         // degrees, vertical; 0 for orthographic
+    double zoom = 1;                   // over the automatic framing
+    bool follow = false;               // true: the container's own frame, false: the lab's
+    std::optional<Vec3> position;      // m, in place of azimuth, elevation and automatic framing
+    std::optional<Vec3> target;        // m, the middle of the picture; the container's when empty
+    double orbit = 0;                  // degrees turned about the vertical through the target ...
+    std::optional<double> orbit_time;  // s of film in which it does so; all the film when empty
+    std::vector<CameraKey> keys;       // by rising time
+    bool moves() const { return orbit != 0 || !keys.empty(); }
     bool operator==(const Camera&) const = default;
 };
 
@@ -212,6 +226,9 @@ struct Film {
     Colour background{1, 1, 1};
     int quality = 20;  // x264 crf
     std::string preset = "veryfast";
+    bool axes = false;        // x, y and z beside the picture
+    bool wall_ghost = false;  // the outline of the container at rest
+    double exaggerate = 1;    // of the container's motion, grains and all
     bool operator==(const Film&) const = default;
 };
 

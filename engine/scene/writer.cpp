@@ -226,6 +226,32 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     out.flag("contacts", output.contacts);
 }
 
+void write_camera(SceneText& out, const Camera& camera) {
+    const auto place = [&](const char* key, const std::optional<Vec3>& point) {
+        if (point) out.put(key, vector(*point));
+    };
+    out.table("film.camera");
+    place("position", camera.position);
+    place("target", camera.target);
+    if (!camera.position) {
+        out.put("azimuth", camera.azimuth);
+        out.put("elevation", camera.elevation);
+    }
+    out.put("field_of_view", camera.field_of_view);
+    out.put("zoom", camera.zoom);
+    out.flag("follow", camera.follow);
+    if (camera.orbit != 0) out.put("orbit", camera.orbit);
+    out.put("orbit_time", camera.orbit_time);
+    for (const CameraKey& key : camera.keys) {
+        out.element("film.camera.key");
+        out.put("time", key.time);
+        out.put("azimuth", key.azimuth);
+        out.put("elevation", key.elevation);
+        out.put("zoom", key.zoom);
+        place("target", key.target);
+    }
+}
+
 void write_film(SceneText& out, const Film& film) {
     out.table("film");
     out.put("size", fmt::format("[{}, {}]", film.width, film.height));
@@ -234,12 +260,10 @@ void write_film(SceneText& out, const Film& film) {
     out.whole("quality", film.quality);
     out.words("preset", film.preset);
     out.words("background", colour_text(film.background));
-    out.table("film.camera");
-    out.put("azimuth", film.camera.azimuth);
-    out.put("elevation", film.camera.elevation);
-    out.put("field_of_view", film.camera.field_of_view);
-    out.put("zoom", film.camera.zoom);
-    out.flag("follow", film.camera.follow);
+    out.flag("axes", film.axes);
+    out.flag("wall_ghost", film.wall_ghost);
+    out.put("exaggerate", film.exaggerate);
+    write_camera(out, film.camera);
     for (const FilmSegment& segment : film.segments) {
         out.element("film.segment");
         const bool motion = segment.kind == FilmSegment::Kind::motion;

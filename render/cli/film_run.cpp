@@ -90,6 +90,7 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     film.raster_threads = threads_.raster;
     film.encoder_threads = threads_.encoder;
     film.gl = options_.gl;
+    film.pictures = pictures_planned_;
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
                  : std::make_unique<FilmMaker>(scene, film);
     record_.gl = film_->drawer();

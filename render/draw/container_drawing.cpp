@@ -3,10 +3,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/draw/camera_path.hpp"
 #include "render/draw/drawing_kit.hpp"
 
 namespace grainreel {
 namespace {
+
+// m, from rest to the end of the stroke, as drawn.
+Vec3 drawn_stroke(const Scene& scene) {
+    if (!scene.drive.present) return {0, 0, 0};
+    return scene.film.exaggerate * scene.drive.amplitude * scene.drive.direction;
+}
 
 // A scale fixed in the lab beside the floor: a long tick where the floor rests and short ones at both ends of
 // its stroke, and a pointer that goes with the floor.
@@ -16,31 +23,45 @@ struct LabMark {
     Vec3 stroke;  // m, the displacement at the end of the stroke
 };
 
-std::vector<LabMark> lab_marks(const Scene& scene) {
+// How far the container's floor reaches to the side that a camera at this azimuth has at its right; m.
+double reach_aside(const Container& container, double half, double azimuth) {
+    if (container.shape == Container::Shape::cylinder) return half;
+    return half * std::abs(std::cos(azimuth)) + 0.5 * container.depth * std::abs(std::sin(azimuth));
+}
+
+// azimuth: degrees, of the camera.
+std::vector<LabMark> lab_marks(const Scene& scene, double azimuth) {
     if (!scene.drive.present || scene.drive.amplitude <= 0) return {};
     if (scene.container.shape == Container::Shape::none) return {};
     const Container& container = scene.container;
-    const double thickness = drawn_thickness(container), half = outer_floor_half_width(container);
-    // In the plane of the near cross-section; beside a cylinder, across the line of sight.
-    const double azimuth = scene.film.camera.azimuth * std::numbers::pi / 180;
-    const bool round = container.shape == Container::Shape::cylinder;
+    const double thickness = drawn_thickness(container), floor_half = outer_floor_half_width(container);
+    // In the plane of the near cross-section; across the line of sight beside a cylinder, or where the camera
+    // moves and near and far change places.
+    azimuth *= std::numbers::pi / 180;
+    const bool across = container.shape == Container::Shape::cylinder || scene.film.camera.moves();
     const double eye_side = std::cos(azimuth) >= 0 ? 1 : -1;
-    const Vec3 middle = round ? Vec3(0, 0, 0) : Vec3(eye_side * 0.5 * container.depth, 0, 0);
-    const Vec3 side = round ? Vec3(-std::sin(azimuth), std::cos(azimuth), 0) : Vec3(0, 1, 0);
-    const Vec3 stroke = scene.drive.amplitude * scene.drive.direction;
+    const Vec3 middle = across ? Vec3(0, 0, 0) : Vec3(eye_side * 0.5 * container.depth, 0, 0);
+    const Vec3 side = across ? Vec3(-std::sin(azimuth), std::cos(azimuth), 0) : Vec3(0, 1, 0);
+    const Vec3 stroke = drawn_stroke(scene);
+    const double half = across ? reach_aside(container, floor_half, azimuth) : floor_half;
     if (std::abs(scene.drive.direction.z()) >= 0.5)
         return {{middle - (half + thickness) * side, -2.2 * thickness * side, stroke},
                 {middle + (half + thickness) * side, 2.2 * thickness * side, stroke}};
     return {{middle - Vec3(0, 0, 2 * thickness), {0, 0, -2.2 * thickness}, stroke}};
 }
 
-void draw_lab_marks(const Scene& scene, const Sketches& sketches, Shapes& on) {
+// degrees, also of a camera that looks straight down
+double azimuth_of(const View& view) {
+    return std::atan2(-view.right.x(), view.right.y()) * 180 / std::numbers::pi;
+}
+
+void draw_lab_marks(const Scene& scene, const Sketches& sketches, double azimuth, Shapes& on) {
     const double pen = sketches.lab.pen;
     const Paint ink{sketches.lab.palette.faint_ink, 1}, accent{sketches.lab.palette.accent, 1};
     const double thickness = drawn_thickness(scene.container);
     const bool floor_only = scene.drive.moves == Drive::Moves::floor;
     const Sketch& moving = floor_only ? sketches.floor : sketches.walls;
-    for (const LabMark& mark : lab_marks(scene)) {
+    for (const LabMark& mark : lab_marks(scene, azimuth)) {
         const Vec3 unit = mark.along.normalized();
         const Vec3 from = mark.foot, to = mark.foot + mark.along;
         sketches.lab.line(on, {from, to}, false, 0.8 * pen, ink);
@@ -75,44 +96,56 @@ std::vector<Vec3> corners_of(const Scene& scene) {
     return prism_corners(scene.container);
 }
 
+void draw_ghost(const Scene& scene, const Sketch& lab, Shapes& on) {
+    for (const FreeWall& wall : scene.walls)
+        if (wall.moves) draw_free_wall_ghost(wall, extent_of(scene), lab, on);
+    const bool floor_only = scene.drive.moves == Drive::Moves::floor;
+    if (scene.container.shape == Container::Shape::cylinder)
+        draw_cylinder_ghost(scene.container, floor_only, lab, on);
+    else if (scene.container.shape != Container::Shape::none)
+        draw_prism_ghost(scene.container, floor_only, lab, on);
+}
+
 }  // namespace
 
-std::vector<Vec3> framing_points(const Scene& scene) {
+std::vector<Vec3> framing_points(const Scene& scene, double azimuth) {
     const std::vector<Vec3> corners = corners_of(scene);
     std::vector<Vec3> points;
-    const Vec3 stroke =
-        scene.drive.present ? Vec3(scene.drive.amplitude * scene.drive.direction) : Vec3(0, 0, 0);
+    const Vec3 stroke = drawn_stroke(scene);
     for (const double end : {-1.0, 1.0}) {
         for (const Vec3& corner : corners) points.push_back(corner + end * stroke);
-        for (const LabMark& mark : lab_marks(scene))
+        for (const LabMark& mark : lab_marks(scene, azimuth))
             for (const Vec3& point : {mark.foot, Vec3(mark.foot + mark.along)})
                 points.push_back(point + end * stroke);
     }
     return points;
 }
 
-View frame_container(const Scene& scene, const PictureLayout& layout) {
-    return fit_view(scene.film.camera, framing_points(scene), layout.port, type_scale(scene.film).margin,
-                    scene.film.height);
+std::vector<Vec3> framing_points(const Scene& scene) {
+    return framing_points(scene, scene.film.camera.azimuth);
 }
 
-void draw_container(const Scene& scene, const View& at_rest, const View& view, const Frame& frame,
-                    const Palette& palette, int picture_height, ContainerShapes& shapes) {
+View frame_container(const Scene& scene, const PictureLayout& layout) {
+    return CameraPath(scene, layout).at(0);
+}
+
+void draw_container(const Scene& scene, const Sight& sight, const Frame& frame, const Palette& palette,
+                    int picture_height, ContainerShapes& shapes) {
     shapes.behind.clear();
     shapes.before.clear();
-    const Sketches sketches{{at_rest, view, palette, picture_height, frame.wall_offset},
-                            {at_rest, view, palette, picture_height, frame.floor_offset},
-                            {at_rest, view, palette, picture_height, Vec3(0, 0, 0)}};
+    const Sketches sketches{{sight, palette, picture_height, frame.wall_offset},
+                            {sight, palette, picture_height, frame.floor_offset},
+                            {sight, palette, picture_height, Vec3(0, 0, 0)}};
     for (const FreeWall& wall : scene.walls) {
         const Vec3 offset = (wall.moves ? frame.floor_offset : Vec3(0, 0, 0)) + frame.time * wall.velocity;
-        draw_free_wall(wall, extent_of(scene), {at_rest, view, palette, picture_height, offset}, shapes);
+        draw_free_wall(wall, extent_of(scene), {sight, palette, picture_height, offset}, shapes);
     }
-    if (scene.container.shape == Container::Shape::none) return;
     if (scene.container.shape == Container::Shape::cylinder)
         draw_cylinder(scene.container, sketches, shapes);
-    else
+    else if (scene.container.shape != Container::Shape::none)
         draw_prism(scene.container, sketches, shapes);
-    draw_lab_marks(scene, sketches, shapes.behind);
+    draw_lab_marks(scene, sketches, azimuth_of(sight.at_rest), shapes.behind);
+    if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.before);
 }
 
 }  // namespace grainreel

@@ -19,20 +19,27 @@ namespace grainreel {
 // m: how thick walls, floor and lid are drawn.
 double drawn_thickness(const Container& container);
 
-// Every point that has to stay in the picture: the drawn container at rest and at both ends of its stroke,
-// and the marks beside it.
-std::vector<Vec3> framing_points(const Scene& scene);
+// Every point that has to stay in the picture of a camera at this azimuth (degrees): the drawn container at
+// rest and at both ends of its stroke, as drawn, and the marks beside it.
+std::vector<Vec3> framing_points(const Scene& scene, double azimuth);
+std::vector<Vec3> framing_points(const Scene& scene);  // at the camera's own azimuth
 
-// The scene's camera, set so that all of them are in the layout's port.
+// The scene's camera as the film begins.
 View frame_container(const Scene& scene, const PictureLayout& layout);
 
 struct ContainerShapes {
     Shapes behind, before;  // to be painted before and after the grains
 };
 
-// at_rest: the camera before it follows anything, which settles what looks solid and what looks like glass
-// for the whole film. view: the camera now. picture_height: pixels; line widths follow from it.
-void draw_container(const Scene& scene, const View& at_rest, const View& view, const Frame& frame,
-                    const Palette& palette, int picture_height, ContainerShapes& shapes);
+// The camera, before it follows anything and now; `moves`: it does not stand all the film.
+struct Sight {
+    View at_rest, now;
+    bool moves = false;
+};
+
+// The frame as it is to be shown, with the motion exaggerated. picture_height: pixels; line widths follow
+// from it.
+void draw_container(const Scene& scene, const Sight& sight, const Frame& frame, const Palette& palette,
+                    int picture_height, ContainerShapes& shapes);
 
 }  // namespace grainreel

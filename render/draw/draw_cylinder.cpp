@@ -1,6 +1,8 @@
 // The cylinder: a glass tube on a plate. Its thickness shows as a cut along the outline that the eye sees.
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "render/draw/drawing_kit.hpp"
 
@@ -27,6 +29,15 @@ std::vector<Vec3> circle(double radius, double z) {
     return points;
 }
 
+// Where the eye is about z, and how far to both sides of there it sees the tube: where lines of sight touch
+// it (cos = R / distance). rad
+std::pair<double, double> visible_part(double radius, const View& view, const Vec3& offset) {
+    const Vec3 to_eye = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - offset);
+    const double distance = std::hypot(to_eye.x(), to_eye.y());
+    return {std::atan2(to_eye.y(), to_eye.x()),
+            view.orthographic ? 0.5 * std::numbers::pi : std::acos(std::min(1.0, radius / distance))};
+}
+
 class Cylinder {
   public:
     Cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes)
@@ -36,14 +47,8 @@ class Cylinder {
           lid_(container.lid),
           sketches_(sketches),
           shapes_(shapes) {
-        const View& view = sketches.walls.view();
-        const Vec3 to_eye =
-            view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - sketches.walls.offset());
-        const double distance = std::hypot(to_eye.x(), to_eye.y());
-        facing_ = std::atan2(to_eye.y(), to_eye.x());
-        // Where lines of sight touch the tube: cos = R / distance from the direction to the eye.
-        half_visible_ =
-            view.orthographic ? 0.5 * std::numbers::pi : std::acos(std::min(1.0, radius_ / distance));
+        std::tie(facing_, half_visible_) =
+            visible_part(radius_, sketches.walls.view(), sketches.walls.offset());
     }
 
     void draw() {
@@ -58,27 +63,27 @@ class Cylinder {
     // A disc with a rim, in front of the grains while the eye is on its outer side.
     void plate(const Sketch& sketch, double low, double high, double up) {
         const double inner = up > 0 ? low : high, outer = up > 0 ? high : low;
-        const bool solid = !sketch.faces_at_rest({0, 0, inner}, {0, 0, up});
+        const double solid = sketch.solid({0, 0, inner}, {0, 0, up});
         const bool behind = !sketch.faces({0, 0, inner}, {0, 0, up});
         Shapes& on = behind ? shapes_.behind : shapes_.before;
         const double wide = radius_ + thickness_;
-        const Paint edge = solid ? sketch.edge() : sketch.glass_edge();
-        if (solid && behind) {
-            sketch.polygon(on, circle(wide, inner), sketch.inner_face());
-            sketch.line(on, circle(radius_, inner), true, 0.6 * sketch.pen, sketch.far_edge());
+        const Paint edge = blend(sketch.glass_edge(), sketch.edge(), solid);
+        if (solid > 0 && behind) {
+            sketch.polygon(on, circle(wide, inner), faded(sketch.inner_face(), solid));
+            sketch.line(on, circle(radius_, inner), true, 0.6 * sketch.pen, faded(sketch.far_edge(), solid));
         }
         const auto upper = arc(wide, facing_ - half_visible_, facing_ + half_visible_, high);
         const auto lower = arc(wide, facing_ - half_visible_, facing_ + half_visible_, low);
         for (std::size_t i = 0; i + 1 < upper.size(); ++i)
             sketch.polygon(on, {upper[i], upper[i + 1], lower[i + 1], lower[i]},
-                           solid ? sketch.cut() : sketch.glass_cut());
+                           blend(sketch.glass_cut(), sketch.cut(), solid));
         // A solid disc seen from outside hides the far half of its inner rim.
-        if (solid && !behind)
+        if (solid > 0.5 && !behind)
             sketch.line(on, up > 0 ? lower : upper, false, sketch.pen, edge);
         else
             sketch.line(on, circle(wide, inner), true, sketch.pen, edge);
         if (sketch.faces({0, 0, outer}, {0, 0, up})) {
-            sketch.polygon(on, circle(wide, outer), solid ? sketch.outer_face() : sketch.glass_face());
+            sketch.polygon(on, circle(wide, outer), blend(sketch.glass_face(), sketch.outer_face(), solid));
             sketch.line(on, circle(wide, outer), true, sketch.pen, edge);
         } else {
             sketch.line(on, up > 0 ? upper : lower, false, sketch.pen, edge);
@@ -137,6 +142,16 @@ std::vector<Vec3> cylinder_corners(const Container& container) {
     for (const double z : {-1.4 * t, container.height + (container.lid ? t : 0)})
         for (const Vec3& point : circle(container.half_width + t, z)) corners.push_back(point);
     return corners;
+}
+
+void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on) {
+    const double t = drawn_thickness(container), wide = container.half_width + t;
+    const auto [facing, half] = visible_part(container.half_width, lab.view(), lab.offset());
+    const double top = floor_only ? 0 : container.height + (container.lid ? t : 0);
+    std::vector<Vec3> outline = arc(wide, facing - half, facing + half, -1.4 * t);
+    const std::vector<Vec3> upper = arc(wide, facing + half, facing - half, top);
+    outline.insert(outline.end(), upper.begin(), upper.end());
+    lab.dashed(on, outline, true, 0.8 * lab.pen, lab.ghost());
 }
 
 void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes) {

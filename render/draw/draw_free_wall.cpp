@@ -46,14 +46,16 @@ void draw_free_wall(const FreeWall& wall, const Extent& extent, const Sketch& sk
     std::vector<Vec3> piece = cut(wall, wall.point + sketch.offset(), extent);
     if (piece.size() < 3) return;
     for (Vec3& corner : piece) corner -= sketch.offset();
-    const bool inside = sketch.faces(wall.point, wall.normal);
-    if (inside) {
-        sketch.polygon(shapes.behind, piece, sketch.inner_face());
-        sketch.line(shapes.behind, piece, true, sketch.pen, sketch.far_edge());
-    } else {
-        sketch.polygon(shapes.before, piece, sketch.glass_face());
-        sketch.line(shapes.before, piece, true, sketch.pen, sketch.glass_edge());
-    }
+    Shapes& on = sketch.faces(wall.point, wall.normal) ? shapes.behind : shapes.before;
+    // Solid where the eye is on the grains' side.
+    const double solid = sketch.solid(wall.point, -wall.normal);
+    sketch.polygon(on, piece, blend(sketch.glass_face(), sketch.inner_face(), solid));
+    sketch.line(on, piece, true, sketch.pen, blend(sketch.glass_edge(), sketch.far_edge(), solid));
+}
+
+void draw_free_wall_ghost(const FreeWall& wall, const Extent& extent, const Sketch& lab, Shapes& on) {
+    const std::vector<Vec3> piece = cut(wall, wall.point, extent);
+    if (piece.size() >= 3) lab.dashed(on, piece, true, 0.8 * lab.pen, lab.ghost());
 }
 
 }  // namespace grainreel

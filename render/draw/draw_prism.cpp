@@ -1,6 +1,8 @@
 // Wedge and box: a cross-section in (y, z), drawn out along x.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "render/draw/drawing_kit.hpp"
 
@@ -52,13 +54,29 @@ Plate lid_plate(const Container& container) {
     return {std::abs(wall_profile(container, 1).outer.back().x()), container.height, container.height + t};
 }
 
+// A cross-section at one end of the prism, and how much of it is to be seen: all, but while a moving camera
+// sees near and far change places.
+struct End {
+    double x, weight;
+};
+
+// Those nearest to the eye and those opposite to them.
+std::pair<std::vector<End>, std::vector<End>> ends(const Container& container, const Sketch& sketch) {
+    std::vector<End> near, far;
+    const double positive = sketch.positive_end_is_near();
+    for (const auto& [side, weight] : {std::pair{1.0, positive}, {-1.0, 1 - positive}}) {
+        if (weight <= 0) continue;
+        near.push_back({side * 0.5 * container.depth, weight});
+        far.push_back({-side * 0.5 * container.depth, weight});
+    }
+    return {near, far};
+}
+
 class Prism {
   public:
     Prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes)
         : container_(container), sketches_(sketches), shapes_(shapes) {
-        const double eye_side = -sketches.walls.view().forward.x() >= 0 ? 1 : -1;
-        near_ = eye_side * 0.5 * container.depth;
-        far_ = -near_;
+        std::tie(near_, far_) = ends(container, sketches.walls);
     }
 
     void draw() {
@@ -74,17 +92,23 @@ class Prism {
     // The back pane, tinted, and the outlines of both; none where the depth is periodic.
     void panes(const Profile& left, const Profile& right) {
         if (container_.periodic_depth) return;
-        std::vector<Vec3> back, front;
-        for (const Flat& p : left.inner) back.push_back(at(far_, p));
-        for (auto p = right.inner.rbegin(); p != right.inner.rend(); ++p) back.push_back(at(far_, *p));
-        for (const Vec3& p : back) front.emplace_back(near_, p.y(), p.z());
-        const Sketch& walls = sketches_.walls;
-        walls.polygon(shapes_.behind, back, walls.pane());
         // Open lines: a lid has edges of its own there, an open top gets the panes' bare rims.
-        std::rotate(back.begin(), back.begin() + left.inner.size(), back.end());
-        std::rotate(front.begin(), front.begin() + left.inner.size(), front.end());
-        walls.line(shapes_.behind, back, !container_.lid, 0.7 * walls.pen, walls.far_edge());
-        walls.line(shapes_.before, front, !container_.lid, 0.6 * walls.pen, walls.glass_edge());
+        std::vector<Flat> outline(left.inner.rbegin(), left.inner.rend());
+        outline.insert(outline.end(), right.inner.begin(), right.inner.end());
+        const Sketch& walls = sketches_.walls;
+        const auto at_end = [&](const End& end) {
+            std::vector<Vec3> points;
+            for (const Flat& p : outline) points.push_back(at(end.x, p));
+            return points;
+        };
+        for (const End& end : far_) {
+            walls.polygon(shapes_.behind, at_end(end), faded(walls.pane(), end.weight));
+            walls.line(shapes_.behind, at_end(end), !container_.lid, 0.7 * walls.pen,
+                       faded(walls.far_edge(), end.weight));
+        }
+        for (const End& end : near_)
+            walls.line(shapes_.before, at_end(end), !container_.lid, 0.6 * walls.pen,
+                       faded(walls.glass_edge(), end.weight));
     }
 
     void wall(const Profile& profile) {
@@ -92,11 +116,11 @@ class Prism {
         for (std::size_t i = 0; i + 1 < profile.inner.size(); ++i) segment(profile, i);
         const Vec3 foot = at(0, profile.inner.front()), normal = outward(profile, 0);
         Shapes& on = walls.faces(foot, normal) ? shapes_.before : shapes_.behind;
-        const Paint paint = walls.faces_at_rest(foot, normal) ? walls.glass_edge() : walls.edge();
-        walls.line(on, {at(near_, profile.inner.back()), at(near_, profile.outer.back())}, false, walls.pen,
-                   paint);
-        walls.line(on, {at(near_, profile.inner.front()), at(near_, profile.outer.front())}, false, walls.pen,
-                   paint);
+        const Paint paint = blend(walls.glass_edge(), walls.edge(), walls.solid(foot, normal));
+        for (const End& end : near_)
+            for (const std::size_t i : {profile.inner.size() - 1, std::size_t{0}})
+                walls.line(on, {at(end.x, profile.inner[i]), at(end.x, profile.outer[i])}, false, walls.pen,
+                           faded(paint, end.weight));
     }
 
     static Vec3 outward(const Profile& profile, std::size_t i) {
@@ -110,58 +134,65 @@ class Prism {
         const Sketch& walls = sketches_.walls;
         const Flat a = profile.inner[i], b = profile.inner[i + 1];
         const Flat c = profile.outer[i], d = profile.outer[i + 1];
-        const std::vector<Vec3> inner = {at(near_, a), at(near_, b), at(far_, b), at(far_, a)};
-        const std::vector<Vec3> section = {at(near_, a), at(near_, b), at(near_, d), at(near_, c)};
-        const bool solid = !walls.faces_at_rest(at(0, a), outward(profile, i));
+        const double x = 0.5 * container_.depth;
+        const std::vector<Vec3> inner = {at(x, a), at(x, b), at(-x, b), at(-x, a)};
+        const double solid = walls.solid(at(0, a), outward(profile, i));
         const bool behind = !walls.faces(at(0, a), outward(profile, i));
         Shapes& on = behind ? shapes_.behind : shapes_.before;
-        walls.polygon(on, inner, solid && behind ? walls.inner_face() : walls.glass_face());
-        const Paint thin = solid ? walls.far_edge() : walls.glass_edge();
-        for (const Flat& p : {a, b})
-            walls.line(on, {at(near_, p), at(far_, p)}, false, 0.6 * walls.pen, thin);
-        if (solid && behind) walls.line(on, {at(far_, a), at(far_, b)}, false, 0.7 * walls.pen, thin);
-        walls.polygon(on, section, solid ? walls.cut() : walls.glass_cut());
-        const Paint edge = solid ? walls.edge() : walls.glass_edge();
-        walls.line(on, {at(near_, a), at(near_, b)}, false, walls.pen, edge);
-        walls.line(on, {at(near_, c), at(near_, d)}, false, walls.pen, edge);
+        walls.polygon(on, inner, blend(walls.glass_face(), walls.inner_face(), behind ? solid : 0));
+        const Paint thin = blend(walls.glass_edge(), walls.far_edge(), solid);
+        for (const Flat& p : {a, b}) walls.line(on, {at(x, p), at(-x, p)}, false, 0.6 * walls.pen, thin);
+        if (solid > 0 && behind)
+            for (const End& end : far_)
+                walls.line(on, {at(end.x, a), at(end.x, b)}, false, 0.7 * walls.pen,
+                           faded(walls.far_edge(), solid * end.weight));
+        const Paint edge = blend(walls.glass_edge(), walls.edge(), solid);
+        for (const End& end : near_) {
+            walls.polygon(on, {at(end.x, a), at(end.x, b), at(end.x, d), at(end.x, c)},
+                          faded(blend(walls.glass_cut(), walls.cut(), solid), end.weight));
+            walls.line(on, {at(end.x, a), at(end.x, b)}, false, walls.pen, faded(edge, end.weight));
+            walls.line(on, {at(end.x, c), at(end.x, d)}, false, walls.pen, faded(edge, end.weight));
+        }
     }
 
     // up: +1 for the lid, -1 for the floor, whose outward normal points down.
     void plate(const Sketch& sketch, const Plate& plate, double inner_height, double up) {
-        const bool solid = !sketch.faces_at_rest({0, 0, inner_height}, {0, 0, up});
+        const double solid = sketch.solid({0, 0, inner_height}, {0, 0, up});
         const bool behind = !sketch.faces({0, 0, inner_height}, {0, 0, up});
         Shapes& on = behind ? shapes_.behind : shapes_.before;
-        const double w = plate.half_width;
+        const double w = plate.half_width, x = 0.5 * container_.depth;
         const auto level = [&](double z) {
-            return std::vector<Vec3>{{near_, -w, z}, {near_, w, z}, {far_, w, z}, {far_, -w, z}};
+            return std::vector<Vec3>{{x, -w, z}, {x, w, z}, {-x, w, z}, {-x, -w, z}};
         };
         const double outer_height = up > 0 ? plate.high : plate.low;
-        if (sketch.faces({0, 0, outer_height}, {0, 0, up}))
-            sketch.polygon(on, level(outer_height), solid ? sketch.outer_face() : sketch.glass_face());
-        if (solid && behind) {
-            sketch.polygon(on, level(inner_height), sketch.inner_face());
-            sketch.line(on, level(inner_height), true, 0.6 * sketch.pen, sketch.far_edge());
+        const Paint edge = blend(sketch.glass_edge(), sketch.edge(), solid);
+        const Paint face = blend(sketch.glass_face(), sketch.outer_face(), solid);
+        if (sketch.faces({0, 0, outer_height}, {0, 0, up})) sketch.polygon(on, level(outer_height), face);
+        if (solid > 0 && behind) {
+            sketch.polygon(on, level(inner_height), faded(sketch.inner_face(), solid));
+            sketch.line(on, level(inner_height), true, 0.6 * sketch.pen, faded(sketch.far_edge(), solid));
         }
-        for (const double side : {-1.0, 1.0}) plate_side(sketch, on, solid, plate, side);
-        const std::vector<Vec3> section = {
-            {near_, -w, plate.low}, {near_, w, plate.low}, {near_, w, plate.high}, {near_, -w, plate.high}};
-        sketch.polygon(on, section, solid ? sketch.cut() : sketch.glass_cut());
-        sketch.line(on, section, true, sketch.pen, solid ? sketch.edge() : sketch.glass_edge());
-    }
-
-    void plate_side(const Sketch& sketch, Shapes& on, bool solid, const Plate& plate, double side) {
-        const double y = side * plate.half_width;
-        if (!sketch.faces({0, y, plate.low}, {0, side, 0})) return;
-        const std::vector<Vec3> face = {
-            {near_, y, plate.low}, {far_, y, plate.low}, {far_, y, plate.high}, {near_, y, plate.high}};
-        sketch.polygon(on, face, solid ? sketch.outer_face() : sketch.glass_face());
-        sketch.line(on, face, true, 0.7 * sketch.pen, solid ? sketch.edge() : sketch.glass_edge());
+        for (const double y : {-w, w}) {
+            if (!sketch.faces({0, y, plate.low}, {0, y, 0})) continue;
+            const std::vector<Vec3> side = {
+                {x, y, plate.low}, {-x, y, plate.low}, {-x, y, plate.high}, {x, y, plate.high}};
+            sketch.polygon(on, side, face);
+            sketch.line(on, side, true, 0.7 * sketch.pen, edge);
+        }
+        for (const End& end : near_) {
+            const std::vector<Vec3> section = {{end.x, -w, plate.low},
+                                               {end.x, w, plate.low},
+                                               {end.x, w, plate.high},
+                                               {end.x, -w, plate.high}};
+            sketch.polygon(on, section, faded(blend(sketch.glass_cut(), sketch.cut(), solid), end.weight));
+            sketch.line(on, section, true, sketch.pen, faded(edge, end.weight));
+        }
     }
 
     const Container& container_;
     const Sketches& sketches_;
     ContainerShapes& shapes_;
-    double near_ = 0, far_ = 0;  // m, x of the cross-section nearest to the eye, and of the other end
+    std::vector<End> near_, far_;
 };
 
 }  // namespace
@@ -182,6 +213,29 @@ std::vector<Vec3> prism_corners(const Container& container) {
             if (container.lid) corners.emplace_back(x, side * lid.half_width, lid.high);
         }
     return corners;
+}
+
+void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on) {
+    const Plate floor = floor_plate(container);
+    std::vector<Flat> outline = {{floor.half_width, floor.low}, {-floor.half_width, floor.low}};
+    if (floor_only) {
+        outline.emplace_back(-floor.half_width, floor.high);
+        outline.emplace_back(floor.half_width, floor.high);
+    } else {
+        const Profile left = wall_profile(container, -1), right = wall_profile(container, 1);
+        outline.insert(outline.end(), left.outer.begin(), left.outer.end());
+        if (container.lid) {
+            const Plate lid = lid_plate(container);
+            outline.emplace_back(-lid.half_width, lid.high);
+            outline.emplace_back(lid.half_width, lid.high);
+        }
+        outline.insert(outline.end(), right.outer.rbegin(), right.outer.rend());
+    }
+    for (const End& end : ends(container, lab).first) {
+        std::vector<Vec3> points;
+        for (const Flat& p : outline) points.push_back(at(end.x, p));
+        lab.dashed(on, points, true, 0.8 * lab.pen, faded(lab.ghost(), end.weight));
+    }
 }
 
 void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes) {

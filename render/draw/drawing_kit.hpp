@@ -9,22 +9,29 @@
 
 namespace grainreel {
 
+// 0 up to -half_width, 1 from half_width on, smoothly in between.
+double smooth_step(double value, double half_width);
+
+Paint faded(const Paint& paint, double share);
+// As over a background: of one paint, and so much of the other.
+Paint blend(const Paint& one, const Paint& other, double share_of_other);
+
 // Draws shapes given in metres, in the frame of something that has moved by `offset`.
 class Sketch {
   public:
-    Sketch(const View& at_rest, const View& view, const Palette& colours, int picture_height,
-           const Vec3& offset)
-        : palette(colours),
-          pen(std::max(1.0, picture_height / 600.0)),
-          at_rest_(at_rest),
-          view_(view),
-          offset_(offset) {}
+    Sketch(const Sight& sight, const Palette& colours, int picture_height, const Vec3& offset)
+        : palette(colours), pen(std::max(1.0, picture_height / 600.0)), sight_(sight), offset_(offset) {}
 
-    bool faces(const Vec3& point, const Vec3& normal) const { return view_.faces(point + offset_, normal); }
-    // The same with everything at rest. What looks solid and what looks like glass follows this one, or a
-    // part whose plane the eye crosses would blink once a period; what hides what follows the present one.
-    bool faces_at_rest(const Vec3& point, const Vec3& normal) const { return at_rest_.faces(point, normal); }
-    const View& view() const { return view_; }
+    bool faces(const Vec3& point, const Vec3& normal) const {
+        return sight_.now.faces(point + offset_, normal);
+    }
+    // How solid a part looks, 0 for glass: by where the eye is when everything is at rest, or a part whose
+    // plane it crosses would blink once a period. What hides what follows the present. A camera that moves
+    // sees glass become solid over some degrees.
+    double solid(const Vec3& point, const Vec3& normal) const;
+    // By how much the end of what is drawn out along x is the one at positive x that is near to the eye.
+    double positive_end_is_near() const;
+    const View& view() const { return sight_.now; }
     const Vec3& offset() const { return offset_; }
 
     void polygon(Shapes& on, const std::vector<Vec3>& corners, const Paint& paint) const {
@@ -34,6 +41,7 @@ class Sketch {
               const Paint& paint) const {
         on.line(project(points), closed, width, paint);
     }
+    void dashed(Shapes& on, std::vector<Vec3> points, bool closed, double width, const Paint& paint) const;
 
     // Back: the solid parts behind the grains. Front: glass over them, faint enough to hide nothing.
     Paint cut() const { return {palette.solid, 1}; }
@@ -45,6 +53,7 @@ class Sketch {
     Paint glass_cut() const { return {palette.solid, 0.38}; }
     Paint glass_face() const { return {palette.solid, 0.05}; }
     Paint glass_edge() const { return {palette.ink, 0.45}; }
+    Paint ghost() const { return {palette.ink, 0.5}; }
 
     const Palette& palette;
     const double pen;  // pixels, the width of a main line
@@ -53,11 +62,10 @@ class Sketch {
     std::vector<Pixel> project(const std::vector<Vec3>& points) const {
         std::vector<Pixel> pixels;
         pixels.reserve(points.size());
-        for (const Vec3& point : points) pixels.push_back(view_.project(point + offset_));
+        for (const Vec3& point : points) pixels.push_back(sight_.now.project(point + offset_));
         return pixels;
     }
-    const View& at_rest_;
-    const View& view_;
+    const Sight& sight_;
     const Vec3 offset_;
 };
 
@@ -72,6 +80,11 @@ void draw_cylinder(const Container& container, const Sketches& sketches, Contain
 // A plane, as far as the box reaches.
 void draw_free_wall(const FreeWall& wall, const Extent& extent, const Sketch& sketch,
                     ContainerShapes& shapes);
+
+// Dashed outlines over the grains: of the container's moving parts, or of a plane that moves, at rest.
+void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
+void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
+void draw_free_wall_ghost(const FreeWall& wall, const Extent& extent, const Sketch& lab, Shapes& on);
 
 // Half the width of everything drawn, at the height of the floor's top; m.
 double outer_floor_half_width(const Container& container);

@@ -27,15 +27,17 @@ TextSize static_part(const Writer& writer, const Scene& scene, const View* view,
     y += legend.height + type.gap;
     const Writer measure{nullptr, type, writer.palette};
     const double longest = 0.8 * inner;
-    const double below = arrows_block(measure, scene, scene.film.camera, 0, 0).height + type.gap +
+    const double below = axes_block(measure, scene, view, 0, 0).height +
+                         arrows_block(measure, scene, view, 0, 0).height + type.gap +
                          scale_block(measure, scale, 0, 0, longest).height;
     if (layout.first.height > 0) y = std::max(y, layout.first.height - type.margin - below);
-    y += arrows_block(writer, scene, scene.film.camera, x, y).height + type.gap;
+    y += axes_block(writer, scene, view, x, y).height;
+    y += arrows_block(writer, scene, view, x, y).height + type.gap;
     y += scale_block(writer, scale, x, y, longest).height;
     return {width, y};
 }
 
-TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& frame,
+TextSize changing_part(const Writer& writer, const Scene& scene, const View* view, const Frame& frame,
                        const std::string& playback, double width, bool portrait) {
     const TypeScale& type = writer.type;
     const bool dial = scene.drive.present;
@@ -59,7 +61,9 @@ TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& fr
             const TextSize disc = dial_block(writer, scene.drive, nullptr, radius, x, y);
             dial_block(writer, scene.drive, &frame, radius, x, y);
             const TextSize drive = drive_block(writer, scene, x + disc.width + type.gap, y);
-            arrows_block(writer, scene, scene.film.camera, x + disc.width + drive.width + 3 * type.gap, y);
+            const double right = x + disc.width + drive.width + 3 * type.gap;
+            const TextSize arrows = arrows_block(writer, scene, view, right, y);
+            axes_block(writer, scene, view, right + arrows.width + 2 * type.gap, y);
             y += disc.height;
         }
         return {width, y - type.margin};
@@ -84,8 +88,15 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
       type_(type_scale(scene.film)),
       first_(blank(layout.first)),
       second_(blank(layout.second)) {
+    draw_first(view);
+}
+
+void Overlay::draw_first(const View& view) {
+    first_ = blank(layout_.first);
     const Context on(cairo_create(first_.get()));
     static_part({on.get(), type_, palette_}, scene_, &view, layout_, layout_.first.width);
+    drawn_for_ = view;
+    first_written_ = false;
 }
 
 Overlay::Surface Overlay::blank(const Rectangle& part) const {
@@ -97,14 +108,17 @@ Overlay::Surface Overlay::blank(const Rectangle& part) const {
     return surface;
 }
 
-void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback) {
+void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback, const View& view) {
+    // Axes, arrows and scale are as this view has them.
+    if (view.eye != drawn_for_.eye || view.forward != drawn_for_.forward || view.focal != drawn_for_.focal)
+        draw_first(view);
     if (!first_written_) copy(first_.get(), layout_.first, picture);
     first_written_ = true;
     const Context on(cairo_create(second_.get()));
     cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green,
                          palette_.background.blue);
     cairo_paint(on.get());
-    changing_part({on.get(), type_, palette_}, scene_, frame, playback, layout_.second.width,
+    changing_part({on.get(), type_, palette_}, scene_, &view, frame, playback, layout_.second.width,
                   layout_.portrait);
     copy(second_.get(), layout_.second, picture);
 }

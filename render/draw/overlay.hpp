@@ -13,19 +13,20 @@
 
 namespace grainreel {
 
-// Title, legend, scale bar and arrows in the first gutter. view: null while measuring.
+// Title, legend, scale bar, axes and arrows in the first gutter. view: null while measuring.
 TextSize static_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
                      double width);
 // Time, dial, drive and playback in the second one. Both return the size that they take, margins left out.
-TextSize changing_part(const Writer& writer, const Scene& scene, const Frame& frame,
+TextSize changing_part(const Writer& writer, const Scene& scene, const View* view, const Frame& frame,
                        const std::string& playback, double width, bool portrait);
 
 class Overlay {
   public:
     Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
 
-    // Writes the gutters into the picture: all of them the first time, then only what changes.
-    void write(Picture& picture, const Frame& frame, const std::string& playback);
+    // Writes the gutters into the picture: all of them the first time, then only what changes. view: before
+    // it follows anything.
+    void write(Picture& picture, const Frame& frame, const std::string& playback, const View& view);
 
   private:
     struct Destroy {
@@ -34,6 +35,7 @@ class Overlay {
     };
     using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
     using Context = std::unique_ptr<cairo_t, Destroy>;
+    void draw_first(const View& view);
     Surface blank(const Rectangle& part) const;
     static void copy(cairo_surface_t* from, const Rectangle& to, Picture& picture);
 
@@ -42,6 +44,7 @@ class Overlay {
     const PictureLayout layout_;
     const TypeScale type_;
     Surface first_, second_;
+    View drawn_for_;
     bool first_written_ = false;
 };
 

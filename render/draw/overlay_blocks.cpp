@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -117,8 +118,7 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
     return {std::max(pixels, label.width), 1.3 * tick + label.height};
 }
 
-TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& camera, double x, double y) {
-    const View view = fit_view(camera, {Vec3(0, 0, 0), Vec3(1, 1, 1)}, {0, 0, 100, 100}, 0, 100);
+TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view, double x, double y) {
     const double reach = 0.85 * writer.type.main, row = 2.6 * writer.type.main,
                  indent = 1.5 * writer.type.main;
     TextSize size;
@@ -126,8 +126,8 @@ TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& ca
         const double middle = y + size.height + 0.5 * row;
         if (writer.on) {
             set_colour(writer, both ? writer.palette.accent : writer.palette.ink);
-            arrow(writer, x + 0.5 * indent, middle, reach * direction.dot(view.right),
-                  -reach * direction.dot(view.up), both);
+            arrow(writer, x + 0.5 * indent, middle, reach * direction.dot(view->right),
+                  -reach * direction.dot(view->up), both);
         }
         const double half_line = 0.5 * measure_text(label, writer.minor()).height;
         const TextSize text = writer.write(x + indent + 0.4 * writer.type.gap, middle - half_line, label,
@@ -142,6 +142,31 @@ TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& ca
     return size;
 }
 
+TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, double x, double y) {
+    if (!scene.film.axes) return {};
+    const double reach = 1.6 * writer.type.main, side = 2 * reach + 2 * writer.type.minor;
+    if (!writer.on || !view) return {side, side + writer.type.gap};
+    const double cx = x + 0.5 * side, cy = y + 0.5 * side, pen = std::max(1.0, writer.type.main / 12);
+    std::vector<std::pair<Vec3, const char*>> axes = {
+        {Vec3::UnitX(), "x"}, {Vec3::UnitY(), "y"}, {Vec3::UnitZ(), "z"}};
+    // The farthest first, so that it is the nearest one that is whole.
+    std::sort(axes.begin(), axes.end(), [&](const auto& a, const auto& b) {
+        return a.first.dot(view->forward) > b.first.dot(view->forward);
+    });
+    for (const auto& [axis, name] : axes) {
+        const double dx = axis.dot(view->right), dy = -axis.dot(view->up);
+        set_colour(writer,
+                   mix(writer.palette.ink, writer.palette.background, 0.25 * (1 + axis.dot(view->forward))));
+        stroke_line(writer, cx, cy, cx + reach * dx, cy + reach * dy, 1.6 * pen);
+        dot(writer, cx + reach * dx, cy + reach * dy, 2 * pen);
+        const TextSize letter = measure_text(name, writer.minor());
+        const double away = reach + 0.7 * writer.type.minor;
+        writer.write(cx + away * dx - 0.5 * letter.width, cy + away * dy - 0.5 * letter.height, name,
+                     writer.minor(), writer.palette.ink);
+    }
+    return {side, side + writer.type.gap};
+}
+
 TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y) {
     if (!scene.drive.present) return {};
     std::vector<std::string> lines = {"f = " + frequency_text(scene.drive.frequency)};
@@ -153,6 +178,14 @@ TextSize drive_block(const Writer& writer, const Scene& scene, double x, double 
         const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
         size.width = std::max(size.width, part.width);
         size.height += part.height;
+    }
+    if (scene.film.exaggerate == 1) return size;
+    size.height += 0.5 * writer.type.gap;
+    for (const std::string& line :
+         {std::string("wall motion"), fmt::format("drawn {:.3g}×", scene.film.exaggerate)}) {
+        const TextSize part =
+            writer.write(x, y + size.height, line, {writer.type.minor, true}, writer.palette.accent);
+        size = {std::max(size.width, part.width), size.height + part.height};
     }
     return size;
 }

@@ -3,8 +3,10 @@
 #include <array>
 #include <chrono>
 
+#include "render/draw/camera_path.hpp"
 #include "render/draw/compose.hpp"
 #include "render/draw/container_drawing.hpp"
+#include "render/draw/exaggeration.hpp"
 #include "render/draw/overlay.hpp"
 #include "render/draw/spheres.hpp"
 
@@ -85,8 +87,8 @@ struct Renderer::Impl {
           palette(make_palette(s.film.background)),
           layout(plan_layout(s)),
           port(layout.port),
-          view(frame_container(s, layout)),
-          overlay(scene, palette, layout, view),
+          path(s, layout),
+          overlay(scene, palette, layout, path.at(0)),
           context(gl::make_context(provider, raster_threads)),
           shape_painter(context->gl()),
           behind(context->gl(), port, opaque(palette.background)),
@@ -98,7 +100,8 @@ struct Renderer::Impl {
     Palette palette;
     PictureLayout layout;
     const Rectangle port;
-    View view;
+    const CameraPath path;
+    Exaggeration exaggeration{scene.film.exaggerate};
     Overlay overlay;
     std::unique_ptr<gl::Context> context;
     ShapePainter shape_painter;
@@ -107,18 +110,21 @@ struct Renderer::Impl {
     ContainerShapes shapes;
     Picture picture;
 
-    void draw(const Frame& frame, const std::string& playback, DrawTimes* times);
+    void draw(const Frame& frame, const std::string& playback, double film_time, DrawTimes* times);
     const Layer& draw_grains(const View& eye, const Frame& frame, Stopwatch& watch);
 };
 
-void Renderer::Impl::draw(const Frame& frame, const std::string& playback, DrawTimes* times) {
+void Renderer::Impl::draw(const Frame& true_frame, const std::string& playback, double film_time,
+                          DrawTimes* times) {
     context->make_current();
     const gl::Functions& gl = context->gl();
     Stopwatch watch(gl, times);
-    overlay.write(picture, frame, playback);
+    const View view = path.at(film_time);
+    overlay.write(picture, true_frame, playback, view);
     watch.lap(&DrawTimes::overlay);
+    const Frame& frame = exaggeration.shown(true_frame);
     const View eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
-    draw_container(scene, view, eye, frame, palette, scene.film.height, shapes);
+    draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
     behind.draw(shape_painter, shapes.behind);
     before.draw(shape_painter, shapes.before);
     watch.lap(&DrawTimes::walls);
@@ -144,14 +150,14 @@ Renderer::Renderer(const Scene& scene, int raster_threads, gl::Provider provider
 
 Renderer::~Renderer() = default;
 
-const Picture& Renderer::draw(const Frame& frame, const std::string& playback) {
-    impl_->draw(frame, playback, nullptr);
+const Picture& Renderer::draw(const Frame& frame, const std::string& playback, double film_time) {
+    impl_->draw(frame, playback, film_time, nullptr);
     return impl_->picture;
 }
 
 DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) {
     DrawTimes times;
-    impl_->draw(frame, playback, &times);
+    impl_->draw(frame, playback, 0, &times);
     return times;
 }
 

@@ -24,8 +24,9 @@ class Renderer {
     Renderer(const Scene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic);
     ~Renderer();
 
-    // playback: what the caption says of time ("slow motion, 1/10 speed"). The size is the scene's film size.
-    const Picture& draw(const Frame& frame, const std::string& playback);
+    // playback: what the caption says of time ("slow motion, 1/10 speed"). film_time: s since the film's
+    // first frame, where a camera that moves is. The size is the scene's film size.
+    const Picture& draw(const Frame& frame, const std::string& playback, double film_time = 0);
 
     std::string gl_description() const;  // vendor, renderer and version of the context
     std::string gl_note() const;         // why it is not the context one would have expected; mostly empty

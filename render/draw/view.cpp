@@ -37,21 +37,60 @@ struct Side {
 
 }  // namespace
 
+View looking(double azimuth, double elevation) {
+    const double a = azimuth * degrees, e = elevation * degrees;
+    View view;
+    view.forward = -Vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+    view.right = Vec3(-std::sin(a), std::cos(a), 0);
+    view.up = view.right.cross(view.forward);
+    return view;
+}
+
+double focal_length(const Camera& camera, int picture_height) {
+    if (camera.field_of_view <= 0) return 1;
+    return 0.5 * picture_height / std::tan(0.5 * camera.field_of_view * degrees);
+}
+
+Framing::Framing(const Camera& camera, const Rectangle& port, double margin, int picture_height)
+    : orthographic_(camera.field_of_view <= 0),
+      half_width_(std::max(1.0, 0.5 * port.width - margin)),
+      half_height_(std::max(1.0, 0.5 * port.height - margin)),
+      focal_(focal_length(camera, picture_height)) {}
+
+void Framing::take(const View& directions, const Vec3& from_middle) {
+    const double x = std::abs(from_middle.dot(directions.right)), y = from_middle.dot(directions.up),
+                 z = from_middle.dot(directions.forward);
+    const double slope = orthographic_ ? 0 : half_height_ / focal_;
+    reach_ = std::max(reach_, from_middle.norm());
+    farthest_aside_ = std::max(farthest_aside_, x);
+    back_aside_ = std::max(back_aside_, x * focal_ / half_width_ - z);
+    highest_ = std::max(highest_, y - slope * z);
+    lowest_ = std::min(lowest_, y + slope * z);
+}
+
+double Framing::distance() const {
+    if (orthographic_) return 2 * reach_;
+    return std::max(back_aside_, 0.5 * (highest_ - lowest_) * focal_ / half_height_);
+}
+
+double Framing::shift() const {
+    return 0.5 * (highest_ + lowest_);
+}
+
+double Framing::focal() const {
+    if (!orthographic_) return focal_;
+    return std::min(half_width_ / farthest_aside_, 2 * half_height_ / (highest_ - lowest_));
+}
+
 View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Rectangle& port, double margin,
               int picture_height) {
-    const double azimuth = camera.azimuth * degrees, elevation = camera.elevation * degrees;
-    View view;
+    View view = looking(camera.azimuth, camera.elevation);
     view.port = port;
     view.orthographic = camera.field_of_view <= 0;
-    view.forward = -Vec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                         std::sin(elevation));
-    view.right = Vec3(-std::sin(azimuth), std::cos(azimuth), 0);
-    view.up = view.right.cross(view.forward);
 
     const double half_width = std::max(1.0, 0.5 * port.width - margin);
     const double half_height = std::max(1.0, 0.5 * port.height - margin);
-    const double focal =
-        view.orthographic ? 1.0 : 0.5 * picture_height / std::tan(0.5 * camera.field_of_view * degrees);
+    const double focal = focal_length(camera, picture_height);
     Range across, upward, away;
     Side sideways{{}, {}, half_width / focal}, vertical{{}, {}, half_height / focal};
     for (const Vec3& point : points) {

@@ -44,6 +44,31 @@ struct View {
     }
 };
 
+// Directions only: azimuth and elevation in degrees, as in Camera.
+View looking(double azimuth, double elevation);
+
+// Pixels a unit of x/z that the camera's field of view means, zoom left out; 1 for an orthographic camera.
+double focal_length(const Camera& camera, int picture_height);
+
+// What a camera that turns about one point must be able to do: over all views and points taken, how far back
+// from there the eye has to stand so that everything is inside the port, `margin` pixels from its border.
+// Sideways the point stays in the port's middle, or turning would look like swaying; upwards one shift serves
+// all.
+class Framing {
+  public:
+    Framing(const Camera& camera, const Rectangle& port, double margin, int picture_height);
+    void take(const View& directions, const Vec3& from_middle);
+    double distance() const;  // m
+    double shift() const;     // m, of the eye along the picture's upward direction
+    double focal() const;     // as View's, zoom left out
+
+  private:
+    const bool orthographic_;
+    const double half_width_, half_height_, focal_;
+    double farthest_aside_ = 0, back_aside_ = 0, reach_ = 0;  // m
+    double highest_ = -1e300, lowest_ = 1e300;  // m, of y; of y - k z and y + k z in perspective
+};
+
 // The nearest eye in the camera's direction from which all `points` lie inside the port, `margin` pixels from
 // its border; then magnified by the zoom. picture_height: pixels, what the field of view spans.
 View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Rectangle& port, double margin,

@@ -35,9 +35,11 @@ TextSize title_block(const Writer& writer, const Scene& scene, double x, double 
 TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
 // scale: pixels a metre.
 TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest);
-// Directions of gravity and of the drive as the camera sees them.
-TextSize arrows_block(const Writer& writer, const Scene& scene, const Camera& camera, double x, double y);
-// f, Gamma and amplitude.
+// Directions of gravity and of the drive as the camera sees them. view: null while measuring.
+TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view, double x, double y);
+// x, y and z as the camera sees them, where the film wants them; likewise.
+TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, double x, double y);
+// f, Gamma and amplitude, and by how much the motion is exaggerated.
 TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y);
 // A hand that turns once a period, and beside it where in its stroke the floor is; without `frame` only the
 // still part.

@@ -23,6 +23,7 @@ struct FilmOptions {
     int raster_threads = 1;
     int encoder_threads = 1;
     gl::Provider gl = gl::Provider::automatic;
+    std::int64_t pictures = 0;  // planned; what an orbit that lasts all the film needs to know
 };
 
 struct FilmReport {

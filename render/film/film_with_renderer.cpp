@@ -1,4 +1,5 @@
 // The only place where the production line meets OpenGL.
+#include "render/draw/camera_path.hpp"
 #include "render/draw/renderer.hpp"
 #include "render/film/film_maker.hpp"
 
@@ -8,15 +9,22 @@ namespace {
 class RendererDrawer final : public Drawer {
   public:
     RendererDrawer(const Scene& scene, const FilmOptions& options)
-        : renderer_(scene, options.raster_threads, options.gl) {}
+        : renderer_(with_orbit(scene, options), options.raster_threads, options.gl), rate_(scene.film.rate) {}
     const Picture& draw(const Frame& frame, const std::string& playback) override {
-        return renderer_.draw(frame, playback);
+        return renderer_.draw(frame, playback, static_cast<double>(drawn_++) / rate_);
     }
     std::string description() const override { return renderer_.gl_description(); }
     std::string note() const override { return renderer_.gl_note(); }
 
   private:
+    static Scene with_orbit(Scene scene, const FilmOptions& options) {
+        settle_orbit(scene.film.camera, static_cast<double>(options.pictures) / scene.film.rate);
+        return scene;
+    }
+
     Renderer renderer_;
+    const double rate_;
+    std::int64_t drawn_ = 0;
 };
 
 }  // namespace

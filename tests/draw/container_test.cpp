@@ -1,6 +1,7 @@
 // The container in the picture: where it is, and that all of it is there.
 #include <gtest/gtest.h>
 
+#include "render/draw/writer.hpp"
 #include "support.hpp"
 
 namespace grainreel::test {
@@ -42,22 +43,84 @@ Scene level_box() {
 }
 
 TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
-    const Scene scene = level_box();
+    for (const double exaggerate : {1.0, 5.0}) {
+        Scene scene = level_box();
+        scene.film.exaggerate = exaggerate;
+        const View view = view_of(scene);
+        const double bottom = -1.4 * drawn_thickness(scene.container), front = 0.5 * scene.container.depth;
+        const double top = scene.container.height + drawn_thickness(scene.container);
+        const double half_pen = 0.5 * std::max(1.0, scene.film.height / 600.0);
+        Renderer renderer(scene, 1);
+        for (const double phase : {0.0, 0.25, 0.5, 0.75}) {
+            const Vec3 offset = scene.drive.amplitude * std::sin(2 * pi * phase) * scene.drive.direction;
+            Frame frame = frame_of({});
+            frame.phase = phase;
+            frame.wall_offset = frame.floor_offset = offset;
+            const Picture& picture = renderer.draw(frame, "");
+            const Vec3 drawn = exaggerate * offset;
+            EXPECT_NEAR(floor_edge(picture, view.port),
+                        view.project(Vec3(front, 0, bottom) + drawn).y() + half_pen, 0.3);
+            EXPECT_NEAR(lid_edge(picture, view.port),
+                        view.project(Vec3(front, 0, top) + drawn).y() - half_pen, 0.3);
+        }
+    }
+}
+
+// Seen from the container, an exaggerated grain is where it is.
+TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
+    Scene scene = level_box();
+    scene.film.exaggerate = 5;
     const View view = view_of(scene);
-    const double bottom = -1.4 * drawn_thickness(scene.container), front = 0.5 * scene.container.depth;
-    const double top = scene.container.height + drawn_thickness(scene.container);
-    const double half_pen = 0.5 * std::max(1.0, scene.film.height / 600.0);
+    const Vec3 offset(0, 0, 0.006), resting(0, 0.01, 0.02);
+    Frame frame = frame_of({{resting + offset, 0.012, 1}});
+    frame.wall_offset = frame.floor_offset = offset;
+    Frame empty = frame_of({});
+    empty.wall_offset = empty.floor_offset = offset;
     Renderer renderer(scene, 1);
-    for (const double phase : {0.0, 0.25, 0.5, 0.75}) {
-        const Vec3 offset = scene.drive.amplitude * std::sin(2 * pi * phase) * scene.drive.direction;
-        Frame frame = frame_of({});
-        frame.phase = phase;
-        frame.wall_offset = frame.floor_offset = offset;
-        const Picture& picture = renderer.draw(frame, "");
-        EXPECT_NEAR(floor_edge(picture, view.port),
-                    view.project(Vec3(front, 0, bottom) + offset).y() + half_pen, 0.3);
-        EXPECT_NEAR(lid_edge(picture, view.port), view.project(Vec3(front, 0, top) + offset).y() - half_pen,
-                    0.3);
+    const Picture without = renderer.draw(empty, "");
+    const Extent seen = changed(without, renderer.draw(frame, ""), view.port, 60);
+    EXPECT_NEAR(0.5 * (seen.top + seen.bottom), view.project(resting + 5 * offset).y(), 1.5);
+    scene.film.camera.follow = true;
+    Renderer following(scene, 1);
+    const Picture still = following.draw(empty, "");
+    const Extent held = changed(still, following.draw(frame, ""), view.port, 60);
+    EXPECT_NEAR(0.5 * (held.top + held.bottom), view.project(resting).y(), 1.5);
+}
+
+TEST(ContainerPicture, ExaggerationIsSaid) {
+    Scene scene = level_box();
+    const Writer measure{nullptr, type_scale(scene.film), make_palette({1, 1, 1})};
+    const double plain = drive_block(measure, scene, 0, 0).height;
+    scene.film.exaggerate = 5;
+    EXPECT_GT(drive_block(measure, scene, 0, 0).height, plain + 2 * measure.type.minor);
+}
+
+// The ghost is what the container's outline is at rest, wherever the container is.
+TEST(ContainerPicture, TheGhostRests) {
+    for (const auto shape : {Container::Shape::box, Container::Shape::wedge, Container::Shape::cylinder}) {
+        Scene plain = level_box(), ghostly = level_box();
+        plain.container.shape = ghostly.container.shape = shape;
+        ghostly.film.wall_ghost = true;
+        const View view = view_of(plain);
+        Renderer one(plain, 1), other(ghostly, 1);
+        Pixel low(1e9, 1e9), high(-1e9, -1e9);
+        Scene at_rest = plain;
+        at_rest.drive.present = false;  // no stroke and no marks: the container's own corners
+        for (const Vec3& corner : framing_points(at_rest)) {
+            low = low.cwiseMin(view.project(corner));
+            high = high.cwiseMax(view.project(corner));
+        }
+        for (const double offset : {-0.006, 0.004, 0.006}) {
+            Frame frame = frame_of({});
+            frame.wall_offset = frame.floor_offset = {0, 0, offset};
+            const Picture without = one.draw(frame, "");
+            const test::Extent seen = changed(without, other.draw(frame, ""), view.port, 12);
+            EXPECT_GT(seen.count, 200);
+            EXPECT_NEAR(seen.left, low.x(), 2.5);
+            EXPECT_NEAR(seen.right, high.x(), 2.5);
+            EXPECT_NEAR(seen.top, low.y(), 2.5);
+            EXPECT_NEAR(seen.bottom, high.y(), 2.5);
+        }
     }
 }
 

@@ -1,0 +1,101 @@
+// Keys of the camera's way and of what is made visible of the walls' motion: read, refused, written back.
+#include <gtest/gtest.h>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/writer.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+const std::string keyed = wedge_text + R"([film]
+wall_ghost = true
+exaggerate = 5
+[[film.camera.key]]
+time = 0
+azimuth = "20 deg"
+[[film.camera.key]]
+time = "2 s"
+azimuth = 400
+zoom = 2
+target = [0, "1 cm", 0.05]
+)";
+
+std::string complaint(const std::string& text) {
+    try {
+        read_text(text);
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+std::string about_camera(const std::string& keys) {
+    return complaint(wedge_text + "[film.camera]\n" + keys);
+}
+
+TEST(CameraKeys, AreRead) {
+    const Film film = read_text(keyed).film;
+    EXPECT_TRUE(film.wall_ghost);
+    EXPECT_TRUE(film.axes);  // the camera moves
+    EXPECT_EQ(film.exaggerate, 5);
+    ASSERT_EQ(film.camera.keys.size(), 2u);
+    EXPECT_EQ(film.camera.keys[0].azimuth, 20);
+    EXPECT_FALSE(film.camera.keys[0].zoom);
+    EXPECT_EQ(film.camera.keys[1].time, 2);
+    EXPECT_EQ(film.camera.keys[1].target, Vec3(0, 0.01, 0.05));
+    const Film plain = read_text(wedge_text).film;
+    EXPECT_FALSE(plain.axes || plain.wall_ghost || plain.camera.moves());
+    EXPECT_EQ(plain.exaggerate, 1);
+    EXPECT_EQ(read_text(wedge_text, {"film.camera.orbit=1 turn"}).film.camera.orbit, 360);
+}
+
+TEST(CameraKeys, AreWrittenBack) {
+    for (const std::string& text :
+         {keyed, wedge_text + "[film.camera]\norbit = -90\norbit_time = \"3 s\"\ntarget = [0, 0, 0.1]\n",
+          wedge_text + "[film.camera]\nposition = [1, 0, 0.25]\norbit = 720\n"}) {
+        const Scene scene = read_text(text);
+        const Scene back = read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml");
+        EXPECT_EQ(back.film, scene.film);
+    }
+}
+
+TEST(CameraKeys, AreRefusedWhereTheyMeanNothing) {
+    EXPECT_EQ(about_camera("position = [1, 0, 0]\nazimuth = 3\n"),
+              "test.toml:28:1: 'film.camera.azimuth' is of no use here: the camera stands at 'position' ; remove it"
+              "and looks at 'target'");
+    EXPECT_EQ(about_camera("position = [0, 0, \"90 mm\"]\n"),
+              "test.toml:27:1: 'film.camera.position' is where the camera looks; move it, or the target");
+    EXPECT_EQ(about_camera("position = [1, 0, 0]\nfield_of_view = 0\n"),
+              "test.toml:28:1: 'film.camera.field_of_view' is 0, orthographic, where the picture does not "
+              "depend on "
+              "'position'; give azimuth and elevation instead");
+    EXPECT_EQ(about_camera("orbit_time = 3\n"),
+              "test.toml:27:1: 'film.camera.orbit_time' is of no use here: without 'orbit' nothing turns; remove it");
+    EXPECT_EQ(about_camera("orbit = 3\n[[film.camera.key]]\ntime = 1\n"),
+              "test.toml:27:1: 'film.camera.orbit' is of no use here: the camera goes by its keys; let ; remove it"
+              "their azimuth turn");
+    EXPECT_EQ(about_camera("[[film.camera.key]]\ntime = 1\n[[film.camera.key]]\ntime = \"1 s\"\n"),
+              "test.toml:30:1: 'film.camera.key[1].time' is 1 s, not later than the key before, 1 s; put the "
+              "keys in "
+              "order");
+}
+
+TEST(CameraKeys, WhatCannotBeShownIsSaid) {
+    EXPECT_EQ(complaint(box_text + "[film]\nwall_ghost = true\n"),
+              "test.toml:25:1: 'film.wall_ghost' shows where the walls rest, but nothing moves; add [drive] "
+              "or take it "
+              "out");
+    EXPECT_EQ(complaint(box_text + "[film]\nexaggerate = 2\n"),
+              "test.toml:25:1: 'film.exaggerate' enlarges the container's motion, but nothing moves; add "
+              "[drive] or "
+              "take it out");
+    EXPECT_EQ(complaint(with(wedge_text, "g_level = 3", "g_level = 3\nmoves = \"floor\"") +
+                        "[film]\nexaggerate = 2\n"),
+              "test.toml:28:1: 'film.exaggerate' needs walls that all move together, or grains would be "
+              "drawn inside "
+              "those that do not; take it out");
+}
+
+}  // namespace
+}  // namespace grainreel
