@@ -269,7 +269,17 @@ void add_run(Keys& keys) {
         entry("output.contacts", KeyKind::flag, literal("false"), "Contacts and forces in contacts.nc."));
 }
 
-// How the camera stands and moves, and how the walls' motion is shown.
+// What is drawn beside grains and walls, and how the walls' motion is shown.
+void add_film_marks(Keys& keys) {
+    keys.push_back(entry("film.axes", KeyKind::flag, note("true where the camera moves"),
+                         "Arrows along x, y and z as the camera sees them."));
+    keys.push_back(entry("film.wall_ghost", KeyKind::flag, literal("false"),
+                         "A faint outline of the container at rest."));
+    keys.push_back(quantity("film.exaggerate", Dimension::number, {1, 1000, false, false}, literal("1"),
+                            "The container's motion drawn so many times as large, its grains with it."));
+}
+
+// How the camera stands and moves.
 void add_camera_path(Keys& keys) {
     const auto place = [&](const char* path, const char* fallback, const char* about) {
         keys.push_back(
@@ -292,12 +302,6 @@ void add_camera_path(Keys& keys) {
     keys.push_back(quantity("film.camera.key[].zoom", Dimension::number, positive,
                             note("from the other keys"), "As film.camera.zoom."));
     place("film.camera.key[].target", "from the other keys", "As film.camera.target.");
-    keys.push_back(entry("film.axes", KeyKind::flag, note("true where the camera moves"),
-                         "Arrows along x, y and z as the camera sees them."));
-    keys.push_back(entry("film.wall_ghost", KeyKind::flag, literal("false"),
-                         "A faint outline of the container at rest."));
-    keys.push_back(quantity("film.exaggerate", Dimension::number, {1, 1000, false, false}, literal("1"),
-                            "The container's motion drawn so many times as large, its grains with it."));
 }
 
 void add_film(Keys& keys) {
@@ -312,6 +316,7 @@ void add_film(Keys& keys) {
         {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
         literal("\"veryfast\""), "x264's preset: slower makes smaller files."));
     keys.push_back(entry("film.background", KeyKind::colour, literal("\"#ffffff\""), "As species.colour."));
+    add_film_marks(keys);
     keys.push_back(quantity("film.camera.azimuth", Dimension::degrees, any, literal("20"),
                             "About z; 0 looks along -x at the wide face, positive goes to the right."));
     keys.push_back(quantity("film.camera.elevation", Dimension::degrees, {-90, 90, false, false},

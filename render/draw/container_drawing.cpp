@@ -129,22 +129,22 @@ View frame_container(const Scene& scene, const PictureLayout& layout) {
     return CameraPath(scene, layout).at(0);
 }
 
-void draw_container(const Scene& scene, const Sight& sight, const Frame& frame, const Palette& palette,
+void draw_container(const Scene& scene, const Views& views, const Frame& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes) {
     shapes.behind.clear();
     shapes.before.clear();
-    const Sketches sketches{{sight, palette, picture_height, frame.wall_offset},
-                            {sight, palette, picture_height, frame.floor_offset},
-                            {sight, palette, picture_height, Vec3(0, 0, 0)}};
+    const Sketches sketches{{views, palette, picture_height, frame.wall_offset},
+                            {views, palette, picture_height, frame.floor_offset},
+                            {views, palette, picture_height, Vec3(0, 0, 0)}};
     for (const FreeWall& wall : scene.walls) {
         const Vec3 offset = (wall.moves ? frame.floor_offset : Vec3(0, 0, 0)) + frame.time * wall.velocity;
-        draw_free_wall(wall, extent_of(scene), {sight, palette, picture_height, offset}, shapes);
+        draw_free_wall(wall, extent_of(scene), {views, palette, picture_height, offset}, shapes);
     }
     if (scene.container.shape == Container::Shape::cylinder)
         draw_cylinder(scene.container, sketches, shapes);
     else if (scene.container.shape != Container::Shape::none)
         draw_prism(scene.container, sketches, shapes);
-    draw_lab_marks(scene, sketches, azimuth_of(sight.at_rest), shapes.behind);
+    draw_lab_marks(scene, sketches, azimuth_of(views.at_rest), shapes.behind);
     if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.before);
 }
 

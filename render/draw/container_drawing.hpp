@@ -32,14 +32,14 @@ struct ContainerShapes {
 };
 
 // The camera, before it follows anything and now; `moves`: it does not stand all the film.
-struct Sight {
+struct Views {
     View at_rest, now;
     bool moves = false;
 };
 
 // The frame as it is to be shown, with the motion exaggerated. picture_height: pixels; line widths follow
 // from it.
-void draw_container(const Scene& scene, const Sight& sight, const Frame& frame, const Palette& palette,
+void draw_container(const Scene& scene, const Views& views, const Frame& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes);
 
 }  // namespace grainreel

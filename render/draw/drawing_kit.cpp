@@ -28,8 +28,8 @@ Paint blend(const Paint& one, const Paint& other, double share_of_other) {
 }
 
 double Sketch::solid(const Vec3& point, const Vec3& normal) const {
-    const View& view = sight_.at_rest;
-    if (!sight_.moves) return view.faces(point, normal) ? 0 : 1;
+    const View& view = views_.at_rest;
+    if (!views_.moves) return view.faces(point, normal) ? 0 : 1;
     const Vec3 to_eye = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - point).normalized();
     // Glass by the time the eye is in the plane: there the part changes from behind the grains to before
     // them.
@@ -38,7 +38,7 @@ double Sketch::solid(const Vec3& point, const Vec3& normal) const {
 
 double Sketch::positive_end_is_near() const {
     const double towards = -view().forward.x();
-    return sight_.moves ? smooth_step(towards, fade) : towards >= 0 ? 1 : 0;
+    return views_.moves ? smooth_step(towards, fade) : towards >= 0 ? 1 : 0;
 }
 
 void Sketch::dashed(Shapes& on, std::vector<Vec3> points, bool closed, double width,

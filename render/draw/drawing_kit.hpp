@@ -19,11 +19,11 @@ Paint blend(const Paint& one, const Paint& other, double share_of_other);
 // Draws shapes given in metres, in the frame of something that has moved by `offset`.
 class Sketch {
   public:
-    Sketch(const Sight& sight, const Palette& colours, int picture_height, const Vec3& offset)
-        : palette(colours), pen(std::max(1.0, picture_height / 600.0)), sight_(sight), offset_(offset) {}
+    Sketch(const Views& views, const Palette& colours, int picture_height, const Vec3& offset)
+        : palette(colours), pen(std::max(1.0, picture_height / 600.0)), views_(views), offset_(offset) {}
 
     bool faces(const Vec3& point, const Vec3& normal) const {
-        return sight_.now.faces(point + offset_, normal);
+        return views_.now.faces(point + offset_, normal);
     }
     // How solid a part looks, 0 for glass: by where the eye is when everything is at rest, or a part whose
     // plane it crosses would blink once a period. What hides what follows the present. A camera that moves
@@ -31,7 +31,7 @@ class Sketch {
     double solid(const Vec3& point, const Vec3& normal) const;
     // By how much the end of what is drawn out along x is the one at positive x that is near to the eye.
     double positive_end_is_near() const;
-    const View& view() const { return sight_.now; }
+    const View& view() const { return views_.now; }
     const Vec3& offset() const { return offset_; }
 
     void polygon(Shapes& on, const std::vector<Vec3>& corners, const Paint& paint) const {
@@ -62,10 +62,10 @@ class Sketch {
     std::vector<Pixel> project(const std::vector<Vec3>& points) const {
         std::vector<Pixel> pixels;
         pixels.reserve(points.size());
-        for (const Vec3& point : points) pixels.push_back(sight_.now.project(point + offset_));
+        for (const Vec3& point : points) pixels.push_back(views_.now.project(point + offset_));
         return pixels;
     }
-    const Sight& sight_;
+    const Views& views_;
     const Vec3 offset_;
 };
 

@@ -14,6 +14,7 @@ Scene orbiting(double degrees = 360, double seconds = 8, int width = 640, int he
     Scene scene = wedge(width, height);
     scene.film.camera.orbit = degrees;
     scene.film.camera.orbit_time = seconds;
+    scene.film.axes = true;
     return scene;
 }
 
@@ -198,7 +199,6 @@ TEST(CameraPath, NothingPops) {
     for (const auto shape : {Container::Shape::wedge, Container::Shape::box, Container::Shape::cylinder}) {
         Scene scene = orbiting(360, 360, 480, 270);  // a degree a second
         scene.container.shape = shape;
-        scene.film.axes = true;
         const Rectangle port = plan_layout(scene).port;
         Renderer renderer(scene, 1);
         std::vector<double> steps;

@@ -89,7 +89,9 @@ TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
 
 TEST(ContainerPicture, ExaggerationIsSaid) {
     Scene scene = level_box();
-    const Writer measure{nullptr, type_scale(scene.film), make_palette({1, 1, 1})};
+    const TypeScale type = type_scale(scene.film);
+    const Palette palette = make_palette({1, 1, 1});
+    const Writer measure{nullptr, type, palette};
     const double plain = drive_block(measure, scene, 0, 0).height;
     scene.film.exaggerate = 5;
     EXPECT_GT(drive_block(measure, scene, 0, 0).height, plain + 2 * measure.type.minor);
