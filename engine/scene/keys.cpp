@@ -295,13 +295,14 @@ void add_camera_path(Keys& keys) {
                             "Film time in which the orbit is turned; it goes on after that."));
     keys.push_back(quantity("film.camera.key[].time", Dimension::time, not_negative, required(),
                             "Film time at which the camera is there; smoothly in between."));
-    keys.push_back(quantity("film.camera.key[].azimuth", Dimension::degrees, any, note("from the other keys"),
+    keys.push_back(quantity("film.camera.key[].azimuth", Dimension::degrees, any,
+                            note("film.camera's at first, then between keys"),
                             "As film.camera.azimuth; beyond 360 it turns on."));
     keys.push_back(quantity("film.camera.key[].elevation", Dimension::degrees, {-90, 90, false, false},
-                            note("from the other keys"), "As film.camera.elevation."));
+                            note("film.camera's at first, then between keys"), "As film.camera.elevation."));
     keys.push_back(quantity("film.camera.key[].zoom", Dimension::number, positive,
-                            note("from the other keys"), "As film.camera.zoom."));
-    place("film.camera.key[].target", "from the other keys", "As film.camera.target.");
+                            note("film.camera's at first, then between keys"), "As film.camera.zoom."));
+    place("film.camera.key[].target", "film.camera's at first, then between keys", "As film.camera.target.");
 }
 
 void add_film(Keys& keys) {

@@ -39,9 +39,9 @@ CameraPath::CameraPath(const Scene& scene, const PictureLayout& layout)
     for (const Vec3& point : framing_points(scene)) radius_ = std::max(radius_, (point - target_).norm());
 }
 
-// Through those keys that say something; none says: no track.
+// Through those keys that say something, from `at_first` where the first one does not; none says: no track.
 template <class Value>
-CameraPath::Track CameraPath::track(Value value) const {
+CameraPath::Track CameraPath::track(double at_first, Value value) const {
     std::vector<double> times, values;
     for (const CameraKey& key : camera_.keys)
         if (const std::optional<double> here = value(key)) {
@@ -49,16 +49,21 @@ CameraPath::Track CameraPath::track(Value value) const {
             values.push_back(*here);
         }
     if (times.empty()) return {};
+    if (times.front() > camera_.keys.front().time) {
+        times.insert(times.begin(), camera_.keys.front().time);
+        values.insert(values.begin(), at_first);
+    }
     return MonotoneCurve(std::move(times), std::move(values));
 }
 
 void CameraPath::make_tracks() {
-    azimuth_ = track([](const CameraKey& key) { return key.azimuth; });
-    elevation_ = track([](const CameraKey& key) { return key.elevation; });
-    zoom_ = track(
-        [](const CameraKey& key) { return key.zoom ? std::optional(std::log(*key.zoom)) : std::nullopt; });
+    azimuth_ = track(camera_.azimuth, [](const CameraKey& key) { return key.azimuth; });
+    elevation_ = track(camera_.elevation, [](const CameraKey& key) { return key.elevation; });
+    zoom_ = track(std::log(camera_.zoom), [](const CameraKey& key) {
+        return key.zoom ? std::optional(std::log(*key.zoom)) : std::nullopt;
+    });
     for (int axis = 0; axis < 3; ++axis) {
-        const Track along = track([axis](const CameraKey& key) {
+        const Track along = track(target_[axis], [axis](const CameraKey& key) {
             return key.target ? std::optional((*key.target)[axis]) : std::nullopt;
         });
         if (along) place_.push_back(*along);

@@ -33,7 +33,7 @@ class CameraPath {
     };
     using Track = std::optional<MonotoneCurve>;
     template <class Value>
-    Track track(Value value) const;
+    Track track(double at_first, Value value) const;
     void make_tracks();
     void look_from_position();
     void keep_distance(const Scene& scene, double margin);

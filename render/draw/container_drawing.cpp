@@ -106,10 +106,24 @@ void draw_ghost(const Scene& scene, const Sketch& lab, Shapes& on) {
         draw_prism_ghost(scene.container, floor_only, lab, on);
 }
 
+// m, above the rim of an open top, for grains in flight: a grain that meets the rising bed leaves it at up to
+// twice the walls' speed. At most half the container, or the bed would look small.
+double room_above(const Scene& scene) {
+    const Container& container = scene.container;
+    const double gravity = scene.gravity.norm();
+    if (container.shape == Container::Shape::none || container.lid || !scene.drive.present || gravity <= 0)
+        return 0;
+    const double thrown = 2 * scene.drive.speed() * std::abs(scene.drive.direction.z());
+    const double highest = fill_height(scene, 0.55) + thrown * thrown / (2 * gravity);
+    return std::clamp(highest - container.height, 0.0, 0.5 * container.height);
+}
+
 }  // namespace
 
 std::vector<Vec3> framing_points(const Scene& scene, double azimuth) {
-    const std::vector<Vec3> corners = corners_of(scene);
+    std::vector<Vec3> corners = corners_of(scene);
+    if (const double room = room_above(scene); room > 0)
+        corners.emplace_back(0, 0, scene.container.height + room);
     std::vector<Vec3> points;
     const Vec3 stroke = drawn_stroke(scene);
     for (const double end : {-1.0, 1.0}) {

@@ -21,7 +21,9 @@ TextSize static_part(const Writer& writer, const Scene& scene, const View* view,
         const TextSize legend = legend_block(writer, scene, x, y, 0.6 * inner);
         const double right = x + 0.66 * inner;
         const TextSize bar = scale_block(writer, scale, right, y + 0.4 * type.gap, 0.34 * inner);
-        return {width, y + std::max(legend.height, bar.height + 0.4 * type.gap)};
+        const double below = y + bar.height + 0.8 * type.gap;
+        const TextSize axes = axes_block(writer, scene, view, right, below);
+        return {width, std::max(y + legend.height, below - 0.4 * type.gap + axes.height)};
     }
     const TextSize legend = legend_block(writer, scene, x, y, inner);
     y += legend.height + type.gap;
@@ -61,10 +63,8 @@ TextSize changing_part(const Writer& writer, const Scene& scene, const View* vie
             const TextSize disc = dial_block(writer, scene.drive, nullptr, radius, x, y);
             dial_block(writer, scene.drive, &frame, radius, x, y);
             const TextSize drive = drive_block(writer, scene, x + disc.width + type.gap, y);
-            const double right = x + disc.width + drive.width + 3 * type.gap;
-            const TextSize arrows = arrows_block(writer, scene, view, right, y);
-            axes_block(writer, scene, view, right + arrows.width + 2 * type.gap, y);
-            y += disc.height;
+            arrows_block(writer, scene, view, x + disc.width + drive.width + 3 * type.gap, y);
+            y += std::max(disc.height, drive.height);
         }
         return {width, y - type.margin};
     }

@@ -159,10 +159,11 @@ TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, 
                    mix(writer.palette.ink, writer.palette.background, 0.25 * (1 + axis.dot(view->forward))));
         stroke_line(writer, cx, cy, cx + reach * dx, cy + reach * dy, 1.6 * pen);
         dot(writer, cx + reach * dx, cy + reach * dy, 2 * pen);
+        // Beyond the tip, also of an axis that points at the eye.
+        const double seen = std::max(std::hypot(dx, dy), 1e-9), away = reach * seen + 0.8 * writer.type.minor;
         const TextSize letter = measure_text(name, writer.minor());
-        const double away = reach + 0.7 * writer.type.minor;
-        writer.write(cx + away * dx - 0.5 * letter.width, cy + away * dy - 0.5 * letter.height, name,
-                     writer.minor(), writer.palette.ink);
+        writer.write(cx + away * dx / seen - 0.5 * letter.width, cy + away * dy / seen - 0.5 * letter.height,
+                     name, writer.minor(), writer.palette.ink);
     }
     return {side, side + writer.type.gap};
 }

@@ -158,6 +158,25 @@ TEST(CameraPath, KeysAreHitExactlyAndNotOvershot) {
     EXPECT_EQ(path.at(9).forward, path.at(5).forward);
 }
 
+TEST(CameraPath, WhatTheFirstKeyLeavesOutIsTheCamerasOwn) {
+    Scene scene = wedge();
+    scene.film.camera.zoom = 1.5;
+    scene.film.camera.keys.resize(3);
+    for (std::size_t i = 0; i < 3; ++i) scene.film.camera.keys[i].time = static_cast<double>(i);
+    scene.film.camera.keys[2].target = Vec3(0, 0.01, 0.02);
+    scene.film.camera.keys[2].zoom = 6;
+    const CameraPath path(scene, plan_layout(scene));
+    const auto offset =
+        [&](double time) {  // of the point aimed at from the container's middle, seen sideways
+            return (path.at(time).eye - path.at(2).eye).dot(path.at(2).right);
+        };
+    const Vec3 way = extent_of(scene).middle() - *scene.film.camera.keys[2].target;
+    EXPECT_NEAR(offset(0), way.dot(path.at(0).right), 1e-12);
+    EXPECT_NEAR(offset(1), 0.5 * way.dot(path.at(0).right), 1e-12);  // half-way between two keys, by symmetry
+    EXPECT_NEAR(path.at(1).focal / path.at(0).focal, 2, 1e-9);       // the zoom by its logarithm
+    EXPECT_NEAR(path.at(2).focal / path.at(0).focal, 4, 1e-9);
+}
+
 TEST(CameraPath, CurvesAreSmoothAtTheirPoints) {
     const MonotoneCurve curve({0, 1, 3, 4, 6}, {0, 2, 3, 7, 7});
     const double h = 1e-6;

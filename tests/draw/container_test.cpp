@@ -267,6 +267,31 @@ TEST(Framing, KeepsEverythingInThePictureAndFillsIt) {
                         }
 }
 
+// Shaken gently, an open container ends at the picture's margin; shaken hard, there is room above its rim for
+// at least one throw of the bed: its height, and (2 pi f a)^2 / 2g above that.
+TEST(Framing, AnOpenTopLeavesRoomForGrainsInFlight) {
+    Scene scene = level_box();
+    Container& box = scene.container;
+    box.lid = false;
+    box.height = 0.3;  // so tall that the picture's height is what binds
+    scene.film.camera.field_of_view = 0;
+    scene.species = {species("small", 23000, 0.003, blue)};
+    const double bed = 23000 * pi / 6 * std::pow(0.003, 3) / 0.55 / (2 * box.half_width * box.depth);
+    const auto room = [&] {  // m, from the rim at the top of its stroke
+        const View view = view_of(scene);
+        const double rim = view.project({0, 0, box.height + scene.drive.amplitude}).y();
+        return (rim - type_scale(scene.film).margin) / view.focal;
+    };
+    scene.drive.amplitude = 0.0005;
+    EXPECT_NEAR(room(), 0, 1e-9);
+    scene.drive.amplitude = 0.020;
+    const double speed = 2 * pi * scene.drive.frequency * scene.drive.amplitude;
+    EXPECT_GT(room(), bed + speed * speed / (2 * 9.81) - box.height);
+    EXPECT_LT(room(), 0.5 * box.height + 1e-9);
+    box.lid = true;
+    EXPECT_NEAR(room(), drawn_thickness(box), 1e-9);
+}
+
 TEST(Framing, AzimuthTurnsTheCameraToTheRight) {
     Scene scene = wedge();
     scene.film.camera.azimuth = 30;
