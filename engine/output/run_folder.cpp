@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/output/run_json.hpp"
 
 namespace grainreel {
 
@@ -56,19 +59,14 @@ bool is_real_folder(const fs::directory_entry& entry) {
     return entry.symlink_status().type() == fs::file_type::directory;
 }
 
-using IsOurs = bool (*)(const fs::directory_entry&);
+using IsOurs = std::function<bool(const fs::directory_entry&)>;
 
 bool is_ours_in_frames(const fs::directory_entry& entry) {
     return !is_real_folder(entry) && is_frame(entry.path().filename());
 }
 
-bool is_ours(const fs::directory_entry& entry) {
-    const fs::path name = entry.path().filename();
-    return is_real_folder(entry) ? name == "frames" : is_file_of_runs(name);
-}
-
 // The first by name of a folder's entries that no run has written; the folder when it cannot be read.
-std::optional<fs::path> first_foreign(const fs::path& folder, IsOurs ours) {
+std::optional<fs::path> first_foreign(const fs::path& folder, const IsOurs& ours) {
     std::error_code error;
     std::optional<fs::path> first;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
@@ -76,12 +74,24 @@ std::optional<fs::path> first_foreign(const fs::path& folder, IsOurs ours) {
     return error ? folder : first;
 }
 
-// What in the folder of a run is not a run's.
+// What in the folder of a run is not a run's. A comparison has runs in its own folders.
 std::optional<fs::path> foreign_file(const fs::path& run) {
-    const auto foreign = first_foreign(run, is_ours);
+    const std::vector<std::string> panels = panels_in_run_json(run / "run.json");
+    const auto is_panel = [&](const fs::path& name) {
+        return std::find(panels.begin(), panels.end(), name.string()) != panels.end();
+    };
+    const auto is_ours = [&](const fs::directory_entry& entry) {
+        const fs::path name = entry.path().filename();
+        return is_real_folder(entry) ? name == "frames" || is_panel(name) : is_file_of_runs(name);
+    };
+    if (auto foreign = first_foreign(run, is_ours)) return foreign;
     const fs::path frames = run / "frames";
-    if (foreign || !is_real_folder(fs::directory_entry(frames))) return foreign;
-    return first_foreign(frames, is_ours_in_frames);
+    if (is_real_folder(fs::directory_entry(frames)))
+        if (auto foreign = first_foreign(frames, is_ours_in_frames)) return foreign;
+    for (const std::string& panel : panels)
+        if (panel.find('/') == std::string::npos && is_real_folder(fs::directory_entry(run / panel)))
+            if (auto foreign = foreign_file(run / panel)) return foreign;
+    return std::nullopt;
 }
 
 // What --force is to replace must be a run and nothing else.

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <fstream>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -85,8 +86,9 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"gl", text_or_null(r.gl)},
         {"threads",
          {{"engine", r.engine_threads}, {"raster", r.raster_threads}, {"encoder", r.encoder_threads}}},
-        {"engine", r.drawn.empty() ? engine(r) : Json(nullptr)},
+        {"engine", r.drawn.empty() && r.panels.empty() ? engine(r) : Json(nullptr)},
         {"drawn", drawn(r)},
+        {"panels", r.panels},
         {"wall_s", table(r.wall_seconds)},
         {"written",
          {{"film_frames", r.film_frames},
@@ -96,6 +98,16 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"warnings", r.warnings}};
     // Names and messages come from the user's files: what is not UTF-8 is shown, not a reason to fail.
     replace_file(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+std::vector<std::string> panels_in_run_json(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    const Json document = Json::parse(file, nullptr, false);
+    std::vector<std::string> panels;
+    if (!document.is_object() || !document.contains("panels")) return panels;
+    for (const Json& panel : document["panels"])
+        if (panel.is_string()) panels.push_back(panel.get<std::string>());
+    return panels;
 }
 
 }  // namespace grainreel

@@ -27,6 +27,8 @@ struct RunRecord {
 
     // What was drawn without being run; then nothing is said of the engine.
     std::vector<DrawnRun> drawn;
+    // Of a film of several: where each one's files are, a folder beside run.json or another run's.
+    std::vector<std::string> panels;
 
     std::string command;  // as typed, words quoted where the shell needs it
     std::string scene_file;
@@ -59,5 +61,8 @@ std::string utc_now();
 
 // Throws RunError when the file cannot be written; what it held before stays then.
 void write_run_json(const std::filesystem::path& path, const RunRecord& record);
+
+// `panels` of such a file; empty when it has none or is no such file.
+std::vector<std::string> panels_in_run_json(const std::filesystem::path& path);
 
 }  // namespace grainreel

@@ -7,10 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "build_info.hpp"
 #include "engine/base/error.hpp"
+#include "render/cli/record.hpp"
 #include "render/cli/stop_signal.hpp"
-#include "render/cli/version.hpp"
 
 namespace grainreel {
 
@@ -68,15 +67,9 @@ int FilmRun::run() {
 
 void FilmRun::begin_record(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) reporter_.warning(warning);
-    record_.command = options_.command;
-    record_.version = build_info::version;
-    record_.commit = build_info::commit;
-    record_.compiler = build_info::compiler;
-    record_.build_flags = build_info::flags;
-    record_.libraries = library_versions();
+    describe_program(record_, options_.command);
     record_.raster_threads = wants_pictures() ? threads_.raster : 0;
     record_.encoder_threads = wants_pictures() ? threads_.encoder : 0;
-    record_.started = utc_now();
     record_.warnings = warnings;
     write_run_json(folder_->path() / "run.json", record_);
 }

@@ -9,6 +9,7 @@
 #include "render/cli/bench.hpp"
 #include "render/cli/chart.hpp"
 #include "render/cli/check.hpp"
+#include "render/cli/compare.hpp"
 #include "render/cli/movie.hpp"
 #include "render/cli/options.hpp"
 #include "render/cli/render.hpp"
@@ -33,6 +34,8 @@ int run(const grainreel::Options& options, grainreel::Reporter& reporter) {
                 return grainreel::make_movie(options, reporter);
             case grainreel::Options::Verb::render:
                 return grainreel::draw_again(options, reporter);
+            case grainreel::Options::Verb::compare:
+                return grainreel::make_comparison(options, reporter);
             case grainreel::Options::Verb::chart:
                 return grainreel::make_chart(options, reporter);
             case grainreel::Options::Verb::bench:

@@ -193,6 +193,32 @@ void add_render(CLI::App& app, Options& options) {
     render.callback([&options] { options.verb = Options::Verb::render; });
 }
 
+void add_compare(CLI::App& app, Options& options) {
+    CLI::App& compare = *app.add_subcommand("compare", "Run scenes and film them side by side, in step");
+    compare
+        .add_option("SCENE", options.compare.inputs,
+                    "Two to six scenes to run, or folders of finished runs to draw from")
+        ->required()
+        ->expected(2, 6)
+        ->type_name("FILE|DIR");
+    compare
+        .add_option_function<std::string>(
+            "--captions", [&options](const std::string& text) { options.compare.captions = text; },
+            "One a panel, bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the drives, else the "
+            "titles]")
+        ->type_name("TEXT");
+    add_scene_keys(compare, options);
+    add_film(compare, options,
+             "Folder of the film, with one in it for each run [output/ and the scenes' names]");
+    add_reporting(compare, options);
+    compare.footer(
+        std::string(
+            "Rate, size and segments of the film are those of the first scene; --set and its like go to\n"
+            "every scene. All panels show the same moment, at the same scale where they can.\n") +
+        exit_statuses);
+    compare.callback([&options] { options.verb = Options::Verb::compare; });
+}
+
 void add_check(CLI::App& app, Options& options) {
     CLI::App& check =
         *app.add_subcommand("check", "Read a scene and print the plan: laws, stiffness, step, cost");
@@ -299,6 +325,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
         "More about a verb:  grainreel movie --help");
     add_movie(app, options);
     add_render(app, options);
+    add_compare(app, options);
     add_check(app, options);
     add_chart(app, options);
     add_bench(app, options);

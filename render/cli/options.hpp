@@ -25,8 +25,14 @@ struct RenderRequest {
     int every = 1;
 };
 
+// What `compare` is to show side by side.
+struct CompareRequest {
+    std::vector<std::filesystem::path> inputs;  // scene files and folders of runs
+    std::optional<std::string> captions;        // one a panel, bars between them
+};
+
 struct Options {
-    enum class Verb { movie, render, check, chart, bench };
+    enum class Verb { movie, render, compare, check, chart, bench };
     Verb verb = Verb::movie;
     std::filesystem::path scene;
     // What --set, then --size, --fps, --duration, --threads and --seed say, as assignments for the scene's
@@ -39,6 +45,7 @@ struct Options {
     bool film = true;
     bool frames = false;
     RenderRequest render;
+    CompareRequest compare;
     gl::Provider gl = gl::Provider::automatic;  // $GRAINREEL_GL when that is set and --gl is not
     std::string chart;                          // which, with `chart`
     bool quick = false;                         // of charts

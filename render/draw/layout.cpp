@@ -9,15 +9,6 @@
 namespace grainreel {
 namespace {
 
-// A frame whose words are as long as they get.
-Frame widest_frame() {
-    Frame frame;
-    frame.time = 888.888;
-    frame.cycles = 88888;
-    frame.phase = 0.88;
-    return frame;
-}
-
 double longest_word(const std::string& text, const TextStyle& style) {
     double longest = 0;
     for (std::size_t from = 0; from < text.size();) {
@@ -33,6 +24,14 @@ int whole(double pixels) {
 }
 
 }  // namespace
+
+Frame widest_frame() {
+    Frame frame;
+    frame.time = 888.888;
+    frame.cycles = 88888;
+    frame.phase = 0.88;
+    return frame;
+}
 
 TypeScale type_scale(const Film& film) {
     const double height = film.height;
@@ -75,6 +74,12 @@ PictureLayout plan_layout(const Scene& scene) {
     layout.first = {0, 0, left, height};
     layout.second = {width - right, 0, right, height};
     layout.port = {left, 0, width - left - right, height};
+    return layout;
+}
+
+PictureLayout bare_layout(const Film& film) {
+    PictureLayout layout;
+    layout.port = {0, 0, film.width, film.height};
     return layout;
 }
 

@@ -1,6 +1,7 @@
 // Who gets which part of the picture: gutters for words, the rest for the container.
 #pragma once
 
+#include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/view.hpp"
 
@@ -19,7 +20,11 @@ struct PictureLayout {
     Rectangle second;       // right or bottom: time, drive, playback
     Rectangle port;         // the container
 };
+// A frame whose words are as long as they get.
+Frame widest_frame();
 // Gutters are as wide as their words need, and at most about a third of the picture each.
 PictureLayout plan_layout(const Scene& scene);
+// The container has the whole picture, and there are no words.
+PictureLayout bare_layout(const Film& film);
 
 }  // namespace grainreel

@@ -86,58 +86,30 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
       palette_(palette),
       layout_(layout),
       type_(type_scale(scene.film)),
-      first_(blank(layout.first)),
-      second_(blank(layout.second)) {
+      first_(blank_surface(layout.first, palette.background)),
+      second_(blank_surface(layout.second, palette.background)) {
     draw_first(view);
 }
 
 void Overlay::draw_first(const View& view) {
-    first_ = blank(layout_.first);
-    const Context on(cairo_create(first_.get()));
+    first_ = blank_surface(layout_.first, palette_.background);
+    const CairoContext on(cairo_create(first_.get()));
     static_part({on.get(), type_, palette_}, scene_, &view, layout_, layout_.first.width);
     drawn_for_ = view;
     first_written_ = false;
-}
-
-Overlay::Surface Overlay::blank(const Rectangle& part) const {
-    Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, part.width, part.height));
-    const Context on(cairo_create(surface.get()));
-    cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green,
-                         palette_.background.blue);
-    cairo_paint(on.get());
-    return surface;
 }
 
 void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback, const View& view) {
     // Axes, arrows and scale are as this view has them.
     if (view.eye != drawn_for_.eye || view.forward != drawn_for_.forward || view.focal != drawn_for_.focal)
         draw_first(view);
-    if (!first_written_) copy(first_.get(), layout_.first, picture);
+    if (!first_written_) copy_surface(first_.get(), layout_.first, picture);
     first_written_ = true;
-    const Context on(cairo_create(second_.get()));
-    cairo_set_source_rgb(on.get(), palette_.background.red, palette_.background.green,
-                         palette_.background.blue);
-    cairo_paint(on.get());
+    const CairoContext on(cairo_create(second_.get()));
+    fill_surface(on.get(), palette_.background);
     changing_part({on.get(), type_, palette_}, scene_, &view, frame, playback, layout_.second.width,
                   layout_.portrait);
-    copy(second_.get(), layout_.second, picture);
-}
-
-void Overlay::copy(cairo_surface_t* from, const Rectangle& to, Picture& picture) {
-    cairo_surface_flush(from);
-    const unsigned char* pixels = cairo_image_surface_get_data(from);
-    const int stride = cairo_image_surface_get_stride(from);
-    for (int y = 0; y < to.height; ++y) {
-        const auto* row =
-            reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(y) * stride);
-        std::uint8_t* out = picture.pixel(to.x, to.y + y);
-        for (int x = 0; x < to.width; ++x, out += 4) {
-            out[0] = static_cast<std::uint8_t>(row[x] >> 16);
-            out[1] = static_cast<std::uint8_t>(row[x] >> 8);
-            out[2] = static_cast<std::uint8_t>(row[x]);
-            out[3] = 255;
-        }
-    }
+    copy_surface(second_.get(), layout_.second, picture);
 }
 
 }  // namespace grainreel

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/draw/cairo_surface.hpp"
 #include "render/draw/layout.hpp"
 #include "render/draw/picture.hpp"
 #include "render/draw/writer.hpp"
@@ -29,21 +30,13 @@ class Overlay {
     void write(Picture& picture, const Frame& frame, const std::string& playback, const View& view);
 
   private:
-    struct Destroy {
-        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-        void operator()(cairo_t* context) const { cairo_destroy(context); }
-    };
-    using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
-    using Context = std::unique_ptr<cairo_t, Destroy>;
     void draw_first(const View& view);
-    Surface blank(const Rectangle& part) const;
-    static void copy(cairo_surface_t* from, const Rectangle& to, Picture& picture);
 
     const Scene& scene_;
     const Palette palette_;
     const PictureLayout layout_;
     const TypeScale type_;
-    Surface first_, second_;
+    CairoSurface first_, second_;
     View drawn_for_;
     bool first_written_ = false;
 };

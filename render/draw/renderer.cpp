@@ -82,10 +82,10 @@ std::array<float, 4> opaque(const Colour& colour) {
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(const Scene& s, int raster_threads, gl::Provider provider)
+    Impl(const Scene& s, const PictureLayout& plan, int raster_threads, gl::Provider provider)
         : scene(s),
           palette(make_palette(s.film.background)),
-          layout(plan_layout(s)),
+          layout(plan),
           port(layout.port),
           path(s, layout),
           overlay(scene, palette, layout, path.at(0)),
@@ -146,7 +146,9 @@ const Layer& Renderer::Impl::draw_grains(const View& eye, const Frame& frame, St
 }
 
 Renderer::Renderer(const Scene& scene, int raster_threads, gl::Provider provider)
-    : impl_(std::make_unique<Impl>(scene, raster_threads, provider)) {}
+    : Renderer(scene, plan_layout(scene), raster_threads, provider) {}
+Renderer::Renderer(const Scene& scene, const PictureLayout& layout, int raster_threads, gl::Provider provider)
+    : impl_(std::make_unique<Impl>(scene, layout, raster_threads, provider)) {}
 
 Renderer::~Renderer() = default;
 

@@ -6,6 +6,7 @@
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/draw/layout.hpp"
 #include "render/draw/picture.hpp"
 #include "render/gl/provider.hpp"
 
@@ -22,6 +23,8 @@ class Renderer {
     // Makes an off-screen OpenGL context, current on the calling thread: construct, use and destroy it on one
     // thread. raster_threads: of the software rasteriser, >= 1. Throws RunError when no context is to be had.
     Renderer(const Scene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic);
+    // Likewise, with a layout other than plan_layout()'s: bare_layout() leaves out all words.
+    Renderer(const Scene& scene, const PictureLayout& layout, int raster_threads, gl::Provider provider);
     ~Renderer();
 
     // playback: what the caption says of time ("slow motion, 1/10 speed"). film_time: s since the film's

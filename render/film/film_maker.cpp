@@ -25,7 +25,7 @@ constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
 constexpr std::size_t pictures_in_all = waiting_pictures + 3;
 
 struct Order {
-    FramePtr frame;
+    Frames frames;
     std::string playback;
 };
 
@@ -64,9 +64,9 @@ struct FilmMaker::Impl {
             std::optional<Picture> canvas = spare.pop();
             if (!canvas) return;
             const Watch::time_point start = Watch::now();
-            *canvas = drawer->draw(*order->frame, order->playback);  // copies into the old buffer
+            *canvas = drawer->draw(order->frames, order->playback);  // copies into the old buffer
             draw_seconds += seconds_since(start);
-            pictures.push({std::move(*canvas), std::move(order->frame), std::move(order->playback)});
+            pictures.push({std::move(*canvas), std::move(order->frames.front()), std::move(order->playback)});
         }
         pictures.close();
     }
@@ -135,10 +135,10 @@ FilmMaker::FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker
 
 FilmMaker::~FilmMaker() = default;
 
-void FilmMaker::take(FramePtr frame, std::string playback) {
-    GRAINREEL_CHECK(!impl_->complete);
+void FilmMaker::take(Frames frames, std::string playback) {
+    GRAINREEL_CHECK(!impl_->complete && !frames.empty());
     const Watch::time_point start = Watch::now();
-    const bool taken = impl_->frames.push({std::move(frame), std::move(playback)});
+    const bool taken = impl_->frames.push({std::move(frames), std::move(playback)});
     impl_->waited_seconds += seconds_since(start);
     if (!taken) impl_->throw_failure();
 }

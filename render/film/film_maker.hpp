@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/frame.hpp"
@@ -35,11 +36,14 @@ struct FilmReport {
     std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
 };
 
-// What turns a frame into a picture: the Renderer, or a test's own. Made, used and destroyed on one thread.
+// The frames that one picture shows: one, or one a panel, of the same moment.
+using Frames = std::vector<FramePtr>;
+
+// What turns frames into a picture: the Renderer, or a test's own. Made, used and destroyed on one thread.
 class Drawer {
   public:
     virtual ~Drawer() = default;
-    virtual const Picture& draw(const Frame& frame, const std::string& playback) = 0;
+    virtual const Picture& draw(const Frames& frames, const std::string& playback) = 0;
     virtual std::string description() const = 0;
     virtual std::string note() const { return {}; }  // what its user should know about it
 };
@@ -55,9 +59,10 @@ class FilmMaker {
     // Waits until the drawer is made and says what it is. Throws RunError when it cannot be made.
     std::string drawer();
 
-    // Takes one frame with its caption; waits while the queue is full. Throws RunError when drawing or
-    // encoding failed (disk full), with the first failure's words.
-    void take(FramePtr frame, std::string playback);
+    // Takes one picture's frames with their caption; waits while the queue is full. Throws RunError when
+    // drawing or encoding failed (disk full), with the first failure's words.
+    void take(Frames frames, std::string playback);
+    void take(FramePtr frame, std::string playback) { take(Frames{std::move(frame)}, std::move(playback)); }
 
     // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError likewise.
     // Neither take() nor finish() may follow.

@@ -92,7 +92,9 @@ inline Picture noise(int width, int height, int number) {
 class PaintingDrawer final : public Drawer {
   public:
     explicit PaintingDrawer(std::function<Picture(const Frame&)> paint) : paint_(std::move(paint)) {}
-    const Picture& draw(const Frame& frame, const std::string&) override { return picture_ = paint_(frame); }
+    const Picture& draw(const Frames& frames, const std::string&) override {
+        return picture_ = paint_(*frames.front());
+    }
     std::string description() const override { return "painted"; }
 
   private:

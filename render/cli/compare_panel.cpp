@@ -1,0 +1,85 @@
+#include "render/cli/compare_panel.hpp"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/cli/record.hpp"
+
+namespace grainreel {
+
+// Progress is noted on the thread that runs the scene and read on another.
+SceneRun::GoOn LivePanel::noting(const SceneRun::GoOn& go_on) {
+    return [this, go_on] {
+        done_ = run_.done();
+        speed_ = run_.recent_speed();
+        return go_on();
+    };
+}
+
+void LivePanel::begin(const std::filesystem::path& folder, const std::string& command) {
+    folder_ = folder / place();
+    std::error_code error;
+    std::filesystem::create_directory(folder_, error);
+    if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+    run_.use_folder(folder_);
+    describe_program(record_, command);
+    run_.describe(record_);
+    record_.warnings = run_.plan().warnings;
+    write_run_json(folder_ / "run.json", record_);
+}
+
+bool LivePanel::pack(const SceneRun::GoOn& go_on) {
+    const bool packed = run_.pack([&](const PackingProgress& now) {
+        done_ = (now.stage == PackingProgress::Stage::growing ? 0.0 : 0.5) + 0.5 * now.done;
+        return go_on();
+    });
+    done_ = 1;
+    return packed && go_on();
+}
+
+void LivePanel::start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) {
+    done_ = 0;
+    run_.start(shots_at(instants, segments, run_.plan().clock, run_.plan().steps));
+}
+
+FramePtr LivePanel::next(const SceneRun::GoOn& go_on) {
+    if (again_ > 0) {
+        --again_;
+        return frame_;
+    }
+    const std::optional<SceneRun::Taken> taken = run_.next(noting(go_on));
+    if (!taken) return nullptr;
+    again_ = taken->segments.size() - 1;
+    return frame_ = taken->frame;
+}
+
+bool LivePanel::finish(const SceneRun::GoOn& go_on) {
+    run_.next(noting(go_on));
+    return go_on();
+}
+
+void LivePanel::close(RunStatus status, int exit_status, FirstFailure& failure) {
+    if (folder_.empty()) return;
+    run_.close(failure);
+    run_.conclude(record_);
+    record_.status = status;
+    record_.exit_status = exit_status;
+    record_.error = failure.what();
+    record_.finished = utc_now();
+    record_.wall_seconds = run_.times().all();
+    failure.attempt([&] { write_run_json(folder_ / "run.json", record_); });
+}
+
+void RecordedPanel::start(const std::vector<Instant>& instants, const std::vector<FilmSegment>&) {
+    for (const Instant& instant : instants) frames_.push_back(run_.nearest(instant.time));
+}
+
+FramePtr RecordedPanel::next(const SceneRun::GoOn& go_on) {
+    if (!go_on()) return nullptr;
+    done_ = static_cast<double>(next_ + 1) / static_cast<double>(frames_.size());
+    return std::make_shared<const Frame>(run_.trajectory().read(frames_.at(next_++)));
+}
+
+}  // namespace grainreel

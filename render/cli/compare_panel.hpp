@@ -1,0 +1,82 @@
+// One panel of `compare`: a scene that is run, or a finished run that is read.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/cli/finished_run.hpp"
+#include "render/cli/scene_run.hpp"
+#include "render/film/timeline.hpp"
+
+namespace grainreel {
+
+class ComparePanel {
+  public:
+    virtual ~ComparePanel() = default;
+    virtual const Scene& scene() const = 0;
+    // Where its files are, as run.json of the whole tells it.
+    virtual std::string place() const = 0;
+
+    // In this order. What runs says so by `go_on`, now and then, and stops when that is false: then pack()
+    // and finish() return false and next() nothing.
+    virtual void begin(const std::filesystem::path& folder, const std::string& command) = 0;
+    virtual bool pack(const SceneRun::GoOn& go_on) = 0;
+    virtual void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) = 0;
+    virtual FramePtr next(const SceneRun::GoOn& go_on) = 0;  // of the next instant
+    virtual bool finish(const SceneRun::GoOn& go_on) = 0;    // what remains of the run after the last
+    virtual void close(RunStatus status, int exit_status, FirstFailure& failure) = 0;
+
+    // Of another thread's work; for the progress line.
+    double done() const { return done_; }
+    double speed() const { return speed_; }  // particle-steps/s
+
+  protected:
+    std::atomic<double> done_ = 0, speed_ = 0;
+};
+
+class LivePanel final : public ComparePanel {
+  public:
+    LivePanel(const Scene& scene, const Plan& plan, int threads) : run_(scene, plan, threads) {}
+    const Scene& scene() const override { return run_.scene(); }
+    const SceneRun& run() const { return run_; }
+    std::string place() const override { return run_.scene().name; }
+    void begin(const std::filesystem::path& folder, const std::string& command) override;
+    bool pack(const SceneRun::GoOn& go_on) override;
+    void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;
+    FramePtr next(const SceneRun::GoOn& go_on) override;
+    bool finish(const SceneRun::GoOn& go_on) override;
+    void close(RunStatus status, int exit_status, FirstFailure& failure) override;
+
+  private:
+    SceneRun::GoOn noting(const SceneRun::GoOn& go_on);
+    SceneRun run_;
+    std::filesystem::path folder_;
+    RunRecord record_;
+    FramePtr frame_;         // shown last
+    std::size_t again_ = 0;  // how often that frame is to be shown yet
+};
+
+class RecordedPanel final : public ComparePanel {
+  public:
+    RecordedPanel(const std::filesystem::path& folder, const std::vector<std::string>& sets)
+        : run_(folder, sets) {}
+    const Scene& scene() const override { return run_.scene(); }
+    const FinishedRun& run() const { return run_; }
+    std::string place() const override { return run_.folder().string(); }
+    void begin(const std::filesystem::path&, const std::string&) override {}
+    bool pack(const SceneRun::GoOn&) override { return true; }
+    void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;
+    FramePtr next(const SceneRun::GoOn& go_on) override;
+    bool finish(const SceneRun::GoOn&) override { return true; }
+    void close(RunStatus, int, FirstFailure&) override {}
+
+  private:
+    FinishedRun run_;
+    std::vector<std::size_t> frames_;  // one an instant
+    std::size_t next_ = 0;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,126 @@
+#include "render/cli/compare_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include <fmt/format.h>
+
+#include "render/cli/stop_signal.hpp"
+#include "render/cli/together.hpp"
+#include "render/draw/camera_path.hpp"
+#include "render/film/side_by_side_drawer.hpp"
+
+namespace grainreel {
+
+namespace {
+
+bool go_on() {
+    return stop_signal() == 0;
+}
+
+}  // namespace
+
+CompareRun::CompareRun(const Options& options, Reporter& reporter, Comparison all)
+    : FilmRun(options, reporter), all_(std::move(all)) {
+    threads_ = all_.threads;
+    make_folder({all_.film.name, options.base, options.out, options.force});
+}
+
+void CompareRun::begin() {
+    for (const auto& source : all_.sources) {
+        record_.panels.push_back(source->place());
+        if (dynamic_cast<const RecordedPanel*>(source.get()) != nullptr)
+            record_.drawn.push_back({source->place(), static_cast<std::int64_t>(all_.instants.size()),
+                                     all_.instants.front().time, all_.instants.back().time});
+    }
+    begin_record(all_.warnings);
+    for (const auto& source : all_.sources) source->begin(folder_->path(), options_.command);
+}
+
+bool CompareRun::work() {
+    begin();
+    Frames frames(all_.sources.size());
+    if (!for_all(Progress::Stage::growing, frames,
+                 [](ComparePanel& panel, FramePtr&) { return panel.pack(go_on); }))
+        return false;
+    begun_ = true;
+    const std::vector<FilmSegment>& segments = all_.film.film.segments;
+    for (const auto& source : all_.sources) source->start(all_.instants, segments);
+    pictures_planned_ = static_cast<std::int64_t>(all_.instants.size());
+    for (Panel& panel : all_.panels)
+        settle_orbit(panel.scene.film.camera, static_cast<double>(pictures_planned_) / all_.film.film.rate);
+    open_film(all_.film,
+              side_by_side_drawer(all_.panels, all_.film.film, threads_.raster, options_.gl, all_.reference));
+    stage_ = Stopwatch();
+    const Drive& drive = all_.panels[all_.reference].scene.drive;
+    for (const Instant& instant : all_.instants) {
+        const auto next = [](ComparePanel& panel, FramePtr& frame) {
+            frame = panel.next(go_on);
+            return frame != nullptr;
+        };
+        if (!for_all(Progress::Stage::vibrating, frames, next)) return false;
+        const auto timer = times_.during("waiting for the film");
+        film_->take(frames, playback_caption(segments.at(static_cast<std::size_t>(instant.segment)), drive,
+                                             all_.film.film.rate));
+    }
+    return for_all(Progress::Stage::vibrating, frames,
+                   [](ComparePanel& panel, FramePtr&) { return panel.finish(go_on); });
+}
+
+bool CompareRun::for_all(Progress::Stage stage, Frames& frames, const Work& work) {
+    const auto timer = times_.during(stage == Progress::Stage::growing ? "packing" : "engine");
+    std::atomic<bool> all_well = true;
+    std::vector<std::function<void()>> works;
+    for (std::size_t i = 0; i < all_.sources.size(); ++i)
+        works.push_back([&, i] {
+            if (!work(*all_.sources[i], frames[i])) all_well = false;
+        });
+    run_together(works, [&] { show_progress(stage); });
+    show_progress(stage);
+    return all_well;
+}
+
+void CompareRun::show_progress(Progress::Stage stage) {
+    Progress progress;
+    progress.stage = stage;
+    for (const auto& source : all_.sources) {
+        progress.done += source->done() / static_cast<double>(all_.sources.size());
+        progress.particle_steps_per_second += source->speed();
+    }
+    progress.end = all_.instants.back().time;
+    progress.time = progress.done * progress.end;
+    progress.frames = film_ ? film_->frames_done() : 0;
+    progress.frames_planned = pictures_planned_;
+    progress.elapsed = watch_.seconds();
+    const double seconds = stage_.seconds();
+    if (stage == Progress::Stage::vibrating && progress.done > 0 && seconds > 1)
+        progress.remaining = seconds * (1 - progress.done) / progress.done;
+    reporter_.progress(progress);
+}
+
+void CompareRun::close_state() {
+    const bool stopped = stop_signal() != 0;
+    const RunStatus status = failure_.any() ? RunStatus::failed
+                             : stopped      ? RunStatus::interrupted
+                                            : RunStatus::complete;
+    for (const auto& source : all_.sources)
+        source->close(status, failure_.any() ? 1 : stopped ? 128 + stop_signal() : 0, failure_);
+}
+
+std::string CompareRun::stopped_text() const {
+    return fmt::format("stopped at frame {} of {}", film_report_.frames, pictures_planned_);
+}
+
+void CompareRun::report_written() {
+    std::vector<std::string> folders;
+    for (const auto& source : all_.sources)
+        if (dynamic_cast<const LivePanel*>(source.get()) != nullptr) folders.push_back(source->place() + "/");
+    const std::string runs =
+        folders.empty() ? "" : fmt::format("{} (each a run), ", fmt::join(folders, ", "));
+    reporter_.info(
+        fmt::format("wrote {}: {}{}run.json, log.txt", folder_->path().string(), film_files_text(), runs));
+    reporter_.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s", duration_text(watch_.seconds()),
+                               all_.sources.size(), all_.instants.front().time, all_.instants.back().time));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,27 @@
+// A part of a picture on which Cairo writes.
+#pragma once
+
+#include <cairo.h>
+
+#include <memory>
+
+#include "render/draw/picture.hpp"
+#include "render/draw/view.hpp"
+
+namespace grainreel {
+
+struct CairoDestroy {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+using CairoSurface = std::unique_ptr<cairo_surface_t, CairoDestroy>;
+using CairoContext = std::unique_ptr<cairo_t, CairoDestroy>;
+
+// As large as the part, all of one colour.
+CairoSurface blank_surface(const Rectangle& part, const Colour& colour);
+void fill_surface(cairo_t* on, const Colour& colour);
+
+// Puts a surface where `to` lies in the picture; they have the same size.
+void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture);
+
+}  // namespace grainreel

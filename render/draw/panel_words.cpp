@@ -1,0 +1,125 @@
+#include "render/draw/panel_words.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "render/draw/captions.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double longest_bar = 0.14;  // of the picture's width
+
+// Only what holds for all panels; the rest is in their captions.
+TextSize common_drive(const Writer& writer, const Scene& scene, const Common& common, double x, double y) {
+    std::vector<std::string> lines;
+    if (common.frequency) lines.push_back("f = " + frequency_text(scene.drive.frequency));
+    if (common.g_level) lines.push_back(fmt::format("Γ = {:.3g}", scene.drive.g_level(scene.gravity.norm())));
+    if (common.amplitude) lines.push_back("a = " + length_text(scene.drive.amplitude));
+    TextSize size;
+    for (const std::string& line : lines) {
+        const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
+        size = {std::max(size.width, part.width), size.height + part.height};
+    }
+    return size;
+}
+
+WordBlock dial(const Writer& measure, const Drive& drive) {
+    const double radius = 2.2 * measure.type.main;
+    return {dial_block(measure, drive, nullptr, radius, 0, 0), true,
+            [drive, radius](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+                dial_block(on, drive, nullptr, radius, x, y);
+                dial_block(on, drive, &frame, radius, x, y);
+            }};
+}
+
+WordBlock playback_block(const Writer& measure) {
+    const double wrap = 13 * measure.type.minor;
+    const TextSize line = measure.write(0, 0, "1 frame", measure.minor(), measure.palette.faint_ink);
+    return {{wrap, 3 * line.height},
+            true,
+            [wrap](const Writer& on, double x, double y, const Frame& frame, const std::string& playback) {
+                on.write(x, y, playback_text(frame, playback), on.minor(), on.palette.faint_ink, wrap, 3);
+            }};
+}
+
+}  // namespace
+
+std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
+                                     const Common& common, double scale, double width) {
+    Scene scene = panels.front().scene;
+    scene.drive.present = common.clock;
+    std::vector<WordBlock> blocks;
+    blocks.push_back({clock_block(measure, scene, widest_frame(), 0, 0), true,
+                      [scene](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+                          clock_block(on, scene, frame, x, y);
+                      }});
+    if (common.clock) blocks.push_back(dial(measure, scene.drive));
+    if (common.frequency || common.g_level || common.amplitude) {
+        blocks.push_back({common_drive(measure, scene, common, 0, 0), false,
+                          [scene, common](const Writer& on, double x, double y, const Frame&,
+                                          const std::string&) { common_drive(on, scene, common, x, y); }});
+    }
+    blocks.push_back(playback_block(measure));
+    if (common.species) {
+        blocks.push_back({legend_block(measure, scene, 0, 0, 0), false,
+                          [scene](const Writer& on, double x, double y, const Frame&, const std::string&) {
+                              legend_block(on, scene, x, y, 0);
+                          }});
+    }
+    if (scale > 0) {
+        // As wide as it may get: the row it stands in must not depend on the scale.
+        const double longest = longest_bar * width;
+        blocks.push_back({{longest, scale_block(measure, scale, 0, 0, longest).height},
+                          false,
+                          [scale, longest](const Writer& on, double x, double y, const Frame&,
+                                           const std::string&) { scale_block(on, scale, x, y, longest); }});
+    }
+    return blocks;
+}
+
+double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width) {
+    const double inner = width - 2 * type.margin, gap = 2 * type.gap;
+    double y = 0.5 * type.margin;
+    for (std::size_t first = 0; first < blocks.size();) {
+        double used = blocks[first].size.width, height = blocks[first].size.height;
+        std::size_t next = first + 1;
+        for (; next < blocks.size() && used + gap + blocks[next].size.width <= inner; ++next) {
+            used += gap + blocks[next].size.width;
+            height = std::max(height, blocks[next].size.height);
+        }
+        // The row stands in the middle, its blocks a little apart where there is room.
+        const auto gaps = static_cast<double>(next - first - 1);
+        const double more = gaps > 0 ? std::min((inner - used) / gaps, 3 * type.main) : 0;
+        double x = type.margin + 0.5 * (inner - used - gaps * more);
+        for (; first < next; ++first) {
+            blocks[first].x = x;
+            blocks[first].y = y;
+            x += blocks[first].size.width + gap + more;
+        }
+        y += height + type.gap;
+    }
+    return y - type.gap + 0.5 * type.margin;
+}
+
+double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common) {
+    if (common.species) return 0;
+    double height = 0;
+    for (const Panel& panel : panels)
+        height = std::max(height, legend_block(measure, panel.scene, 0, 0, 0).height);
+    return height;
+}
+
+void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, double width) {
+    const Writer measure{nullptr, writer.type, writer.palette};
+    const double longest = 0.3 * width, gap = 3 * writer.type.gap;
+    const TextSize legend = common.species ? TextSize{} : legend_block(measure, panel.scene, 0, 0, 0);
+    const TextSize bar = scale > 0 ? scale_block(measure, scale, 0, 0, longest) : TextSize{};
+    const double both = legend.width + bar.width + (legend.width > 0 && bar.width > 0 ? gap : 0);
+    const double x = 0.5 * (width - both);
+    if (!common.species) legend_block(writer, panel.scene, x, 0, 0);
+    if (scale > 0) scale_block(writer, scale, x + both - bar.width, 0, longest);
+}
+
+}  // namespace grainreel

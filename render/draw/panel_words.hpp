@@ -1,0 +1,36 @@
+// The words around panels that stand side by side: blocks that flow in rows, some of which change with time.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "render/draw/panels.hpp"
+#include "render/draw/picture.hpp"
+#include "render/draw/writer.hpp"
+
+namespace grainreel {
+
+struct WordBlock {
+    using Draw =
+        std::function<void(const Writer&, double x, double y, const Frame&, const std::string& playback)>;
+    TextSize size;
+    bool changes = false;
+    Draw draw;
+    double x = 0, y = 0;  // pixels, of the top left corner; where flow() has put it
+};
+
+// Clock, dial, playback, drive, legend and scale bar, as far as they are common.
+// scale: pixels a metre; 0 for no bar.
+std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
+                                     const Common& common, double scale, double width);
+
+// Puts blocks in rows across the width; returns the height they take, margins included.
+double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width);
+
+// Height of a legend and a scale bar that belong to one panel alone.
+double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common);
+void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, double width);
+
+}  // namespace grainreel

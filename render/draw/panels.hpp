@@ -1,0 +1,51 @@
+// Several scenes beside each other in one picture: what they have in common, where each goes, and how large
+// a metre is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "render/draw/layout.hpp"
+
+namespace grainreel {
+
+struct Panel {
+    Scene scene;  // with its own camera; of its film nothing else counts
+    std::string caption;
+};
+
+// What is the same in all panels, and so is said once.
+struct Common {
+    bool clock = true;  // one frequency, phase and ramp: one dial shows all cycles
+    bool frequency = true, g_level = true, amplitude = true;  // of drives that all have
+    bool species = true;
+};
+Common common_of(const std::vector<Panel>& panels);
+
+// What tells the scenes apart, shortest first: frequency, g level or amplitude of their drives; or their
+// titles; or their names.
+std::vector<std::string> captions_of(const std::vector<Scene>& scenes);
+
+struct PanelLayout {
+    struct Place {
+        Rectangle caption, port, foot;  // foot: of no height when all is said below
+        double zoom = 1;                // of the panel's camera
+        int row = 0;
+    };
+    std::vector<Place> places;  // in rows from the top; empty when the picture is too small for them
+    Rectangle top, bottom;      // title; clock, legend, scale
+    double scale = 0;           // pixels a metre, in the middle of every panel; 0: each has its own
+};
+
+constexpr int least_panel = 64;  // pixels, either way
+
+// Columns and rows are chosen so that the grains become as large as can be. Containers of which one would be
+// too small to see at the others' scale get a scale of their own each.
+// top, bottom, caption, foot: pixels, the heights of what is written there.
+struct WordHeights {
+    double top = 0, bottom = 0, caption = 0, foot = 0;
+};
+PanelLayout plan_panels(const std::vector<Panel>& panels, const Film& film, const WordHeights& words);
+
+}  // namespace grainreel

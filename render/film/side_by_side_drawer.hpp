@@ -1,0 +1,15 @@
+// A film's drawer whose pictures show several scenes beside each other.
+#pragma once
+
+#include <vector>
+
+#include "render/draw/side_by_side.hpp"
+#include "render/film/film_maker.hpp"
+
+namespace grainreel {
+
+// film: size, title and background of the whole. clock: the panel whose time is shown.
+DrawerMaker side_by_side_drawer(const std::vector<Panel>& panels, const Film& film, int raster_threads,
+                                gl::Provider provider, std::size_t clock);
+
+}  // namespace grainreel

@@ -1,0 +1,166 @@
+// `grainreel compare` from the outside: several scenes in one film.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/output/trajectory.hpp"
+#include "engine/start/grain_table.hpp"
+#include "tests/cli/film_length.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+
+nlohmann::json record_of(const fs::path& run) {
+    return nlohmann::json::parse(text_of(run / "run.json"));
+}
+
+class CompareProgram : public testing::Test {
+  protected:
+    CompareProgram() {
+        write("weak.toml", "g_level = 1.2");
+        write("strong.toml", "g_level = 3");
+    }
+    void write(const std::string& name, const std::string& level, const std::string& duration = "0.2 s") {
+        std::string text = small_scene_text;
+        text.replace(text.find("g_level = 2"), 11, level);
+        text.replace(text.find("0.2 s"), 5, duration);
+        text.replace(text.find("160x120"), 7, "480x270");
+        write_text(here / name, text);
+    }
+    Ended program(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
+
+    TemporaryFolder here;
+};
+
+// 0.2 s at half speed and 30 frames a second: one frame every 1/60 s, both ends.
+constexpr int frames_of_film = 13;
+
+TEST_F(CompareProgram, FilmsScenesInStepAndKeepsTheirRuns) {
+    const Ended ended = program({"compare", "weak.toml", "strong.toml", "--frames"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, "output/weak-vs-strong\n");
+    const fs::path all = here / "output/weak-vs-strong";
+    EXPECT_EQ(decoded_pictures(all / "movie.mp4"), frames_of_film);
+    // IHDR: width and height, big-endian.
+    EXPECT_EQ(text_of(all / "frames/000000.png").substr(16, 8), std::string("\0\0\x1\xe0\0\0\x1\x0e", 8));
+    const nlohmann::json record = record_of(all);
+    EXPECT_EQ(record["status"], "complete");
+    EXPECT_THAT(record["panels"], testing::ElementsAre("weak", "strong"));
+    EXPECT_EQ(record["written"]["film_frames"], frames_of_film);
+    for (const std::string name : {"weak", "strong"}) {
+        // What the same scene gives by itself, to the bit.
+        ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);
+        EXPECT_EQ(record_of(all / name)["engine"]["state_hash"],
+                  record_of(here / name)["engine"]["state_hash"]);
+        EXPECT_EQ(record_of(all / name)["status"], "complete");
+        EXPECT_EQ(text_of(all / name / "final.csv"), text_of(here / name / "final.csv"));
+        EXPECT_EQ(text_of(all / name / "measures.csv"), text_of(here / name / "measures.csv"));
+        EXPECT_TRUE(text_of(all / name / "trajectory.nc") == text_of(here / name / "trajectory.nc"));
+    }
+}
+
+TEST_F(CompareProgram, TakesFinishedRunsToo) {
+    for (const std::string name : {"weak", "strong"})
+        ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);
+    const Ended runs = program({"compare", "weak", "strong", "--out", "runs"});
+    EXPECT_EQ(runs.status, 0) << runs.err;
+    EXPECT_EQ(decoded_pictures(here / "runs/movie.mp4"), 5);  // 0.2 s at 20 Hz, one a period
+    const nlohmann::json record = record_of(here / "runs");
+    EXPECT_EQ(record["drawn"].size(), 2u);
+    EXPECT_TRUE(record["engine"].is_null());
+    // Mixed: the scene follows the moments of the run. The same scene either way: the same film.
+    ASSERT_EQ(program({"compare", "weak", "strong.toml", "--out", "mixed", "--frames"}).status, 0);
+    ASSERT_EQ(program({"compare", "weak", "strong", "--out", "again", "--frames"}).status, 0);
+    EXPECT_TRUE(fs::exists(here / "mixed/strong/trajectory.nc"));
+    for (const char* frame : {"frames/000000.png", "frames/000004.png"}) {
+        const auto pixels = [&](const char* folder) {
+            const std::string text = text_of(here / folder / frame);
+            return text.substr(text.find("IDAT"));
+        };
+        EXPECT_TRUE(pixels("mixed") == pixels("again")) << frame;
+    }
+}
+
+TEST_F(CompareProgram, AllEndWithTheShortest) {
+    write("long.toml", "g_level = 2", "0.3 s");
+    const Ended ended = program({"compare", "long.toml", "weak.toml", "--out", "both"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("all are run and shown for 0.2 s"));
+    EXPECT_EQ(decoded_pictures(here / "both/movie.mp4"), frames_of_film);
+    EXPECT_NEAR(record_of(here / "both/long")["engine"]["simulated_s"].get<double>(), 0.2, 1e-4);
+}
+
+TEST_F(CompareProgram, ForceReplacesAComparison) {
+    const std::vector<std::string> words = {"compare", "weak.toml", "weak.toml",  "--out",
+                                            "both",    "--force",   "--captions", "one|two"};
+    ASSERT_EQ(program(words).status, 0);
+    EXPECT_TRUE(fs::exists(here / "both/weak-2/final.csv"));
+    const Ended again = program(words);
+    EXPECT_EQ(again.status, 0) << again.err;
+    write_text(here / "both/weak-2/mine.txt", "mine");
+    const Ended refused = program(words);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--out both: holds weak-2/mine.txt"));
+}
+
+TEST_F(CompareProgram, CtrlCLeavesAFilmThatPlaysAndTheRuns) {
+    Program compare({"compare", "weak.toml", "strong.toml", "--duration", "3600 s", "--out", "both"},
+                    {here.path(), {}});
+    ASSERT_TRUE(wait_until(compare, [&] { return decoded_pictures(here / "both/movie.mp4") >= 10; }));
+    compare.send(SIGINT);
+    const Ended ended = compare.wait();
+    EXPECT_EQ(ended.status, 130) << ended.err;
+    const nlohmann::json record = record_of(here / "both");
+    EXPECT_EQ(record["status"], "interrupted");
+    EXPECT_EQ(decoded_pictures(here / "both/movie.mp4"), record["written"]["film_frames"].get<int>());
+    for (const char* name : {"both/weak", "both/strong"}) {
+        EXPECT_EQ(record_of(here / name)["status"], "interrupted");
+        EXPECT_EQ(read_grain_table(here / name / "final.csv").size(), 50u);
+        EXPECT_GT(TrajectoryReader(here / name / "trajectory.nc").frames(), 0u);
+    }
+}
+
+// Exit status 2, one line that says what is wrong, and nothing on disk.
+TEST_F(CompareProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
+    write_text(here / "broken.toml", "title = \n");
+    write("full.toml", "g_level = 3");
+    ASSERT_EQ(program({"movie", "weak.toml", "--no-film", "--out", "run"}).status, 0);
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"compare"}, "SCENE"},
+        {{"compare", "weak.toml"}, "SCENE"},
+        {{"compare", "weak.toml", "missing.toml"}, "missing.toml: "},
+        {{"compare", "weak.toml", "broken.toml"}, "broken.toml:1:"},
+        {{"compare", "run", "here"}, "here: "},
+        {{"compare", "weak.toml", "strong.toml", "--set", "run.durration=1"}, "durration"},
+        {{"compare", "weak.toml", "strong.toml", "--set", "species.small.count=100000"}, "more than"},
+        {{"compare", "weak.toml", "strong.toml", "--set", "species.big.diameter=25 mm"}, "diameter"},
+        {{"compare", "weak.toml", "strong.toml", "--captions", "a|b|c"}, "--captions: has 3 parts"},
+        {{"compare", "weak.toml", "strong.toml", "--size", "64x64"},
+         "--size: 64x64 is too small for 2 panels"},
+        {{"compare", "weak.toml", "strong.toml", "--no-film"}, "--no-film"},
+        {{"compare", "run", "weak.toml", "--duration", "1 s"}, "the run is over"},
+        {{"compare", "weak.toml", "strong.toml", "--out", "run"}, "--out run: exists already"},
+    };
+    const auto entries = std::distance(fs::directory_iterator(here.path()), {});
+    for (const auto& [words, part] : cases) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 2) << testing::PrintToString(words) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(part)) << testing::PrintToString(words);
+        EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+        EXPECT_EQ(ended.out, "");
+        EXPECT_EQ(std::distance(fs::directory_iterator(here.path()), {}), entries)
+            << testing::PrintToString(words);
+    }
+}
+
+}  // namespace
+}  // namespace grainreel
