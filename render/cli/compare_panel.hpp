@@ -65,7 +65,7 @@ class RecordedPanel final : public ComparePanel {
         : run_(folder, sets) {}
     const Scene& scene() const override { return run_.scene(); }
     const FinishedRun& run() const { return run_; }
-    std::string place() const override { return run_.folder().string(); }
+    std::string place() const override { return std::filesystem::absolute(run_.folder()).string(); }
     void begin(const std::filesystem::path&, const std::string&) override {}
     bool pack(const SceneRun::GoOn&) override { return true; }
     void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;

@@ -99,12 +99,7 @@ void CompareRun::show_progress(Progress::Stage stage) {
 }
 
 void CompareRun::close_state() {
-    const bool stopped = stop_signal() != 0;
-    const RunStatus status = failure_.any() ? RunStatus::failed
-                             : stopped      ? RunStatus::interrupted
-                                            : RunStatus::complete;
-    for (const auto& source : all_.sources)
-        source->close(status, failure_.any() ? 1 : stopped ? 128 + stop_signal() : 0, failure_);
+    for (const auto& source : all_.sources) source->close(record_.status, *record_.exit_status, failure_);
 }
 
 std::string CompareRun::stopped_text() const {

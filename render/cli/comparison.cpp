@@ -184,6 +184,10 @@ void make_panels(const Options& options, Comparison& all) {
                         "as in \"Γ = 1|Γ = 3\"",
                         captions.size(), scenes.size()));
     for (std::size_t i = 0; i < scenes.size(); ++i) all.panels.push_back({scenes[i], captions[i]});
+    if (!common_of(all.panels).exaggerated)  // then each panel has to say so
+        for (Panel& panel : all.panels)
+            if (panel.scene.film.exaggerate != 1)
+                panel.caption += fmt::format(", wall motion drawn {:.3g}×", panel.scene.film.exaggerate);
     if (layout_of(all.panels, all.film.film).places.empty())
         throw UserError(fmt::format("--size: {}x{} is too small for {} panels; make it larger",
                                     all.film.film.width, all.film.film.height, scenes.size()));

@@ -54,15 +54,20 @@ int FilmRun::run() {
     if (stopped)
         reporter_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
     close_film();
+    settle_status(stopped);
     close_state();
-    record_.status = failure_.any() ? RunStatus::failed
-                     : stopped      ? RunStatus::interrupted
-                                    : RunStatus::complete;
-    record_.exit_status = failure_.any() ? 1 : stopped ? signal_base + stop_signal() : 0;
+    settle_status(stopped);
     close_record();
     report_end();
     std::printf("%s\n", folder_->path().c_str());
     return *record_.exit_status;
+}
+
+void FilmRun::settle_status(bool stopped) {
+    record_.status = failure_.any() ? RunStatus::failed
+                     : stopped      ? RunStatus::interrupted
+                                    : RunStatus::complete;
+    record_.exit_status = failure_.any() ? 1 : stopped ? signal_base + stop_signal() : 0;
 }
 
 void FilmRun::begin_record(const std::vector<std::string>& warnings) {

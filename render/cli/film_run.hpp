@@ -36,7 +36,8 @@ class FilmRun {
 
     // The work itself, between the made folder and the closed film; false when asked to stop.
     virtual bool work() = 0;
-    // After the film, whatever happened: what else is to be kept, and what the record says of it.
+    // After the film, whatever happened: what else is to be kept, and what the record says of it. By then the
+    // record has its status.
     virtual void close_state() {}
     virtual std::string stopped_text() const = 0;  // "stopped at 0.10 of 0.20 s"
     virtual void report_written() = 0;             // that which went well
@@ -66,6 +67,7 @@ class FilmRun {
 
   private:
     void close_film();
+    void settle_status(bool stopped);
     void close_record();
     void report_end();
 };

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/cli/redraw_run.hpp"
+#include "render/draw/camera_path.hpp"
 #include "render/draw/renderer.hpp"
 #include "render/film/picture_files.hpp"
 
@@ -47,10 +48,14 @@ int draw_still(const Options& options, Reporter& reporter, const FinishedRun& ru
     const Frame frame = run.trajectory().read(index);
     if (options.out) check_free(*options.out, options.force);
     const fs::path path = options.out ? *options.out : free_name(run, frame.time);
-    Renderer renderer(run.scene(), drawing_threads(run.scene().run.threads).raster, options.gl);
+    // A camera that moves is where it would be in the film of all the run's frames.
+    Scene scene = run.scene();
+    const auto seconds = [&](std::size_t frames) { return static_cast<double>(frames) / scene.film.rate; };
+    settle_orbit(scene.film.camera, seconds(run.trajectory().frames()));
+    Renderer renderer(scene, drawing_threads(run.scene().run.threads).raster, options.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) reporter.info(note);
     const std::string& title = run.scene().film.title;
-    write_png(path, renderer.draw(frame, ""), texts_of(run.scene().name, title, frame, ""));
+    write_png(path, renderer.draw(frame, "", seconds(index)), texts_of(run.scene().name, title, frame, ""));
     reporter.info(fmt::format("wrote {}: frame {} of {}, at {:.6g} s", path.string(), index + 1,
                               run.trajectory().frames(), frame.time));
     std::printf("%s\n", path.c_str());

@@ -182,8 +182,15 @@ TextSize drive_block(const Writer& writer, const Scene& scene, double x, double 
     }
     if (scene.film.exaggerate == 1) return size;
     size.height += 0.5 * writer.type.gap;
+    const TextSize note = exaggeration_block(writer, scene.film, x, y + size.height);
+    return {std::max(size.width, note.width), size.height + note.height};
+}
+
+TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y) {
+    TextSize size;
+    if (film.exaggerate == 1) return size;
     for (const std::string& line :
-         {std::string("wall motion"), fmt::format("drawn {:.3g}×", scene.film.exaggerate)}) {
+         {std::string("wall motion"), fmt::format("drawn {:.3g}×", film.exaggerate)}) {
         const TextSize part =
             writer.write(x, y + size.height, line, {writer.type.minor, true}, writer.palette.accent);
         size = {std::max(size.width, part.width), size.height + part.height};

@@ -61,6 +61,11 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
                           [scene, common](const Writer& on, double x, double y, const Frame&,
                                           const std::string&) { common_drive(on, scene, common, x, y); }});
     }
+    if (common.exaggerated && scene.film.exaggerate != 1) {
+        blocks.push_back({exaggeration_block(measure, scene.film, 0, 0), false,
+                          [film = scene.film](const Writer& on, double x, double y, const Frame&,
+                                              const std::string&) { exaggeration_block(on, film, x, y); }});
+    }
     blocks.push_back(playback_block(measure));
     if (common.species) {
         blocks.push_back({legend_block(measure, scene, 0, 0, 0), false,

@@ -158,6 +158,7 @@ Common common_of(const std::vector<Panel>& panels) {
         common.g_level = common.g_level && driven && std::isfinite(g_level(scene)) &&
                          close(g_level(scene), g_level(first));
         common.amplitude = common.amplitude && driven && close(scene.drive.amplitude, first.drive.amplitude);
+        common.exaggerated = common.exaggerated && scene.film.exaggerate == first.film.exaggerate;
         common.species =
             common.species && std::equal(scene.species.begin(), scene.species.end(), first.species.begin(),
                                          first.species.end(), same_species);

@@ -20,6 +20,7 @@ struct Common {
     bool clock = true;  // one frequency, phase and ramp: one dial shows all cycles
     bool frequency = true, g_level = true, amplitude = true;  // of drives that all have
     bool species = true;
+    bool exaggerated = true;  // by one factor
 };
 Common common_of(const std::vector<Panel>& panels);
 

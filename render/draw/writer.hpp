@@ -41,6 +41,8 @@ TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view
 TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, double x, double y);
 // f, Gamma and amplitude, and by how much the motion is exaggerated.
 TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y);
+// The last of these alone; nothing while motion is drawn as it is.
+TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y);
 // A hand that turns once a period, and beside it where in its stroke the floor is; without `frame` only the
 // still part.
 TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
