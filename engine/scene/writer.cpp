@@ -260,7 +260,8 @@ void write_film(SceneText& out, const Film& film) {
     out.whole("quality", film.quality);
     out.words("preset", film.preset);
     out.words("background", colour_text(film.background));
-    out.flag("axes", film.axes);
+    // Else as the camera moves, also when a finished run is drawn again with another camera.
+    if (film.axes != film.camera.moves()) out.flag("axes", film.axes);
     out.flag("wall_ghost", film.wall_ghost);
     out.put("exaggerate", film.exaggerate);
     write_camera(out, film.camera);

@@ -212,41 +212,55 @@ TEST(CameraPath, APlaceOfItsOwn) {
     EXPECT_NEAR((aimed.project(*camera.target) - middle_of(aimed)).norm(), 0, 1e-9);
 }
 
-// How much of the picture changes from one azimuth to the next, a quarter of a degree on.
-std::vector<double> changes(Renderer& renderer, const Scene& scene, double from, double to) {
+// How much of the picture changes from one moment to the next.
+std::vector<double> changes(Renderer& renderer, const Scene& scene, double from, double to, double step) {
     const Rectangle port = plan_layout(scene).port;
-    std::vector<double> steps;
+    std::vector<double> sums;
     Picture last;
-    for (double azimuth = from; azimuth <= to; azimuth += 0.25) {
-        const Picture& now = renderer.draw(frame_of({}), "", azimuth - scene.film.camera.azimuth);
+    for (double time = from; time <= to; time += step) {
+        const Picture& now = renderer.draw(frame_of({}), "", time);
         double sum = 0;
         for (int y = port.y; y < port.y + port.height && last.width > 0; ++y)
             for (int x = port.x; x < port.x + port.width; ++x) sum += difference(now, last, x, y);
-        if (last.width > 0) steps.push_back(sum);
+        if (last.width > 0) sums.push_back(sum);
         last = now;
     }
-    return steps;
+    return sums;
 }
 
-// Where the eye crosses the plane of a wall, near and far change places and glass becomes solid: about 8 and
-// 90 degrees. From one step to the next the picture must not change much more than the turn itself changes
-// it.
-TEST(CameraPath, NothingPops) {
+// None may be much larger than those around it: the turn itself changes more at some angles than at others.
+void expect_no_pop(const std::vector<double>& changes, double from, double step) {
+    for (std::size_t i = 4; i + 4 < changes.size(); ++i) {
+        std::vector<double> around(changes.begin() + static_cast<std::ptrdiff_t>(i - 4),
+                                   changes.begin() + static_cast<std::ptrdiff_t>(i + 5));
+        std::nth_element(around.begin(), around.begin() + 4, around.end());
+        EXPECT_LT(changes[i], 1.6 * around[4]) << "at " << from + step * static_cast<double>(i);
+    }
+}
+
+// Where the eye crosses the plane of a wall, near and far change places and glass becomes solid: at azimuths
+// of about 8 and 90 degrees.
+TEST(CameraPath, NothingPopsOnAnOrbit) {
     for (const auto shape : {Container::Shape::wedge, Container::Shape::box, Container::Shape::cylinder}) {
         Scene scene = orbiting(360, 360, 480, 270);  // a degree a second
         scene.container.shape = shape;
         Renderer renderer(scene, 1);
-        for (const double from : {358.0, 440.0}) {
-            const std::vector<double> steps = changes(renderer, scene, from, from + 22);
-            // Against those around it: the turn itself changes more at some angles than at others.
-            for (std::size_t i = 4; i + 4 < steps.size(); ++i) {
-                std::vector<double> around(steps.begin() + static_cast<std::ptrdiff_t>(i - 4),
-                                           steps.begin() + static_cast<std::ptrdiff_t>(i + 5));
-                std::nth_element(around.begin(), around.begin() + 4, around.end());
-                EXPECT_LT(steps[i], 1.6 * around[4])
-                    << "at azimuth " << from - 360 + 0.25 * static_cast<double>(i);
-            }
-        }
+        for (const double from : {338.0, 420.0})
+            expect_no_pop(changes(renderer, scene, from, from + 22, 0.25), from, 0.25);
+    }
+}
+
+// Of the lid, at an elevation of about 6 degrees, and of the floor, at -9.
+TEST(CameraPath, NothingPopsOnTheWayUp) {
+    for (const auto shape : {Container::Shape::box, Container::Shape::cylinder}) {
+        Scene scene = wedge(480, 270);
+        scene.container.shape = shape;
+        scene.film.camera.keys.resize(2);
+        scene.film.camera.keys[0].elevation = -30;
+        scene.film.camera.keys[1].elevation = 50;
+        scene.film.camera.keys[1].time = 80;
+        Renderer renderer(scene, 1);
+        expect_no_pop(changes(renderer, scene, 15, 60, 0.25), 15, 0.25);
     }
 }
 

@@ -52,7 +52,8 @@ TEST(CameraKeys, AreRead) {
 
 TEST(CameraKeys, AreWrittenBack) {
     for (const std::string& text :
-         {keyed, wedge_text + "[film.camera]\norbit = -90\norbit_time = \"3 s\"\ntarget = [0, 0, 0.1]\n",
+         {keyed, wedge_text + "[film]\naxes = true\n",
+          wedge_text + "[film.camera]\norbit = -90\norbit_time = \"3 s\"\ntarget = [0, 0, 0.1]\n",
           wedge_text + "[film.camera]\nposition = [1, 0, 0.25]\norbit = 720\n"}) {
         const Scene scene = read_text(text);
         const Scene back = read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml");
