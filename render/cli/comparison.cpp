@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t most_panels = 6;  // more, and each is too small to see anything in
+
 bool is_run(const fs::path& input) {
     std::error_code ignored;
     return fs::is_directory(input, ignored);
@@ -213,6 +215,10 @@ Scene whole(const std::vector<Scene>& scenes) {
 Comparison read_comparison(const Options& options) {
     if (!options.film && !options.frames)
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
+    if (const std::size_t count = options.compare.inputs.size(); count < 2 || count > most_panels)
+        throw UserError(fmt::format(
+            "compare takes 2 to {} scenes or folders of runs, not {}; see grainreel compare --help",
+            most_panels, count));
     Comparison all;
     make_sources(options, all);
     all.film = whole(scenes_of(all));

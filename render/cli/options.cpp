@@ -199,7 +199,6 @@ void add_compare(CLI::App& app, Options& options) {
         .add_option("SCENE", options.compare.inputs,
                     "Two to six scenes to run, or folders of finished runs to draw from")
         ->required()
-        ->expected(2, 6)
         ->type_name("FILE|DIR");
     compare
         .add_option_function<std::string>(

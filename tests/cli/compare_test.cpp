@@ -99,6 +99,20 @@ TEST_F(CompareProgram, AllEndWithTheShortest) {
     EXPECT_NEAR(record_of(here / "both/long")["engine"]["simulated_s"].get<double>(), 0.2, 1e-4);
 }
 
+// Slow motion finer than the step of one of them: it shows a frame as often as the other needs.
+TEST_F(CompareProgram, ACoarserStepHoldsItsFrames) {
+    for (const std::string step : {"1e-5", "1e-4"}) {
+        write(step + ".toml", "g_level = 2", "0.01 s");
+        std::string text = text_of(here / (step + ".toml"));
+        text.replace(text.find("playback = 0.5"), 14, "playback = 0.0012");  // a frame every 4e-5 s
+        text.replace(text.find("overlap = 0.05"), 14, "step = \"" + step + " s\"");
+        write_text(here / (step + ".toml"), text);
+    }
+    const Ended ended = program({"compare", "1e-5.toml", "1e-4.toml", "--out", "both"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(decoded_pictures(here / "both/movie.mp4"), 251);
+}
+
 TEST_F(CompareProgram, ForceReplacesAComparison) {
     const std::vector<std::string> words = {"compare", "weak.toml", "weak.toml",  "--out",
                                             "both",    "--force",   "--captions", "one|two"};
@@ -135,8 +149,9 @@ TEST_F(CompareProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     write("full.toml", "g_level = 3");
     ASSERT_EQ(program({"movie", "weak.toml", "--no-film", "--out", "run"}).status, 0);
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{"compare"}, "SCENE"},
-        {{"compare", "weak.toml"}, "SCENE"},
+        {{"compare"}, "SCENE is required"},
+        {{"compare", "weak.toml"}, "compare takes 2 to 6 scenes or folders of runs, not 1"},
+        {{"compare", "run", "run", "run", "run", "run", "run", "run"}, "not 7"},
         {{"compare", "weak.toml", "missing.toml"}, "missing.toml: "},
         {{"compare", "weak.toml", "broken.toml"}, "broken.toml:1:"},
         {{"compare", "run", "here"}, "here: "},
