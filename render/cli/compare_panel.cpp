@@ -62,14 +62,17 @@ bool LivePanel::finish(const SceneRun::GoOn& go_on) {
 
 void LivePanel::close(RunStatus status, int exit_status, FirstFailure& failure) {
     if (folder_.empty()) return;
-    run_.close(failure);
+    run_.close(failed_);
     run_.conclude(record_);
-    record_.status = status;
-    record_.exit_status = exit_status;
-    record_.error = failure.what();
+    record_.status = failed_.any()                 ? RunStatus::failed
+                     : status == RunStatus::failed ? RunStatus::interrupted
+                                                   : status;
+    record_.exit_status = failed_.any() ? 1 : exit_status;
+    record_.error = failed_.what();
     record_.finished = utc_now();
     record_.wall_seconds = run_.times().all();
-    failure.attempt([&] { write_run_json(folder_ / "run.json", record_); });
+    failed_.attempt([&] { write_run_json(folder_ / "run.json", record_); });
+    if (failed_.any()) failure.note(failed_.what());
 }
 
 void RecordedPanel::start(const std::vector<Instant>& instants, const std::vector<FilmSegment>&) {

@@ -27,7 +27,9 @@ class ComparePanel {
     virtual void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) = 0;
     virtual FramePtr next(const SceneRun::GoOn& go_on) = 0;  // of the next instant
     virtual bool finish(const SceneRun::GoOn& go_on) = 0;    // what remains of the run after the last
+    // status: of the whole; where another panel has failed, this one was interrupted.
     virtual void close(RunStatus status, int exit_status, FirstFailure& failure) = 0;
+    void note_failure(const std::string& what) { failed_.note(what); }
 
     // Of another thread's work; for the progress line.
     double done() const { return done_; }
@@ -35,6 +37,7 @@ class ComparePanel {
 
   protected:
     std::atomic<double> done_ = 0, speed_ = 0;
+    FirstFailure failed_;  // of this panel's own work
 };
 
 class LivePanel final : public ComparePanel {

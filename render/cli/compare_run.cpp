@@ -73,7 +73,12 @@ bool CompareRun::for_all(Progress::Stage stage, Frames& frames, const Work& work
     std::vector<std::function<void()>> works;
     for (std::size_t i = 0; i < all_.sources.size(); ++i)
         works.push_back([&, i] {
-            if (!work(*all_.sources[i], frames[i])) all_well = false;
+            try {
+                if (!work(*all_.sources[i], frames[i])) all_well = false;
+            } catch (const std::exception& problem) {
+                all_.sources[i]->note_failure(problem.what());
+                throw;
+            }
         });
     run_together(works, [&] { show_progress(stage); });
     show_progress(stage);

@@ -143,6 +143,21 @@ TEST_F(CompareProgram, CtrlCLeavesAFilmThatPlaysAndTheRuns) {
     }
 }
 
+TEST_F(CompareProgram, ASceneThatBlowsUpEndsAllAndSaysWhichItWas) {
+    std::string text = text_of(here / "weak.toml");
+    text.replace(text.find("overlap = 0.05"), 14, "step = \"1.2e-3 s\"");
+    write_text(here / "wild.toml", text);
+    const Ended ended = program({"compare", "weak.toml", "wild.toml", "--out", "both"});
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("take a smaller run.step"));
+    EXPECT_EQ(record_of(here / "both")["status"], "failed");
+    EXPECT_EQ(record_of(here / "both/wild")["status"], "failed");
+    EXPECT_THAT(record_of(here / "both/wild")["error"], HasSubstr("take a smaller run.step"));
+    EXPECT_EQ(record_of(here / "both/weak")["status"], "interrupted");
+    EXPECT_TRUE(record_of(here / "both/weak")["error"].is_null());
+    EXPECT_EQ(read_grain_table(here / "both/weak/final.csv").size(), 50u);
+}
+
 // Exit status 2, one line that says what is wrong, and nothing on disk.
 TEST_F(CompareProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     write_text(here / "broken.toml", "title = \n");
