@@ -76,7 +76,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 
 bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgress& progress) {
     grains = place_in_layers(scene);
-    if (scene.output.orientation) grains.orientation.assign(grains.size(), Quaternion::Identity());
+    if (scene.keeps_orientations()) grains.orientation.assign(grains.size(), Quaternion::Identity());
     const GrowthReport growth =
         grow_radii(scene, plan, around, grains, team, [&](double done, std::int64_t steps) {
             progress.done = done;
@@ -134,7 +134,7 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
         if (m.loop) return result;  // goes on where the file stopped
         check_grains_match(m.scene, m.grains);
         check_grains_fit(m.scene, m.around.faces, m.grains);
-        if (m.scene.output.orientation && m.grains.orientation.empty()) {
+        if (m.scene.keeps_orientations() && m.grains.orientation.empty()) {
             m.grains.orientation.assign(m.grains.size(), Quaternion::Identity());
         }
     }

@@ -316,7 +316,24 @@ void add_film(Keys& keys) {
         "film.preset",
         {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
         literal("\"veryfast\""), "x264's preset: slower makes smaller files."));
-    keys.push_back(entry("film.background", KeyKind::colour, literal("\"#ffffff\""), "As species.colour."));
+    keys.push_back(entry("film.background", KeyKind::colour, note("\"#ffffff\"; \"#12151b\" with dark"),
+                         "As species.colour."));
+    keys.push_back(choice("film.style", all_of(style_words), literal("\"studio\""),
+                          "Of the light: soft shadows; even colours with outlines, for print; for dark rooms."));
+    keys.push_back(entry("film.occlusion", KeyKind::flag, note("true; false with flat"),
+                         "Less light reaches the gaps between grains."));
+    keys.push_back(
+        entry("film.shadows", KeyKind::flag, note("true; false with flat"), "Of grains on other grains."));
+    keys.push_back(entry("film.ground", KeyKind::flag, note("true; false with flat"),
+                         "Under the container, to show its shadow."));
+    keys.push_back(entry("film.rotation", KeyKind::flag, literal("false"),
+                         "Grains are light on one half and dark on the other and so show how they turn."));
+    keys.push_back(entry("film.cut.normal", KeyKind::vector, literal("[1, 0, 0]"),
+                         "Opens the bed along a plane: what lies on this side of it is taken away."));
+    keys.push_back(quantity("film.cut.at", Dimension::length, any, literal("0"),
+                            "Distance of that plane from the origin, along the normal."));
+    keys.push_back(quantity("film.cut.thickness", Dimension::length, positive, note("all behind it"),
+                            "Of the slab behind the plane that is kept."));
     add_film_marks(keys);
     keys.push_back(quantity("film.camera.azimuth", Dimension::degrees, any, literal("20"),
                             "About z; 0 looks along -x at the wide face, positive goes to the right."));

@@ -107,6 +107,7 @@ void read_film(Document& document, Scene& scene) {
     film.title = document.text("film.title").value_or(scene.title);
     film.quality = static_cast<int>(document.integer("film.quality").value_or(film.quality));
     film.preset = document.text("film.preset").value_or(film.preset);
+    read_film_look(document, film);
     if (const auto text = document.text("film.background")) {
         const auto colour = parse_colour(*text);
         if (!colour)

@@ -19,6 +19,7 @@ void read_drive(Document& document, Scene& scene);  // after gravity
 void read_start(Document& document, Scene& scene);
 void read_film(Document& document, Scene& scene);  // after drive and run
 void read_camera(Document& document, Film& film);
+void read_film_look(Document& document, Film& film);
 
 // What can be wrong between keys that are right by themselves. Throws UserError.
 void check_scene(const Scene& scene);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/film_look.hpp"
 
 namespace grainreel {
 
@@ -224,6 +225,7 @@ struct Film {
     std::vector<FilmSegment> segments;
     Camera camera;
     Colour background{1, 1, 1};
+    FilmLook look;
     int quality = 20;  // x264 crf
     std::string preset = "veryfast";
     bool axes = false;        // x, y and z beside the picture
@@ -254,6 +256,7 @@ struct Scene {
     std::string where(const std::string& key) const;
 
     std::int64_t grains() const;  // sum of the counts
+    bool keeps_orientations() const { return output.orientation || film.look.rotation; }
     const PairContact& between(std::size_t a, std::size_t b) const {
         return contact.grain[a * species.size() + b];
     }

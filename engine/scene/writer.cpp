@@ -226,6 +226,19 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     out.flag("contacts", output.contacts);
 }
 
+void write_film_look(SceneText& out, const FilmLook& look) {
+    out.words("style", word_of(look.style, style_words));
+    out.flag("occlusion", look.occlusion);
+    out.flag("shadows", look.shadows);
+    out.flag("ground", look.ground);
+    out.flag("rotation", look.rotation);
+    if (!look.cut.present) return;
+    out.table("film.cut");
+    out.put("normal", vector(look.cut.normal));
+    out.put("at", look.cut.at);
+    if (look.cut.thickness > 0) out.put("thickness", look.cut.thickness);
+}
+
 void write_camera(SceneText& out, const Camera& camera) {
     const auto place = [&](const char* key, const std::optional<Vec3>& point) {
         if (point) out.put(key, vector(*point));
@@ -264,6 +277,7 @@ void write_film(SceneText& out, const Film& film) {
     if (film.axes != film.camera.moves()) out.flag("axes", film.axes);
     out.flag("wall_ghost", film.wall_ghost);
     out.put("exaggerate", film.exaggerate);
+    write_film_look(out, film.look);
     write_camera(out, film.camera);
     for (const FilmSegment& segment : film.segments) {
         out.element("film.segment");

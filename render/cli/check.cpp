@@ -263,7 +263,7 @@ void print_files(const Scene& scene, const Plan& plan, const FilmCost& film, Lis
     const auto grains = static_cast<double>(scene.grains());
     if (plan.trajectory_every > 0) {
         const std::int64_t frames = plan.steps / plan.trajectory_every + 1;
-        const double size = trajectory_bytes + (scene.output.orientation ? orientation_bytes : 0);
+        const double size = trajectory_bytes + (scene.keeps_orientations() ? orientation_bytes : 0);
         list.line("", fmt::format("trajectory {}, {} frames, one every {}",
                                   bytes(static_cast<double>(frames) * grains * size), grouped(frames),
                                   span(plan.clock.time(plan.trajectory_every))));

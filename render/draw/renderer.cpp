@@ -2,11 +2,14 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
+#include <optional>
 
 #include "render/draw/camera_path.hpp"
 #include "render/draw/compose.hpp"
 #include "render/draw/container_drawing.hpp"
 #include "render/draw/exaggeration.hpp"
+#include "render/draw/ground.hpp"
 #include "render/draw/overlay.hpp"
 #include "render/draw/spheres.hpp"
 
@@ -45,12 +48,14 @@ class SideLayer {
           height_(port.height),
           pixels_(static_cast<std::size_t>(port.width) * port.height) {}
 
-    void draw(const ShapePainter& painter, const Shapes& shapes) {
-        if (drawn_ && shapes == last_) return;
+    // first: what changes from frame to frame and goes under the shapes; may be empty.
+    void draw(const ShapePainter& painter, const Shapes& shapes, const std::function<void()>& first) {
+        if (drawn_ && !first && shapes == last_) return;
         drawn_ = true;
         last_ = shapes;
         target_.bind();
         gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
+        if (first) first();
         painter.paint(shapes, width_, height_);
         gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
         stale_ = true;
@@ -94,7 +99,9 @@ struct Renderer::Impl {
           behind(context->gl(), port, opaque(palette.background)),
           before(context->gl(), port, {0, 0, 0, 0}),
           sphere_painter(s, port.width, port.height, raster_threads),
-          picture(s.film.width, s.film.height) {}
+          picture(s.film.width, s.film.height) {
+        if (s.film.look.ground && s.container.shape != Container::Shape::none) ground.emplace(context->gl(), scene);
+    }
 
     Scene scene;
     Palette palette;
@@ -106,6 +113,7 @@ struct Renderer::Impl {
     std::unique_ptr<gl::Context> context;
     ShapePainter shape_painter;
     SideLayer behind, before;
+    std::optional<GroundPainter> ground;
     SpherePainter sphere_painter;
     ContainerShapes shapes;
     Picture picture;
@@ -125,8 +133,9 @@ void Renderer::Impl::draw(const Frame& true_frame, const std::string& playback, 
     const Frame& frame = exaggeration.shown(true_frame);
     const View eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
-    behind.draw(shape_painter, shapes.behind);
-    before.draw(shape_painter, shapes.before);
+    if (ground) ground->update(frame, eye);
+    behind.draw(shape_painter, shapes.behind, ground ? [&] { ground->paint(eye); } : std::function<void()>());
+    before.draw(shape_painter, shapes.before, {});
     watch.lap(&DrawTimes::walls);
     const Layer& grains = draw_grains(eye, frame, watch);
     compose(behind.read(), grains, before.read(), port, picture, sphere_painter.team());

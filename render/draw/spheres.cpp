@@ -2,6 +2,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/draw/palette.hpp"
+#include "render/draw/styles.hpp"
 
 namespace grainreel {
 namespace {
@@ -14,7 +15,7 @@ std::array<float, 3> linear(const Colour& colour) {
 }  // namespace
 
 SpherePainter::SpherePainter(const Scene& scene, int width, int height, int threads)
-    : team_(threads), layer_(width, height) {
+    : team_(threads), layer_(width, height), look_(scene.film.look), lamp_(lamp_of(look_)) {
     for (const Species& species : scene.species) palette_.push_back(linear(species.colour));
 }
 
@@ -32,6 +33,33 @@ void SpherePainter::take(const View& view, const Frame& frame) {
                                static_cast<float>(at.z()), static_cast<float>(frame.radius[i])};
         GRAINREEL_CHECK(static_cast<std::size_t>(frame.species[i]) < palette_.size());
         spheres_.albedo[i] = palette_[static_cast<std::size_t>(frame.species[i])];
+    }
+    open_bed(view, frame);
+    mark_rotation(view, frame);
+}
+
+// The planes of the cut, which go with the container, in view coordinates.
+void SpherePainter::open_bed(const View& view, const Frame& frame) {
+    cut_.planes = 0;
+    if (!look_.cut.present) return;
+    const auto keep = [&](const Vec3& normal, double distance) {
+        cut_.plane[cut_.planes++] = {
+            static_cast<float>(normal.dot(view.right)), static_cast<float>(normal.dot(view.up)),
+            static_cast<float>(normal.dot(view.forward)), static_cast<float>(distance - normal.dot(view.eye))};
+    };
+    const Vec3& normal = look_.cut.normal;
+    const double at = look_.cut.at + normal.dot(frame.floor_offset);
+    keep(-normal, -at);
+    if (look_.cut.thickness > 0) keep(normal, at - look_.cut.thickness);
+}
+
+void SpherePainter::mark_rotation(const View& view, const Frame& frame) {
+    spheres_.poles.clear();
+    if (!look_.rotation || frame.orientation.size() != frame.size()) return;
+    for (const Quaternion& turned : frame.orientation) {
+        const Vec3 pole = turned * Vec3::UnitZ();
+        spheres_.poles.push_back({static_cast<float>(pole.dot(view.right)), static_cast<float>(pole.dot(view.up)),
+                                  static_cast<float>(pole.dot(view.forward))});
     }
 }
 

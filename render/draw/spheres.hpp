@@ -23,14 +23,17 @@ class SpherePainter {
     void find_neighbours();
     const Layer& light();
 
-    Lamp& lamp() { return lamp_; }
     Team& team() { return team_; }
 
   private:
+    void open_bed(const View& view, const Frame& frame);
+    void mark_rotation(const View& view, const Frame& frame);
+
     std::vector<std::array<float, 3>> palette_;  // linear colour by species
     Team team_;
     SphereLayer layer_;
     Spheres spheres_;
+    FilmLook look_;
     Sight sight_;
     Cut cut_;
     Lamp lamp_;

@@ -1,0 +1,29 @@
+// How the pictures of the film are lit, and where the bed is opened.
+#pragma once
+
+#include "engine/base/vector.hpp"
+
+namespace grainreel {
+
+// A plane that opens the bed: grains are kept on the side that its normal points away from, those that it
+// crosses show a flat face. It goes with the container.
+struct FilmCut {
+    bool present = false;
+    Vec3 normal{1, 0, 0};  // unit, towards what is taken away
+    double at = 0;         // m, of the plane from the origin, along the normal
+    double thickness = 0;  // m, of the slab that is kept; 0: all behind the plane
+    bool operator==(const FilmCut&) const = default;
+};
+
+struct FilmLook {
+    enum class Style { studio, flat, dark };
+    Style style = Style::studio;
+    bool occlusion = true;  // darkness between grains
+    bool shadows = true;    // of grains on grains
+    bool ground = true;     // a ground that the container throws its shadow on
+    bool rotation = false;  // two-tone grains that show how they turn; needs orientations
+    FilmCut cut;
+    bool operator==(const FilmLook&) const = default;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,211 @@
+#include "render/draw/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/draw/container_drawing.hpp"
+#include "render/draw/drawing_kit.hpp"
+#include "render/spheres/lamp.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double kLeastRise = 0.25;  // of the key light above the horizon, or shadows would run away
+
+double floor_reach(const Container& container) {
+    const double half_depth =
+        container.shape == Container::Shape::cylinder ? container.half_width : 0.5 * container.depth;
+    return std::hypot(outer_floor_half_width(container), half_depth) + drawn_thickness(container);
+}
+
+}  // namespace
+
+ShadowMap::ShadowMap(const Scene& scene)
+    : container_(scene.container),
+      low_plate_(-1.4 * drawn_thickness(scene.container)),
+      cells_(kSide * kSide),
+      row_(kSide) {
+    const double stroke = scene.drive.present ? scene.drive.amplitude * std::abs(scene.drive.direction.z()) : 0;
+    height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
+}
+
+Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {
+    const Eigen::Vector2d along = to_key.head<2>() / std::max(to_key.z(), kLeastRise);
+    const Eigen::Vector2d at = point.head<2>() - (point.z() - height_) * along;
+    return (at - low_) * (kSide / side_);
+}
+
+// Around the foot and as far as the container's whole height throws.
+void ShadowMap::place(const Vec3& to_key) {
+    const double reach = std::max(floor_reach(container_), std::hypot(container_.half_width, 0.5 * container_.depth));
+    low_ = {0, 0};
+    side_ = kSide;  // one cell a metre: fall() then is in metres
+    const Eigen::Vector2d tip = fall({0, 0, container_.height}, to_key);
+    const Eigen::Vector2d low = tip.cwiseMin(Eigen::Vector2d::Zero()), high = tip.cwiseMax(Eigen::Vector2d::Zero());
+    const Eigen::Vector2d middle = 0.5 * (low + high);
+    side_ = (high - low).maxCoeff() + 2.8 * reach;
+    low_ = middle.array() - 0.5 * side_;
+}
+
+// The floor's plate, dense at its foot.
+void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
+    const double half = outer_floor_half_width(container_), cell = side_ / kSide;
+    const bool round = container_.shape == Container::Shape::cylinder;
+    const double half_depth = round ? half : 0.5 * container_.depth;
+    for (const double z : {low_plate_, 0.5 * low_plate_, 0.0}) {
+        const Eigen::Vector2d at = fall(Vec3(0, 0, z) + frame.floor_offset, to_key);
+        for (int j = 0; j < kSide; ++j)
+            for (int i = 0; i < kSide; ++i) {
+                const double x = (i + 0.5 - at.x()) * cell, y = (j + 0.5 - at.y()) * cell;
+                const double out = round ? std::hypot(x, y) - half
+                                         : std::max(std::abs(x) - half_depth, std::abs(y) - half);
+                const double cover = std::clamp(0.5 - out / cell, 0.0, 1.0);
+                float& taken = cells_[static_cast<std::size_t>(j) * kSide + i];
+                taken = std::max(taken, static_cast<float>(4 * cover));
+            }
+    }
+}
+
+// Each grain as what its disc covers, shared between four cells; optical depths add up.
+void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
+    const double per_area = std::pow(kSide / side_, 2);
+    for (std::size_t g = 0; g < frame.size(); ++g) {
+        const Eigen::Vector2d at = fall(frame.position[g], to_key).array() - 0.5;
+        const Eigen::Vector2d base = at.array().floor();
+        if ((base.array() < 0).any() || (base.array() >= kSide - 1).any()) continue;
+        const Eigen::Vector2d share = at - base;
+        const double depth = std::numbers::pi * frame.radius[g] * frame.radius[g] * per_area;
+        float* cell = &cells_[static_cast<std::size_t>(base.y()) * kSide + static_cast<std::size_t>(base.x())];
+        cell[0] += static_cast<float>(depth * (1 - share.x()) * (1 - share.y()));
+        cell[1] += static_cast<float>(depth * share.x() * (1 - share.y()));
+        cell[kSide] += static_cast<float>(depth * (1 - share.x()) * share.y());
+        cell[kSide + 1] += static_cast<float>(depth * share.x() * share.y());
+    }
+}
+
+// Three box filters after each other, along both axes.
+void ShadowMap::soften() {
+    constexpr int kReach = 2, kTimes = 3;
+    const auto along = [&](std::size_t first, std::size_t step) {
+        for (int i = 0; i < kSide; ++i) {
+            float sum = 0;
+            for (int k = std::max(0, i - kReach); k <= std::min(kSide - 1, i + kReach); ++k) sum += cells_[first + k * step];
+            row_[static_cast<std::size_t>(i)] = sum / (2 * kReach + 1);
+        }
+        for (int i = 0; i < kSide; ++i) cells_[first + i * step] = row_[static_cast<std::size_t>(i)];
+    };
+    for (int time = 0; time < kTimes; ++time)
+        for (std::size_t k = 0; k < kSide; ++k) {
+            along(k * kSide, 1);
+        }
+    for (int time = 0; time < kTimes; ++time)
+        for (std::size_t k = 0; k < kSide; ++k) along(k, kSide);
+}
+
+void ShadowMap::cast(const Frame& frame, const Vec3& to_key) {
+    place(to_key);
+    std::fill(cells_.begin(), cells_.end(), 0.0f);
+    add_grains(frame, to_key);
+    add_plate(frame, to_key);
+    for (float& cell : cells_) cell = 1 - std::exp(-cell);
+    soften();
+}
+
+namespace {
+
+const char* const vertex_source = R"(#version 330 core
+layout(location = 0) in vec4 position;  // clip coordinates
+layout(location = 1) in vec2 place;     // on the map, 0 to 1
+out vec2 at;
+void main() {
+    at = place;
+    gl_Position = position;
+}
+)";
+
+// The map fades towards its rim and towards the rim of the picture, so that no line shows where it ends.
+const char* const fragment_source = R"(#version 330 core
+in vec2 at;
+uniform sampler2D taken;
+uniform vec2 size;
+uniform float strength;
+out vec4 result;
+void main() {
+    vec2 cell = at * SIDE - 0.5, low = floor(cell), share = cell - low;
+    ivec2 first = clamp(ivec2(low), ivec2(0), ivec2(SIDE - 2));
+    vec4 four = vec4(texelFetch(taken, first, 0).x, texelFetch(taken, first + ivec2(1, 0), 0).x,
+                     texelFetch(taken, first + ivec2(0, 1), 0).x, texelFetch(taken, first + ivec2(1, 1), 0).x);
+    vec2 two = mix(four.xy, four.zw, share.y);
+    vec2 rim = smoothstep(0.0, 0.10, at) * smoothstep(0.0, 0.10, 1.0 - at);
+    vec2 margin = min(gl_FragCoord.xy, size - gl_FragCoord.xy) / size.y;
+    vec2 inside = smoothstep(0.0, 0.08, margin);
+    result = vec4(0.0, 0.0, 0.0, strength * mix(two.x, two.y, share.x) * rim.x * rim.y * inside.x * inside.y);
+}
+)";
+
+std::string with_side(const std::string& source) {
+    const std::string first = source.substr(0, source.find('\n') + 1);
+    return first + "#define SIDE " + std::to_string(ShadowMap::kSide) + "\n" + source.substr(first.size());
+}
+
+}  // namespace
+
+GroundPainter::GroundPainter(const gl::Functions& gl, const Scene& scene)
+    : gl_(gl),
+      map_(scene),
+      program_(gl, "ground", vertex_source, with_side(fragment_source)),
+      array_(gl),
+      corners_(gl),
+      texture_(gl, ShadowMap::kSide, ShadowMap::kSide, {GL_R8, GL_RED, GL_UNSIGNED_BYTE}),
+      strength_(scene.film.look.style == FilmLook::Style::dark ? 0.75f : 0.36f),
+      bytes_(ShadowMap::kSide * ShadowMap::kSide) {
+    array_.bind();
+    corners_.bind();
+    for (const GLuint attribute : {0u, 1u}) {
+        gl_.EnableVertexAttribArray(attribute);
+        gl_.VertexAttribPointer(attribute, attribute == 0 ? 4 : 2, GL_FLOAT, GL_FALSE, 6 * sizeof(float),
+                                reinterpret_cast<const void*>(attribute * 4 * sizeof(float)));
+    }
+}
+
+void GroundPainter::update(const Frame& frame, const View& view) {
+    const Lamp lamp;
+    const Vec3 to_key = lamp.to_key[0] * view.right + lamp.to_key[1] * view.up + lamp.to_key[2] * view.forward;
+    map_.cast(frame, to_key);
+    for (std::size_t i = 0; i < bytes_.size(); ++i)
+        bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * map_.cells()[i]));
+    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
+    gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, ShadowMap::kSide, ShadowMap::kSide, GL_RED, GL_UNSIGNED_BYTE,
+                      bytes_.data());
+}
+
+void GroundPainter::paint(const View& view) const {
+    std::vector<float> corners;
+    for (int corner = 0; corner < 4; ++corner) {
+        const double u = corner & 1, v = corner >> 1;
+        const Vec3 at(map_.low().x() + u * map_.side(), map_.low().y() + v * map_.side(), map_.height());
+        const Vec3 seen = view.to_view(at);
+        const double w = view.orthographic ? 1 : seen.z();
+        if (w <= 0 || view.eye.z() < map_.height()) return;  // from below there is no ground
+        for (const double value : {2 * view.focal * seen.x() / view.port.width,
+                                   2 * view.focal * seen.y() / view.port.height, 0.0, w, u, v})
+            corners.push_back(static_cast<float>(value));
+    }
+    array_.bind();
+    corners_.fill(corners.data(), corners.size() * sizeof corners[0]);
+    program_.use();
+    program_.set("taken", 0);
+    program_.set("size", static_cast<float>(view.port.width), static_cast<float>(view.port.height));
+    program_.set("strength", strength_);
+    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    gl_.Disable(GL_BLEND);
+}
+
+}  // namespace grainreel
