@@ -318,8 +318,9 @@ void add_film(Keys& keys) {
         literal("\"veryfast\""), "x264's preset: slower makes smaller files."));
     keys.push_back(entry("film.background", KeyKind::colour, note("\"#ffffff\"; \"#12151b\" with dark"),
                          "As species.colour."));
-    keys.push_back(choice("film.style", all_of(style_words), literal("\"studio\""),
-                          "Of the light: soft shadows; even colours with outlines, for print; for dark rooms."));
+    keys.push_back(
+        choice("film.style", all_of(style_words), literal("\"studio\""),
+               "Of the light: soft shadows; even colours with outlines, for print; for dark rooms."));
     keys.push_back(entry("film.occlusion", KeyKind::flag, note("true; false with flat"),
                          "Less light reaches the gaps between grains."));
     keys.push_back(

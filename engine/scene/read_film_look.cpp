@@ -10,7 +10,8 @@ void read_cut(Document& document, FilmCut& cut) {
     cut.present = document.has("film.cut");
     if (!cut.present) return;
     if (const auto normal = document.vector("film.cut.normal")) {
-        if (normal->norm() < 1e-9) document.fail("film.cut.normal", "has no direction; write for example [1, 0, 0]");
+        if (normal->norm() < 1e-9)
+            document.fail("film.cut.normal", "has no direction; write for example [1, 0, 0]");
         cut.normal = normal->normalized();
     }
     cut.at = document.quantity("film.cut.at").value_or(cut.at);

@@ -28,9 +28,8 @@ inline const Words<Precision> precision_words{{"double", Precision::full}, {"mix
 inline const Words<Accuracy> accuracy_words{
     {"draft", Accuracy::draft}, {"standard", Accuracy::standard}, {"reference", Accuracy::reference}};
 
-inline const Words<FilmLook::Style> style_words{{"studio", FilmLook::Style::studio},
-                                               {"flat", FilmLook::Style::flat},
-                                               {"dark", FilmLook::Style::dark}};
+inline const Words<FilmLook::Style> style_words{
+    {"studio", FilmLook::Style::studio}, {"flat", FilmLook::Style::flat}, {"dark", FilmLook::Style::dark}};
 
 template <class T>
 const std::string& word_of(T value, const Words<T>& words) {

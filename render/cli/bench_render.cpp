@@ -14,11 +14,14 @@
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 #include "engine/bench/peers_bed.hpp"
+#include "engine/base/text_file.hpp"
 #include "engine/bench/settled_bed.hpp"
+#include "engine/scene/words.hpp"
 #include "render/cli/share_watcher.hpp"
 #include "render/draw/renderer.hpp"
 #include "render/film/encoder.hpp"
 #include "render/film/png.hpp"
+#include "render/spheres/lamp.hpp"
 
 namespace grainreel {
 namespace {
@@ -122,6 +125,29 @@ double encode_time(const Picture& picture, const Film& film, int threads) {
     return taken / kFrames;
 }
 
+// The picture, and what another renderer needs for the same one: spheres in view coordinates (x right, y up, z
+// away from the eye) and the camera.
+void keep(const std::filesystem::path& folder, const Picture& picture, const Frame& frame, const View& view) {
+    std::filesystem::create_directories(folder);
+    write_png(folder / "picture.png", picture, {});
+    std::string table = "x,y,z,radius,species\n";
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const Vec3 at = view.to_view(frame.position[i]);
+        table += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{}\n", at.x(), at.y(), at.z(), frame.radius[i],
+                             frame.species[i]);
+    }
+    replace_file(folder / "grains.csv", table);
+    const Lamp lamp;
+    const nlohmann::ordered_json camera = {{"orthographic", view.orthographic},
+                                           {"focal", view.focal},
+                                           {"centre", {view.port.x + 0.5 * view.port.width,
+                                                       view.port.y + 0.5 * view.port.height}},
+                                           {"width", picture.width},
+                                           {"height", picture.height},
+                                           {"to_key", lamp.to_key}};
+    replace_file(folder / "camera.json", camera.dump(2) + "\n");
+}
+
 }  // namespace
 
 int bench_render(const Options& options, Reporter& reporter) {
@@ -152,7 +178,7 @@ int bench_render(const Options& options, Reporter& reporter) {
     reporter.clear();
     if (totals.empty()) return kSignalBase + stop_signal();
     const Picture& picture = renderer.draw(frame, "");
-    if (options.out) write_png(*options.out, picture, {});
+    if (options.out) keep(*options.out, picture, frame, renderer.view());
     using Json = nlohmann::ordered_json;
     Json ms = {{"total", median(totals)}};
     for (std::size_t s = 0; s < kStages.size(); ++s) ms[kStages[s].name] = median(stages[s]);
@@ -160,7 +186,7 @@ int bench_render(const Options& options, Reporter& reporter) {
     const Json all = {{"grains", bed.grains.size()},
                       {"width", scene.film.width},
                       {"height", scene.film.height},
-                      {"style", "studio"},
+                      {"style", word_of(request.film.look.style, style_words)},
                       {"gl", renderer.gl_description()},
                       {"threads", threads},
                       {"coverage", covered},

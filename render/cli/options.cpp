@@ -258,6 +258,15 @@ void read_bench_size(const std::string& size, Film& film) {
             fmt::format("--size {}: must be width x height, each from 64 to 8192, as in 1920x1080", size));
 }
 
+void set_bench_style(const std::string& style, Film& film) {
+    const bool bare = style == "plain" || style == "flat";
+    film.look.occlusion = film.look.shadows = film.look.ground = !bare;
+    film.look.style = style == "flat" ? FilmLook::Style::flat
+                      : style == "dark" ? FilmLook::Style::dark
+                                        : FilmLook::Style::studio;
+    if (style == "dark") film.background = {0.071, 0.082, 0.106};
+}
+
 void add_bench(CLI::App& app, Options& options) {
     CLI::App& verb = *app.add_subcommand("bench", "Time the engine on a bed of known kind");
     std::string about;
@@ -296,8 +305,16 @@ void add_bench(CLI::App& app, Options& options) {
         ->type_name("WxH");
     verb.add_option_function<std::string>(
             "--out", [&options](const std::string& file) { options.out = file; },
-            "render: keep the picture as this PNG file")
-        ->type_name("FILE");
+            "render: keep the picture, and the grains and camera for other renderers, in this folder")
+        ->type_name("DIR");
+    verb.add_option_function<std::string>(
+            "--style", [&options](const std::string& style) { set_bench_style(style, options.bench_render.film); },
+            "render: studio, flat, dark or plain (lit spheres alone) [studio]")
+        ->check(CLI::IsMember({"studio", "flat", "dark", "plain"}))
+        ->type_name("WHICH");
+    verb.add_flag_callback(
+        "--orthographic", [&options] { options.bench_render.film.camera.field_of_view = 0; },
+        "render: with an orthographic camera");
     verb.add_flag("--quick", options.bench_request.quick, "A tenth of the steps");
     verb.add_flag("--json", options.json, "One JSON object in place of a table");
     add_reporting(verb, options);

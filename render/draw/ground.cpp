@@ -26,7 +26,8 @@ ShadowMap::ShadowMap(const Scene& scene)
       low_plate_(-1.4 * drawn_thickness(scene.container)),
       cells_(kSide * kSide),
       row_(kSide) {
-    const double stroke = scene.drive.present ? scene.drive.amplitude * std::abs(scene.drive.direction.z()) : 0;
+    const double stroke =
+        scene.drive.present ? scene.drive.amplitude * std::abs(scene.drive.direction.z()) : 0;
     height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
 }
 
@@ -38,11 +39,13 @@ Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {
 
 // Around the foot and as far as the container's whole height throws.
 void ShadowMap::place(const Vec3& to_key) {
-    const double reach = std::max(floor_reach(container_), std::hypot(container_.half_width, 0.5 * container_.depth));
+    const double reach =
+        std::max(floor_reach(container_), std::hypot(container_.half_width, 0.5 * container_.depth));
     low_ = {0, 0};
     side_ = kSide;  // one cell a metre: fall() then is in metres
     const Eigen::Vector2d tip = fall({0, 0, container_.height}, to_key);
-    const Eigen::Vector2d low = tip.cwiseMin(Eigen::Vector2d::Zero()), high = tip.cwiseMax(Eigen::Vector2d::Zero());
+    const Eigen::Vector2d low = tip.cwiseMin(Eigen::Vector2d::Zero()),
+                          high = tip.cwiseMax(Eigen::Vector2d::Zero());
     const Eigen::Vector2d middle = 0.5 * (low + high);
     side_ = (high - low).maxCoeff() + 2.8 * reach;
     low_ = middle.array() - 0.5 * side_;
@@ -58,8 +61,8 @@ void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
         for (int j = 0; j < kSide; ++j)
             for (int i = 0; i < kSide; ++i) {
                 const double x = (i + 0.5 - at.x()) * cell, y = (j + 0.5 - at.y()) * cell;
-                const double out = round ? std::hypot(x, y) - half
-                                         : std::max(std::abs(x) - half_depth, std::abs(y) - half);
+                const double out =
+                    round ? std::hypot(x, y) - half : std::max(std::abs(x) - half_depth, std::abs(y) - half);
                 const double cover = std::clamp(0.5 - out / cell, 0.0, 1.0);
                 float& taken = cells_[static_cast<std::size_t>(j) * kSide + i];
                 taken = std::max(taken, static_cast<float>(4 * cover));
@@ -76,7 +79,8 @@ void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
         if ((base.array() < 0).any() || (base.array() >= kSide - 1).any()) continue;
         const Eigen::Vector2d share = at - base;
         const double depth = std::numbers::pi * frame.radius[g] * frame.radius[g] * per_area;
-        float* cell = &cells_[static_cast<std::size_t>(base.y()) * kSide + static_cast<std::size_t>(base.x())];
+        float* cell =
+            &cells_[static_cast<std::size_t>(base.y()) * kSide + static_cast<std::size_t>(base.x())];
         cell[0] += static_cast<float>(depth * (1 - share.x()) * (1 - share.y()));
         cell[1] += static_cast<float>(depth * share.x() * (1 - share.y()));
         cell[kSide] += static_cast<float>(depth * (1 - share.x()) * share.y());
@@ -90,7 +94,8 @@ void ShadowMap::soften() {
     const auto along = [&](std::size_t first, std::size_t step) {
         for (int i = 0; i < kSide; ++i) {
             float sum = 0;
-            for (int k = std::max(0, i - kReach); k <= std::min(kSide - 1, i + kReach); ++k) sum += cells_[first + k * step];
+            for (int k = std::max(0, i - kReach); k <= std::min(kSide - 1, i + kReach); ++k)
+                sum += cells_[first + k * step];
             row_[static_cast<std::size_t>(i)] = sum / (2 * kReach + 1);
         }
         for (int i = 0; i < kSide; ++i) cells_[first + i * step] = row_[static_cast<std::size_t>(i)];
@@ -171,7 +176,8 @@ GroundPainter::GroundPainter(const gl::Functions& gl, const Scene& scene)
 
 void GroundPainter::update(const Frame& frame, const View& view) {
     const Lamp lamp;
-    const Vec3 to_key = lamp.to_key[0] * view.right + lamp.to_key[1] * view.up + lamp.to_key[2] * view.forward;
+    const Vec3 to_key =
+        lamp.to_key[0] * view.right + lamp.to_key[1] * view.up + lamp.to_key[2] * view.forward;
     map_.cast(frame, to_key);
     for (std::size_t i = 0; i < bytes_.size(); ++i)
         bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * map_.cells()[i]));

@@ -100,7 +100,8 @@ struct Renderer::Impl {
           before(context->gl(), port, {0, 0, 0, 0}),
           sphere_painter(s, port.width, port.height, raster_threads),
           picture(s.film.width, s.film.height) {
-        if (s.film.look.ground && s.container.shape != Container::Shape::none) ground.emplace(context->gl(), scene);
+        if (s.film.look.ground && s.container.shape != Container::Shape::none)
+            ground.emplace(context->gl(), scene);
     }
 
     Scene scene;
@@ -116,10 +117,11 @@ struct Renderer::Impl {
     std::optional<GroundPainter> ground;
     SpherePainter sphere_painter;
     ContainerShapes shapes;
+    View eye;
     Picture picture;
 
     void draw(const Frame& frame, const std::string& playback, double film_time, DrawTimes* times);
-    const Layer& draw_grains(const View& eye, const Frame& frame, Stopwatch& watch);
+    const Layer& draw_grains(const Frame& frame, Stopwatch& watch);
 };
 
 void Renderer::Impl::draw(const Frame& true_frame, const std::string& playback, double film_time,
@@ -131,18 +133,18 @@ void Renderer::Impl::draw(const Frame& true_frame, const std::string& playback, 
     overlay.write(picture, true_frame, playback, view);
     watch.lap(&DrawTimes::overlay);
     const Frame& frame = exaggeration.shown(true_frame);
-    const View eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
+    eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
     if (ground) ground->update(frame, eye);
     behind.draw(shape_painter, shapes.behind, ground ? [&] { ground->paint(eye); } : std::function<void()>());
     before.draw(shape_painter, shapes.before, {});
     watch.lap(&DrawTimes::walls);
-    const Layer& grains = draw_grains(eye, frame, watch);
+    const Layer& grains = draw_grains(frame, watch);
     compose(behind.read(), grains, before.read(), port, picture, sphere_painter.team());
     watch.lap(&DrawTimes::readback);
 }
 
-const Layer& Renderer::Impl::draw_grains(const View& eye, const Frame& frame, Stopwatch& watch) {
+const Layer& Renderer::Impl::draw_grains(const Frame& frame, Stopwatch& watch) {
     sphere_painter.take(eye, frame);
     watch.lap(&DrawTimes::upload);
     sphere_painter.find_visible();
@@ -170,6 +172,10 @@ DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) 
     DrawTimes times;
     impl_->draw(frame, playback, 0, &times);
     return times;
+}
+
+const View& Renderer::view() const {
+    return impl_->eye;
 }
 
 std::string Renderer::gl_description() const {

@@ -8,6 +8,7 @@
 #include "engine/scene/scene.hpp"
 #include "render/draw/layout.hpp"
 #include "render/draw/picture.hpp"
+#include "render/draw/view.hpp"
 #include "render/gl/provider.hpp"
 
 namespace grainreel {
@@ -31,6 +32,7 @@ class Renderer {
     // first frame, where a camera that moves is. The size is the scene's film size.
     const Picture& draw(const Frame& frame, const std::string& playback, double film_time = 0);
 
+    const View& view() const;  // of the last picture
     std::string gl_description() const;  // vendor, renderer and version of the context
     std::string gl_note() const;         // why it is not the context one would have expected; mostly empty
 

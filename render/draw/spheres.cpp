@@ -43,9 +43,10 @@ void SpherePainter::open_bed(const View& view, const Frame& frame) {
     cut_.planes = 0;
     if (!look_.cut.present) return;
     const auto keep = [&](const Vec3& normal, double distance) {
-        cut_.plane[cut_.planes++] = {
-            static_cast<float>(normal.dot(view.right)), static_cast<float>(normal.dot(view.up)),
-            static_cast<float>(normal.dot(view.forward)), static_cast<float>(distance - normal.dot(view.eye))};
+        cut_.plane[cut_.planes++] = {static_cast<float>(normal.dot(view.right)),
+                                     static_cast<float>(normal.dot(view.up)),
+                                     static_cast<float>(normal.dot(view.forward)),
+                                     static_cast<float>(distance - normal.dot(view.eye))};
     };
     const Vec3& normal = look_.cut.normal;
     const double at = look_.cut.at + normal.dot(frame.floor_offset);
@@ -58,7 +59,8 @@ void SpherePainter::mark_rotation(const View& view, const Frame& frame) {
     if (!look_.rotation || frame.orientation.size() != frame.size()) return;
     for (const Quaternion& turned : frame.orientation) {
         const Vec3 pole = turned * Vec3::UnitZ();
-        spheres_.poles.push_back({static_cast<float>(pole.dot(view.right)), static_cast<float>(pole.dot(view.up)),
+        spheres_.poles.push_back({static_cast<float>(pole.dot(view.right)),
+                                  static_cast<float>(pole.dot(view.up)),
                                   static_cast<float>(pole.dot(view.forward))});
     }
 }
