@@ -9,6 +9,14 @@
 
 namespace grainreel {
 
+class MeasureTable;  // engine/measure/measure_table.hpp
+
+// Two bodies that push each other.
+struct Touch {
+    std::int32_t first, second;  // ids; second is -1 - face for a wall
+    double force;                // N, normal
+};
+
 struct Frame {
     std::int64_t step = 0;
     double time = 0;    // s since the drive started, negative before
@@ -25,6 +33,15 @@ struct Frame {
     std::vector<double> radius;
     std::vector<Vec3> position, velocity, spin;
     std::vector<Quaternion> orientation;  // empty unless the scene asks for it
+    std::vector<Vec3> displacement;  // over the last period of the drive; empty before one has passed, and
+                                     // unless the film asks for it
+
+    std::vector<Touch> touches;  // empty unless the film asks for them
+
+    // Rows of measures.csv so far: the first `measure_rows` of a table that goes on growing. Null unless the
+    // film asks for it.
+    std::shared_ptr<const MeasureTable> measures;
+    std::size_t measure_rows = 0;
 
     std::size_t size() const { return id.size(); }
 };

@@ -28,4 +28,7 @@ struct Measures {
     double floor_position = 0;     // m, along the drive's direction
 };
 
+// One number a column of measures.csv, in the order of measure_columns().
+std::vector<double> values_of(const Measures& measures);
+
 }  // namespace grainreel

@@ -1,54 +1,51 @@
 #include "engine/output/measures_csv.hpp"
 
-#include <iterator>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/measures.hpp"
+#include "engine/scene/measure_columns.hpp"
 
 namespace grainreel {
-
 namespace {
 
-// A name as a part of a column's name: quotes and separators of CSV would break the row.
-std::string plain(const std::string& name) {
-    std::string result = name;
-    for (char& c : result) {
-        if (c == ',' || c == '"' || c == '\n' || c == '\r') c = '_';
-    }
-    return result;
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    return cells;
 }
 
 }  // namespace
 
-MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, const std::vector<std::string>& species)
-    : file_(path), species_(species.size()) {
-    std::string header =
-        "step,time_s,phase_turns,cycles,kinetic_J,rotational_J,gravitational_J,elastic_J,"
-        "wall_work_J,lost_J,centre_x_m,centre_y_m,centre_z_m";
-    for (const std::string& name : species) {
-        header += fmt::format(",{0}_centre_x_m,{0}_centre_y_m,{0}_centre_z_m,{0}_height_m", plain(name));
+std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::string line;
+    if (!std::getline(file, line)) return nullptr;
+    const auto table = std::make_shared<MeasureTable>(cells_of(line));
+    while (std::getline(file, line) && !file.eof()) {  // a last line without its end was cut off
+        std::vector<double> row;
+        for (const std::string& cell : cells_of(line)) row.push_back(std::strtod(cell.c_str(), nullptr));
+        if (row.size() != table->columns().size()) break;
+        table->add(row);
     }
-    header += ",height_difference,lacey,contact_number,largest_overlap,floor_position_m\n";
-    file_.write(header);
+    return table;
 }
 
-void MeasuresWriter::write(const Measures& m) {
-    GRAINREEL_CHECK(m.species_centre.size() == species_ && m.species_height.size() == species_);
-    fmt::memory_buffer row;
-    auto out = std::back_inserter(row);
-    fmt::format_to(out, "{},{},{},{}", m.step, m.time, m.phase, m.cycles);
-    fmt::format_to(out, ",{},{},{},{},{},{}", m.kinetic, m.rotational, m.gravitational, m.elastic,
-                   m.wall_work, m.lost);
-    const Vec3& c = m.centre_of_mass;
-    fmt::format_to(out, ",{},{},{}", c.x(), c.y(), c.z());
-    for (std::size_t s = 0; s < species_; ++s) {
-        const Vec3& centre = m.species_centre[s];
-        fmt::format_to(out, ",{},{},{},{}", centre.x(), centre.y(), centre.z(), m.species_height[s]);
-    }
-    fmt::format_to(out, ",{},{},{},{},{}\n", m.height_difference, m.lacey, m.contact_number,
-                   m.largest_overlap, m.floor_position);
-    file_.write({row.data(), row.size()});
+MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, const std::vector<std::string>& species)
+    : file_(path) {
+    for (const MeasureColumn& column : measure_columns(species)) columns_.push_back(column.name);
+    file_.write(fmt::format("{}\n", fmt::join(columns_, ",")));
+}
+
+void MeasuresWriter::write(const Measures& measures) {
+    const std::vector<double> row = values_of(measures);
+    GRAINREEL_CHECK(row.size() == columns_.size());
+    file_.write(fmt::format("{}\n", fmt::join(row, ",")));
     ++rows_;
 }
 

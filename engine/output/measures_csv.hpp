@@ -2,13 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/base/text_file.hpp"
+#include "engine/measure/measure_table.hpp"
 #include "engine/measure/measures.hpp"
 
 namespace grainreel {
+
+// The complete rows of such a file; null when there is none, or it is no such file.
+std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& path);
 
 class MeasuresWriter {
   public:
@@ -18,11 +23,12 @@ class MeasuresWriter {
     // The row is on disk when this returns. Throws RunError when it could not be written.
     void write(const Measures& measures);
 
+    const std::vector<std::string>& columns() const { return columns_; }
     std::int64_t rows() const { return rows_; }
 
   private:
     TextFile file_;
-    std::size_t species_;
+    std::vector<std::string> columns_;
     std::int64_t rows_ = 0;
 };
 

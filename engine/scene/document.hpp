@@ -53,6 +53,10 @@ class Document {
     // Rows of a speed (m/s) and a number, at most kTablePoints; empty when absent.
     std::vector<std::array<double, 2>> speed_table(const std::string& path);
     std::optional<std::array<std::int64_t, 2>> two_integers(const std::string& path);
+    // [low, high], each a quantity of this dimension.
+    std::optional<std::array<double, 2>> interval(const std::string& path, Dimension dimension);
+    std::vector<std::string> name_list(const std::string& path);      // empty when absent
+    std::vector<std::int64_t> integer_list(const std::string& path);  // likewise
 
     double required_quantity(const std::string& path);
     std::string required_text(const std::string& path);

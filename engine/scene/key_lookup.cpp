@@ -81,6 +81,12 @@ std::string value_words(const Key& key) {
             return "two names";
         case KeyKind::speed_table:
             return "[[m/s, number], ...]";
+        case KeyKind::interval:
+            return "[low, high]";
+        case KeyKind::name_list:
+            return "list of names";
+        case KeyKind::integer_list:
+            return "list of whole numbers";
         case KeyKind::quantity:
         case KeyKind::gravity:
         case KeyKind::diameter:
@@ -113,6 +119,9 @@ std::string Key::example() const {
     if (kind == KeyKind::text) return "\"small\"";
     if (kind == KeyKind::colour) return "\"orange\"";
     if (kind == KeyKind::species_pair) return "[\"small\", \"wall\"]";
+    if (kind == KeyKind::interval) return "[0, 1]";
+    if (kind == KeyKind::name_list) return "[\"small\"]";
+    if (kind == KeyKind::integer_list) return "[3, 14]";
     if (kind == KeyKind::vector)
         return dimension == Dimension::number ? "[0, 0, 1]"
                                               : fmt::format("[{}, 0, 0]", text_of(dimension).example);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/scene/grain_values.hpp"
 #include "engine/scene/words.hpp"
 
 namespace grainreel {
@@ -305,6 +306,42 @@ void add_camera_path(Keys& keys) {
     place("film.camera.key[].target", "film.camera's at first, then between keys", "As film.camera.target.");
 }
 
+Key ids(std::string path, const char* about) {
+    Key key = integer(std::move(path), 0, most_grains, note("none"), about);
+    key.kind = KeyKind::integer_list;
+    return key;
+}
+
+void add_shows(Keys& keys) {
+    keys.push_back(choice("film.colour.by", all_of(grain_value_words), literal("\"species\""),
+                          "What a grain's colour stands for; see docs/colours.md."));
+    keys.push_back(choice("film.colour.map", all_of(colour_map_words),
+                          note("viridis; vik for what has two signs"),
+                          "All three are safe for the colour-blind; vik runs from blue over white to red."));
+    keys.push_back(entry("film.colour.range", KeyKind::interval, note("from the drive and the bed"),
+                         "Of the quantity, [\"0 m/s\", \"0.5 m/s\"]: the map's ends, for the whole film."));
+    keys.push_back(entry("film.colour.unit", KeyKind::text, note("one that fits the range"),
+                         "Of the colour bar, for example \"cm/s\"."));
+    keys.push_back(integer("film.colour.layers", 2, 12, literal("5"), "Bands of start-height."));
+    keys.push_back(entry("film.plot[].y", KeyKind::text, required(),
+                         "A column of measures.csv, drawn against time: height_difference, lacey, kinetic."));
+    keys.push_back(entry("film.plot[].label", KeyKind::text, note("by the column"), "Above the plot."));
+    keys.push_back(
+        entry("film.plot[].range", KeyKind::interval, note("grows with the data"), "Of the vertical axis."));
+    keys.push_back(integer("film.arrows.grid", 2, 100, note("required in this table"),
+                           "Cells across the container's width; one arrow each: the grains' mean velocity."));
+    keys.push_back(choice("film.arrows.of", {"period", "now"}, note("period with a drive, else now"),
+                          "Of the last period of the drive, or of this moment."));
+    keys.push_back(quantity("film.arrows.speed", Dimension::speed, positive,
+                            note("a diameter in five periods; of now: the drive's"),
+                            "Of an arrow as long as a cell is wide."));
+    keys.push_back(
+        entry("film.trails.species", KeyKind::name_list, note("none"), "Species whose grains leave trails."));
+    keys.push_back(ids("film.trails.grains", "Ids of grains that leave trails."));
+    keys.push_back(quantity("film.trails.duration", Dimension::time, positive,
+                            note("10 periods; a tenth of the run without a drive"), "How long they are."));
+}
+
 void add_film(Keys& keys) {
     keys.push_back(
         entry("film.size", KeyKind::picture_size, literal("\"1920x1080\""), "Width and height, pixels."));
@@ -336,6 +373,10 @@ void add_film(Keys& keys) {
     keys.push_back(quantity("film.cut.thickness", Dimension::length, positive, note("all behind it"),
                             "Of the slab behind the plane that is kept."));
     add_film_marks(keys);
+    keys.push_back(entry("film.hide", KeyKind::name_list, note("none"), "Species that are not drawn."));
+    keys.push_back(ids("film.highlight", "Ids of grains that are ringed."));
+    keys.push_back(entry("film.force_chains", KeyKind::flag, literal("false"),
+                         "Lines between grains that touch, as wide as they push."));
     keys.push_back(quantity("film.camera.azimuth", Dimension::degrees, any, literal("20"),
                             "About z; 0 looks along -x at the wide face, positive goes to the right."));
     keys.push_back(quantity("film.camera.elevation", Dimension::degrees, {-90, 90, false, false},
@@ -371,6 +412,7 @@ const std::vector<Key>& scene_keys() {
         add_drive(all);
         add_run(all);
         add_film(all);
+        add_shows(all);
         return all;
     }();
     return keys;

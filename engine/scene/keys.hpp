@@ -24,6 +24,9 @@ enum class KeyKind {
     picture_size,  // "1920x1080" or [1920, 1080]
     species_pair,  // ["small", "big"] or ["small", "wall"]
     speed_table,   // [[speed, number], ...]
+    interval,      // [low, high] of a quantity that another key names
+    name_list,     // ["small", ...]
+    integer_list,  // [3, 14, ...]
 };
 
 // What numbers may be, ends included unless `open`.

@@ -122,6 +122,7 @@ void read_film(Document& document, Scene& scene) {
         film.segments.push_back(read_segment(document, scene, fmt::format("film.segment[{}]", i)));
     if (film.segments.empty()) film.segments = default_segments(scene);
     fit_segments(document, scene);
+    read_shows(document, scene);
 }
 
 }  // namespace grainreel

@@ -20,6 +20,7 @@ void read_start(Document& document, Scene& scene);
 void read_film(Document& document, Scene& scene);  // after drive and run
 void read_camera(Document& document, Film& film);
 void read_film_look(Document& document, Film& film);
+void read_shows(Document& document, Scene& scene);  // part of it
 
 // What can be wrong between keys that are right by themselves. Throws UserError.
 void check_scene(const Scene& scene);

@@ -11,6 +11,7 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/scene/film_look.hpp"
+#include "engine/scene/film_shows.hpp"
 
 namespace grainreel {
 
@@ -231,6 +232,7 @@ struct Film {
     bool axes = false;        // x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
     double exaggerate = 1;    // of the container's motion, grains and all
+    FilmShows shows;
     bool operator==(const Film&) const = default;
 };
 

@@ -67,7 +67,7 @@ const UnitSystem& unit_system() {
     return system;
 }
 
-constexpr std::array<DimensionText, 15> dimension_texts{{
+constexpr std::array<DimensionText, 17> dimension_texts{{
     {"m", "a length", "\"5 mm\""},
     {"s", "a time", "\"10 s\""},
     {"Hz", "a frequency", "\"25 Hz\""},
@@ -82,6 +82,8 @@ constexpr std::array<DimensionText, 15> dimension_texts{{
     {"m/s", "a speed", "\"0.5 m/s\""},
     {"rad/s", "an angular velocity", "\"10 rad/s\""},
     {"m/s2", "an acceleration", "\"9.81 m/s2\""},
+    {"J", "an energy", "\"5 µJ\""},
+    {"N", "a force", "\"10 mN\""},
     {"1", "a plain number", "0.5"},
 }};
 

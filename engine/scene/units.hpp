@@ -24,6 +24,8 @@ enum class Dimension {
     speed,
     spin,
     acceleration,
+    energy,
+    force,
     number,
 };
 

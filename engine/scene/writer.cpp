@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/scene/colours.hpp"
+#include "engine/scene/grain_values.hpp"
 #include "engine/scene/words.hpp"
 
 namespace grainreel {
@@ -265,7 +266,49 @@ void write_camera(SceneText& out, const Camera& camera) {
     }
 }
 
-void write_film(SceneText& out, const Film& film) {
+void write_colour(SceneText& out, const GrainColouring& colour) {
+    out.table("film.colour");
+    out.words("by", word_of(colour.by, grain_value_words));
+    if (colour.by == GrainValue::species) return;
+    out.words("map", word_of(colour.map, colour_map_words));
+    out.put("range", fmt::format("[{}, {}]", number(colour.range[0]), number(colour.range[1])));
+    if (!colour.unit.empty()) out.words("unit", colour.unit);
+    if (colour.by == GrainValue::start_height) out.whole("layers", colour.layers);
+}
+
+std::string ids(const std::vector<std::int32_t>& values) {
+    return fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+std::string names(const std::vector<std::size_t>& chosen, const std::vector<Species>& species) {
+    std::vector<std::string> words;
+    for (const std::size_t s : chosen) words.push_back(quoted(species[s].name));
+    return fmt::format("[{}]", fmt::join(words, ", "));
+}
+
+void write_marks(SceneText& out, const FilmShows& look, const std::vector<Species>& species) {
+    for (const FilmPlot& plot : look.plots) {
+        out.element("film.plot");
+        out.words("y", plot.column);
+        out.words("label", plot.label);
+        if (plot.range)
+            out.put("range", fmt::format("[{}, {}]", number((*plot.range)[0]), number((*plot.range)[1])));
+    }
+    if (look.arrows.across > 0) {
+        out.table("film.arrows");
+        out.whole("grid", look.arrows.across);
+        out.words("of", look.arrows.period ? "period" : "now");
+        out.put("speed", look.arrows.speed);
+    }
+    if (look.trails.wanted()) {
+        out.table("film.trails");
+        if (!look.trails.species.empty()) out.put("species", names(look.trails.species, species));
+        if (!look.trails.grains.empty()) out.put("grains", ids(look.trails.grains));
+        out.put("duration", look.trails.duration);
+    }
+}
+
+void write_film(SceneText& out, const Film& film, const std::vector<Species>& species) {
     out.table("film");
     out.put("size", fmt::format("[{}, {}]", film.width, film.height));
     out.put("rate", film.rate);
@@ -278,6 +321,11 @@ void write_film(SceneText& out, const Film& film) {
     out.flag("wall_ghost", film.wall_ghost);
     out.put("exaggerate", film.exaggerate);
     write_film_look(out, film.look);
+    if (!film.shows.hidden.empty()) out.put("hide", names(film.shows.hidden, species));
+    if (!film.shows.highlighted.empty()) out.put("highlight", ids(film.shows.highlighted));
+    out.flag("force_chains", film.shows.force_chains);
+    write_colour(out, film.shows.colour);
+    write_marks(out, film.shows, species);
     write_camera(out, film.camera);
     for (const FilmSegment& segment : film.segments) {
         out.element("film.segment");
@@ -306,7 +354,7 @@ std::string resolved_scene(const Scene& scene, const Plan& plan) {
     write_exact(out, scene);
     write_drive(out, scene);
     write_run(out, scene, plan);
-    write_film(out, scene.film);
+    write_film(out, scene.film, scene.species);
     return out.take();
 }
 

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/output/measures_csv.hpp"
 #include "engine/scene/reader.hpp"
+#include "render/cli/earlier_positions.hpp"
 
 namespace grainreel {
 
@@ -74,6 +76,45 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
             fmt::format("{}: has {} species, but scene.toml beside it has {}; they are of two runs", name,
                         species.size(), scene_.species.size()));
     for (std::size_t i = 0; i < trajectory_.frames(); ++i) moments_.push_back(trajectory_.read_moment(i));
+    if (needs_touches(scene_.film.shows))
+        throw UserError(
+            fmt::format("{}: keeps no contacts to draw; let film.colour.by be something else and "
+                        "film.force_chains false",
+                        name));
+    if (!scene_.film.shows.plots.empty()) read_measures_of_run();
+}
+
+void FinishedRun::read_measures_of_run() {
+    measures_ = read_measures(measures());
+    if (!measures_) return;
+    const std::vector<std::string>& columns = measures_->columns();
+    const auto column = [&](const std::string& name) {
+        return std::find(columns.begin(), columns.end(), name) - columns.begin();
+    };
+    const auto known = [&](const std::string& name) {
+        return column(name) < static_cast<std::ptrdiff_t>(columns.size());
+    };
+    bool all = known("time_s");
+    for (const FilmPlot& plot : scene_.film.shows.plots) all = all && known(plot.column);
+    if (!all) throw UserError(fmt::format("{}: lacks a column that the film plots", measures().string()));
+    measured_ = measures_->values(static_cast<std::size_t>(column("time_s")), 0, measures_->rows());
+}
+
+Frame FinishedRun::frame(std::size_t index) const {
+    Frame frame = trajectory_.read(index);
+    if (measures_) {
+        const double end = frame.time * (1 + 1e-9) + 1e-12;
+        frame.measures = measures_;
+        frame.measure_rows = static_cast<std::size_t>(
+            std::upper_bound(measured_.begin(), measured_.end(), end) - measured_.begin());
+    }
+    if (!needs_displacement(scene_.film.shows)) return frame;
+    const double period = 1 / scene_.drive.frequency, wanted = frame.time - period;
+    const std::size_t before = nearest(wanted);
+    if (std::abs(moments_[before].time - wanted) > 1e-3 * period) return frame;
+    const bool periodic = scene_.container.periodic_depth;
+    set_displacement(frame, trajectory_.read(before).position, periodic ? scene_.container.depth : 0);
+    return frame;
 }
 
 std::size_t FinishedRun::nearest(double time) const {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/measure/measure_table.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -24,14 +26,21 @@ class FinishedRun {
 
     // Every frame without its grains, in order of time.
     const std::vector<Frame>& moments() const { return moments_; }
+    // With what the film wants beside the grains: measures until then, and the displacements over a period
+    // when the trajectory has that moment.
+    Frame frame(std::size_t index) const;
     // The frame nearest in time.
     std::size_t nearest(double time) const;
 
   private:
+    void read_measures_of_run();
+
     std::filesystem::path folder_;
     Scene scene_;
     TrajectoryReader trajectory_;
     std::vector<Frame> moments_;
+    std::shared_ptr<const MeasureTable> measures_;  // null unless the film plots some
+    std::vector<double> measured_;                  // s, their times
 };
 
 }  // namespace grainreel

@@ -89,7 +89,7 @@ bool RedrawRun::work() {
         FramePtr frame;
         {
             const auto timer = times_.during("reading");
-            frame = std::make_shared<const Frame>(run_.trajectory().read(index));
+            frame = std::make_shared<const Frame>(run_.frame(index));
         }
         const auto timer = times_.during("waiting for the film");
         film_->take(std::move(frame), caption);

@@ -31,6 +31,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains) {
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                    std::size_t grains)
     : measures_(folder / "measures.csv", species_names(scene)) {
+    if (!scene.film.shows.plots.empty()) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (plan.trajectory_every == 0) return;
     trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, grains));
     if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, build_info::version);
@@ -44,6 +45,7 @@ void RunFiles::add_frame(const Frame& frame, const Simulation& simulation) {
 
 void RunFiles::add_measures(const Measures& measures) {
     measures_.write(measures);
+    if (table_) table_->add(values_of(measures));
     if (!first_) first_ = measures;
     last_ = measures;
 }

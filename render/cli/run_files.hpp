@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
+#include "engine/measure/measure_table.hpp"
 #include "engine/output/contacts_file.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "engine/output/trajectory.hpp"
@@ -24,6 +26,8 @@ class RunFiles {
 
     std::int64_t trajectory_frames() const { return trajectory_ ? trajectory_->frames() : 0; }
     std::int64_t measures_rows() const { return measures_.rows(); }
+    // The rows again, for those who draw them; null unless the film has plots.
+    std::shared_ptr<const MeasureTable> measures() const { return table_; }
     bool has_contacts() const { return contacts_.has_value(); }
     const std::optional<Measures>& first_measures() const { return first_; }
     const std::optional<Measures>& last_measures() const { return last_; }
@@ -32,6 +36,7 @@ class RunFiles {
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<ContactsWriter> contacts_;
     MeasuresWriter measures_;
+    std::shared_ptr<MeasureTable> table_;
     std::optional<Measures> first_, last_;
 };
 

@@ -54,7 +54,13 @@ std::optional<std::string> SceneRun::packing_warning() const {
 
 void SceneRun::start(std::vector<Shot> shots) {
     files_.emplace(folder_, scene_, plan_, simulation_.grains());
-    agenda_.emplace(std::move(shots), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps);
+    if (needs_displacement(scene_.film.shows)) {
+        const bool periodic = scene_.container.periodic_depth;
+        earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, first_step_,
+                                    periodic ? scene_.container.depth : 0);
+    }
+    agenda_.emplace(std::move(shots), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
+                    earlier_.steps());
     shots_ = agenda_->shots();
     since_checkpoint_ = Stopwatch();
 }
@@ -93,13 +99,26 @@ FramePtr SceneRun::serve(const Stop& stop) {
         const auto timer = times_.during("measuring");
         files_->add_measures(simulation_.measures());
     }
-    if (!stop.trajectory && stop.segments.empty()) return nullptr;
-    auto frame = std::make_shared<const Frame>(simulation_.frame());
+    if (!stop.trajectory && !stop.positions && stop.segments.empty()) return nullptr;
+    const auto frame = std::make_shared<Frame>(simulation_.frame());
+    if (stop.positions) earlier_.keep(*frame);
+    if (!stop.segments.empty()) add_what_the_film_needs(*frame);
     if (stop.trajectory) {
         const auto timer = times_.during("writing");
         files_->add_frame(*frame, simulation_);
     }
     return frame;
+}
+
+void SceneRun::add_what_the_film_needs(Frame& frame) {
+    const FilmShows& look = scene_.film.shows;
+    earlier_.fill(frame);
+    if (needs_touches(look))
+        for (const Simulation::ContactRecord& contact : simulation_.contacts())
+            frame.touches.push_back({contact.first, contact.second, contact.normal});
+    if (look.plots.empty()) return;
+    frame.measures = files_->measures();
+    frame.measure_rows = frame.measures->rows();
 }
 
 void SceneRun::save_checkpoint() {

@@ -13,6 +13,7 @@
 #include "engine/scene/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/cli/agenda.hpp"
+#include "render/cli/earlier_positions.hpp"
 #include "render/cli/first_failure.hpp"
 #include "render/cli/pace.hpp"
 #include "render/cli/run_files.hpp"
@@ -65,6 +66,7 @@ class SceneRun {
   private:
     bool advance_to(std::int64_t target, const GoOn& go_on);
     FramePtr serve(const Stop& stop);
+    void add_what_the_film_needs(Frame& frame);
     void save_checkpoint();
 
     Scene scene_;
@@ -76,6 +78,7 @@ class SceneRun {
     std::int64_t first_step_ = 0, shots_ = 0;
     std::optional<RunFiles> files_;
     std::optional<Agenda> agenda_;
+    EarlierPositions earlier_;
     StageTimes times_;
     Pace pace_;
     Stopwatch since_checkpoint_;

@@ -45,7 +45,7 @@ void check_free(const fs::path& path, bool force) {
 
 int draw_still(const Options& options, Reporter& reporter, const FinishedRun& run) {
     const std::size_t index = run.nearest(*options.render.at);
-    const Frame frame = run.trajectory().read(index);
+    const Frame frame = run.frame(index);
     if (options.out) check_free(*options.out, options.force);
     const fs::path path = options.out ? *options.out : free_name(run, frame.time);
     // A camera that moves is where it would be in the film of all the run's frames.
@@ -54,6 +54,7 @@ int draw_still(const Options& options, Reporter& reporter, const FinishedRun& ru
     settle_orbit(scene.film.camera, seconds(run.trajectory().frames()));
     Renderer renderer(scene, drawing_threads(run.scene().run.threads).raster, options.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) reporter.info(note);
+    renderer.start_from(run.trajectory().read(0));
     const std::string& title = run.scene().film.title;
     write_png(path, renderer.draw(frame, "", seconds(index)), texts_of(run.scene().name, title, frame, ""));
     reporter.info(fmt::format("wrote {}: frame {} of {}, at {:.6g} s", path.string(), index + 1,

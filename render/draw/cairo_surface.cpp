@@ -17,17 +17,21 @@ void fill_surface(cairo_t* on, const Colour& colour) {
 }
 
 void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture) {
+    copy_part(from, {0, 0, to.width, to.height}, to.x, to.y, picture);
+}
+
+void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Picture& picture) {
     cairo_surface_flush(from);
     const unsigned char* pixels = cairo_image_surface_get_data(from);
     const int stride = cairo_image_surface_get_stride(from);
-    for (int y = 0; y < to.height; ++y) {
+    for (int j = part.y; j < part.y + part.height; ++j) {
         const auto* row =
-            reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(y) * stride);
-        std::uint8_t* out = picture.pixel(to.x, to.y + y);
-        for (int x = 0; x < to.width; ++x, out += 4) {
-            out[0] = static_cast<std::uint8_t>(row[x] >> 16);
-            out[1] = static_cast<std::uint8_t>(row[x] >> 8);
-            out[2] = static_cast<std::uint8_t>(row[x]);
+            reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(j) * stride);
+        std::uint8_t* out = picture.pixel(x + part.x, y + j);
+        for (int i = part.x; i < part.x + part.width; ++i, out += 4) {
+            out[0] = static_cast<std::uint8_t>(row[i] >> 16);
+            out[1] = static_cast<std::uint8_t>(row[i] >> 8);
+            out[2] = static_cast<std::uint8_t>(row[i]);
             out[3] = 255;
         }
     }

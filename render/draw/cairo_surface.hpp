@@ -23,5 +23,7 @@ void fill_surface(cairo_t* on, const Colour& colour);
 
 // Puts a surface where `to` lies in the picture; they have the same size.
 void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture);
+// A part of a surface whose corner lies at (x, y) in the picture.
+void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Picture& picture);
 
 }  // namespace grainreel

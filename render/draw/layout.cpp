@@ -55,9 +55,10 @@ PictureLayout plan_layout(const Scene& scene) {
         const double most = 0.32 * height;
         const int top =
             whole(std::min(most, static_part(measure, scene, nullptr, layout, width).height + type.margin));
-        const int bottom = whole(
-            std::min(most, changing_part(measure, scene, nullptr, widest_frame(), "", width, true).height +
-                               2 * type.margin));
+        // Plots want room of their own.
+        const double most_below = scene.film.shows.plots.empty() ? most : 0.46 * height;
+        const int bottom =
+            whole(std::min(most_below, plan_numbers(measure, scene, width, 0, true).height + type.margin));
         layout.first = {0, 0, width, top};
         layout.second = {0, height - bottom, width, bottom};
         layout.port = {0, top, width, height - top - bottom};
@@ -69,7 +70,7 @@ PictureLayout plan_layout(const Scene& scene) {
         {legend_block(measure, scene, 0, 0, 0).width, arrows_block(measure, scene, nullptr, 0, 0).width,
          longest_word(title, measure.title()), std::min(0.17 * width, 9 * type.title)});
     const int left = whole(std::min(most, words + 1.5 * type.margin));
-    const double numbers = changing_part(measure, scene, nullptr, widest_frame(), "", most, false).width;
+    const double numbers = plan_numbers(measure, scene, most, height, false).width;
     const int right = whole(std::min(most, std::max(numbers, 0.12 * width) + 1.5 * type.margin));
     layout.first = {0, 0, left, height};
     layout.second = {width - right, 0, right, height};

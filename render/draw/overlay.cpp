@@ -1,13 +1,14 @@
 #include "render/draw/overlay.hpp"
 
 #include "engine/scene/bed.hpp"
+#include "engine/scene/measure_columns.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/draw/captions.hpp"
 
 namespace grainreel {
-
 TextSize static_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
                      double width) {
     const TypeScale& type = writer.type;
@@ -23,10 +24,13 @@ TextSize static_part(const Writer& writer, const Scene& scene, const View* view,
         const TextSize bar = scale_block(writer, scale, right, y + 0.4 * type.gap, 0.34 * inner);
         const double below = y + bar.height + 0.8 * type.gap;
         const TextSize axes = axes_block(writer, scene, view, right, below);
-        return {width, std::max(y + legend.height, below - 0.4 * type.gap + axes.height)};
+        y = std::max(y + legend.height, below - 0.4 * type.gap + axes.height);
+        y += colour_bar_block(writer, scene, x, y, inner).height;
+        return {width, y + marks_block(writer, scene, scale, x, y, inner).height};
     }
-    const TextSize legend = legend_block(writer, scene, x, y, inner);
-    y += legend.height + type.gap;
+    y += legend_block(writer, scene, x, y, inner).height + type.gap;
+    y += colour_bar_block(writer, scene, x, y, inner).height + type.gap;
+    y += marks_block(writer, scene, scale, x, y, inner).height;
     const Writer measure{nullptr, type, writer.palette};
     const double longest = 0.8 * inner;
     const double below = axes_block(measure, scene, view, 0, 0).height +
@@ -39,77 +43,116 @@ TextSize static_part(const Writer& writer, const Scene& scene, const View* view,
     return {width, y};
 }
 
-TextSize changing_part(const Writer& writer, const Scene& scene, const View* view, const Frame& frame,
-                       const std::string& playback, double width, bool portrait) {
-    const TypeScale& type = writer.type;
-    const bool dial = scene.drive.present;
-    const double x = portrait ? type.margin : 0.5 * type.margin;
-    const double inner = std::max(1.0, width - (portrait ? 2.0 : 1.5) * type.margin);
-    const double radius = portrait ? std::min(2.2 * type.main, 0.14 * inner) : 2.2 * type.main;
-    const std::string caption = playback_text(frame, playback);
-    const auto write_caption = [&](double y) {
-        if (caption.empty()) return TextSize{};
-        return writer.write(x, y, caption, writer.minor(), writer.palette.faint_ink, inner, portrait ? 2 : 4);
-    };
-    double y = type.margin;
-    const TextSize clock = clock_block(writer, scene, frame, x, y);
-    y += clock.height + 0.3 * type.gap;
-    TextSize size{clock.width, 0};
-    if (portrait) {
-        // Two lines are kept for the caption, whatever it says, so that nothing moves.
-        write_caption(y);
-        y += 2.6 * type.minor + type.gap;
-        if (dial) {
-            const TextSize disc = dial_block(writer, scene.drive, nullptr, radius, x, y);
-            dial_block(writer, scene.drive, &frame, radius, x, y);
-            const TextSize drive = drive_block(writer, scene, x + disc.width + type.gap, y);
-            arrows_block(writer, scene, view, x + disc.width + drive.width + 3 * type.gap, y);
-            y += std::max(disc.height, drive.height);
-        }
-        return {width, y - type.margin};
-    }
-    if (dial) {
-        y += 0.6 * type.gap;
-        const TextSize disc = dial_block(writer, scene.drive, nullptr, radius, x, y);
-        dial_block(writer, scene.drive, &frame, radius, x, y);
-        y += disc.height + 0.6 * type.gap;
-        const TextSize drive = drive_block(writer, scene, x, y);
-        y += drive.height + type.gap;
-        size.width = std::max({size.width, disc.width, drive.width});
-    }
-    y += write_caption(y).height;
-    return {size.width, y - type.margin};
-}
-
 Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view)
     : scene_(scene),
       palette_(palette),
       layout_(layout),
       type_(type_scale(scene.film)),
+      plan_(plan_numbers({nullptr, type_, palette_}, scene, layout.second.width, layout.second.height,
+                         layout.portrait)),
       first_(blank_surface(layout.first, palette.background)),
+      still_(blank_surface(layout.second, palette.background)),
       second_(blank_surface(layout.second, palette.background)) {
-    draw_first(view);
+    draw_still(view);
+    make_plots();
 }
 
-void Overlay::draw_first(const View& view) {
+void Overlay::draw_still(const View& view) {
     first_ = blank_surface(layout_.first, palette_.background);
     const CairoContext on(cairo_create(first_.get()));
     static_part({on.get(), type_, palette_}, scene_, &view, layout_, layout_.first.width);
+    still_ = blank_surface(layout_.second, palette_.background);
+    draw_still_numbers(view);
     drawn_for_ = view;
-    first_written_ = false;
+    written_ = false;
+}
+
+void Overlay::draw_still_numbers(const View& view) {
+    if (!scene_.drive.present) return;
+    const CairoContext on(cairo_create(still_.get()));
+    const Writer writer{on.get(), type_, palette_};
+    dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.x, plan_.dial);
+    drive_block(writer, scene_, plan_.drive_x, plan_.drive);
+    if (layout_.portrait) arrows_block(writer, scene_, &view, plan_.arrows_x, plan_.drive);
+}
+
+void Overlay::make_plots() {
+    std::vector<std::string> species;
+    for (const Species& s : scene_.species) species.push_back(s.name);
+    const std::vector<MeasureColumn> columns = measure_columns(species);
+    for (std::size_t k = 0; k < plan_.plots.size(); ++k) {
+        const FilmPlot& wanted = scene_.film.shows.plots[k];
+        PlotFrame frame;
+        frame.column = wanted.column;
+        frame.label = wanted.label;
+        for (const MeasureColumn& column : columns)
+            if (column.name == wanted.column) frame.dimension = column.dimension;
+        frame.time = {0, scene_.run.duration};
+        frame.range = wanted.range;
+        frame.width = plan_.plots[k].width;
+        frame.height = plan_.plots[k].height;
+        plots_.emplace_back(frame, type_, palette_);
+    }
+}
+
+template <class Draw>
+void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
+    const CairoContext on(cairo_create(second_.get()));
+    cairo_rectangle(on.get(), part.x, part.y, part.width, part.height);
+    cairo_clip(on.get());
+    cairo_set_source_surface(on.get(), still_.get(), 0, 0);
+    cairo_paint(on.get());
+    draw(on.get());
+    copy_part(second_.get(), part, layout_.second.x, layout_.second.y, picture);
 }
 
 void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback, const View& view) {
     // Axes, arrows and scale are as this view has them.
     if (view.eye != drawn_for_.eye || view.forward != drawn_for_.forward || view.focal != drawn_for_.focal)
-        draw_first(view);
-    if (!first_written_) copy_surface(first_.get(), layout_.first, picture);
-    first_written_ = true;
-    const CairoContext on(cairo_create(second_.get()));
-    fill_surface(on.get(), palette_.background);
-    changing_part({on.get(), type_, palette_}, scene_, &view, frame, playback, layout_.second.width,
-                  layout_.portrait);
-    copy_surface(second_.get(), layout_.second, picture);
+        draw_still(view);
+    if (!written_) {
+        copy_surface(first_.get(), layout_.first, picture);
+        copy_surface(still_.get(), layout_.second, picture);
+    }
+    const auto strip = [&](double from, double to) {
+        const int top = static_cast<int>(from),
+                  bottom = std::min(static_cast<int>(to), layout_.second.height);
+        return Rectangle{0, top, layout_.second.width, std::max(0, bottom - top)};
+    };
+    const std::string clock = clock_words(scene_, frame), caption = playback_text(frame, playback);
+    if (!written_ || clock != clock_)
+        renew(picture, strip(0, plan_.clock_end), [&](cairo_t* on) {
+            clock_block({on, type_, palette_}, scene_, frame, plan_.x, plan_.clock);
+        });
+    if (!written_ || caption != caption_)
+        renew(picture, strip(plan_.caption, plan_.caption_end), [&](cairo_t* on) {
+            const Writer writer{on, type_, palette_};
+            if (!caption.empty())
+                writer.write(plan_.x, plan_.caption, caption, writer.minor(), palette_.faint_ink, plan_.inner,
+                             plan_.caption_lines);
+        });
+    // The hand is drawn where the drive is; before the drive there is none.
+    const double angle = frame.time < 0 ? -1 : frame.phase;
+    const double stroke = frame.floor_offset.dot(scene_.drive.direction);
+    if (scene_.drive.present && (!written_ || angle != angle_ || stroke != stroke_))
+        renew(picture, strip(plan_.dial - 0.4 * type_.gap, plan_.dial_end), [&](cairo_t* on) {
+            dial_block({on, type_, palette_}, scene_.drive, &frame, plan_.radius, plan_.x, plan_.dial);
+        });
+    renew_plots(picture, frame);
+    written_ = true;
+    clock_ = clock;
+    caption_ = caption;
+    angle_ = angle;
+    stroke_ = stroke;
+}
+
+void Overlay::renew_plots(Picture& picture, const Frame& frame) {
+    for (std::size_t k = 0; k < plots_.size(); ++k) {
+        Plot& plot = plots_[k];
+        if (!plot.take(frame) && written_) continue;
+        const Rectangle& part = plan_.plots[k];
+        renew(picture, part, [&](cairo_t* on) { plot.draw(on, part.x, part.y); });
+    }
 }
 
 }  // namespace grainreel

@@ -1,25 +1,25 @@
-// The words around the picture, in gutters that no grain is drawn in. What never changes is drawn once.
+// The words around the picture, in gutters that no grain is drawn in. What never changes is drawn once, and
+// of the rest only what has changed since the frame before.
 #pragma once
 
 #include <cairo.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "render/draw/cairo_surface.hpp"
 #include "render/draw/layout.hpp"
+#include "render/draw/numbers_plan.hpp"
 #include "render/draw/picture.hpp"
+#include "render/draw/plot.hpp"
 #include "render/draw/writer.hpp"
 
 namespace grainreel {
 
-// Title, legend, scale bar, axes and arrows in the first gutter. view: null while measuring.
+// Title, legend, colour bar, marks, scale bar, axes and arrows in the first gutter. view: null while
+// measuring. Returns the size that they take, margins left out.
 TextSize static_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
                      double width);
-// Time, dial, drive and playback in the second one. Both return the size that they take, margins left out.
-TextSize changing_part(const Writer& writer, const Scene& scene, const View* view, const Frame& frame,
-                       const std::string& playback, double width, bool portrait);
 
 class Overlay {
   public:
@@ -30,15 +30,26 @@ class Overlay {
     void write(Picture& picture, const Frame& frame, const std::string& playback, const View& view);
 
   private:
-    void draw_first(const View& view);
+    void draw_still(const View& view);
+    void draw_still_numbers(const View& view);
+    void make_plots();
+    // Draws over the still part inside a rectangle of the second gutter, and puts it into the picture.
+    template <class Draw>
+    void renew(Picture& picture, const Rectangle& part, const Draw& draw);
+    void renew_plots(Picture& picture, const Frame& frame);
 
     const Scene& scene_;
     const Palette palette_;
     const PictureLayout layout_;
     const TypeScale type_;
-    CairoSurface first_, second_;
+    const NumbersPlan plan_;
+    CairoSurface first_, still_, second_;
+    std::vector<Plot> plots_;
     View drawn_for_;
-    bool first_written_ = false;
+    bool written_ = false;
+    // What is in the picture now.
+    std::string clock_, caption_;
+    double angle_ = 0, stroke_ = 0;
 };
 
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/draw/captions.hpp"
+#include "render/draw/grain_colours.hpp"
 #include "render/draw/lit_ball.hpp"
 #include "render/draw/writer.hpp"
 
@@ -77,6 +78,7 @@ TextSize title_block(const Writer& writer, const Scene& scene, double x, double 
 TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
     const double icon = 1.5 * writer.type.main, indent = icon + 0.5 * writer.type.gap,
                  largest = largest_diameter(scene);
+    const bool by_species = scene.film.shows.colour.by == GrainValue::species;
     const double text_wrap = wrap > 0 ? std::max(1.0, wrap - indent) : 0;
     TextSize size;
     const auto line = [&](const std::string& text, const TextStyle& style, const Colour& colour) {
@@ -98,7 +100,7 @@ TextSize legend_block(const Writer& writer, const Scene& scene, double x, double
         const double share = std::max(0.25, species.diameter.largest / std::max(largest, 1e-30));
         if (writer.on)
             draw_lit_ball(writer.on, x + 0.5 * icon, y + 0.5 * (top + size.height), 0.5 * icon * share,
-                          species.colour);
+                          by_species ? species.colour : neutral_grain);
         size.height += 0.4 * writer.type.gap;
     }
     return size;
@@ -240,21 +242,35 @@ TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame
     return size;
 }
 
-TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y) {
-    TextSize size =
-        writer.write(x, y, time_text(frame.time, scene.run.duration), writer.strong(), writer.palette.ink);
-    if (!scene.drive.present) return size;
-    const auto line = [&](const std::string& text) {
-        const TextSize part =
-            writer.write(x, y + size.height, text, writer.minor(), writer.palette.faint_ink);
-        size = {std::max(size.width, part.width), size.height + part.height};
-    };
+namespace {
+
+// Time first, then the lines below it.
+std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
+    std::vector<std::string> lines{time_text(frame.time, scene.run.duration)};
+    if (!scene.drive.present) return lines;
     if (frame.time < 0) {
-        line("before the drive");
+        lines.emplace_back("before the drive");
     } else {
         const ShownCycle shown = shown_cycle(frame);
-        line(fmt::format("cycle {}", shown.cycle));
-        line(fmt::format("phase {:.2f}", shown.phase));
+        lines.push_back(fmt::format("cycle {}", shown.cycle));
+        lines.push_back(fmt::format("phase {:.2f}", shown.phase));
+    }
+    return lines;
+}
+
+}  // namespace
+
+std::string clock_words(const Scene& scene, const Frame& frame) {
+    return fmt::format("{}", fmt::join(clock_lines(scene, frame), "\n"));
+}
+
+TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y) {
+    TextSize size;
+    for (const std::string& line : clock_lines(scene, frame)) {
+        const bool first = size.height == 0;
+        const TextSize part = writer.write(x, y + size.height, line, first ? writer.strong() : writer.minor(),
+                                           first ? writer.palette.ink : writer.palette.faint_ink);
+        size = {std::max(size.width, part.width), size.height + part.height};
     }
     return size;
 }

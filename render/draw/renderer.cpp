@@ -10,7 +10,9 @@
 #include "render/draw/container_drawing.hpp"
 #include "render/draw/exaggeration.hpp"
 #include "render/draw/ground.hpp"
+#include "render/draw/marks.hpp"
 #include "render/draw/overlay.hpp"
+#include "render/draw/shown_grains.hpp"
 #include "render/draw/spheres.hpp"
 
 namespace grainreel {
@@ -98,6 +100,8 @@ struct Renderer::Impl {
           shape_painter(context->gl()),
           behind(context->gl(), port, opaque(palette.background)),
           before(context->gl(), port, {0, 0, 0, 0}),
+          shown(s),
+          marks(scene, palette),
           sphere_painter(s, port.width, port.height, raster_threads),
           picture(s.film.width, s.film.height) {
         if (s.film.look.ground && s.container.shape != Container::Shape::none)
@@ -115,6 +119,8 @@ struct Renderer::Impl {
     ShapePainter shape_painter;
     SideLayer behind, before;
     std::optional<GroundPainter> ground;
+    ShownGrains shown;
+    Marks marks;
     SpherePainter sphere_painter;
     ContainerShapes shapes;
     View eye;
@@ -134,12 +140,14 @@ void Renderer::Impl::draw(const Frame& true_frame, const std::string& playback, 
     watch.lap(&DrawTimes::overlay);
     const Frame& frame = exaggeration.shown(true_frame);
     eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
+    const Frame& grains_shown = shown.of(frame);
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
+    marks.draw(eye, grains_shown, shapes.before);
     if (ground) ground->update(frame, eye);
     behind.draw(shape_painter, shapes.behind, ground ? [&] { ground->paint(eye); } : std::function<void()>());
     before.draw(shape_painter, shapes.before, {});
     watch.lap(&DrawTimes::walls);
-    const Layer& grains = draw_grains(frame, watch);
+    const Layer& grains = draw_grains(grains_shown, watch);
     compose(behind.read(), grains, before.read(), port, picture, sphere_painter.team());
     watch.lap(&DrawTimes::readback);
 }
@@ -176,6 +184,10 @@ DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) 
 
 const View& Renderer::view() const {
     return impl_->eye;
+}
+
+void Renderer::start_from(const Frame& frame) {
+    impl_->sphere_painter.start_from(impl_->exaggeration.shown(frame));
 }
 
 std::string Renderer::gl_description() const {

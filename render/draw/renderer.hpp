@@ -33,6 +33,9 @@ class Renderer {
     const Picture& draw(const Frame& frame, const std::string& playback, double film_time = 0);
 
     const View& view() const;  // of the last picture
+    // The film's first frame, from which start heights are counted; without a call, the first one drawn.
+    void start_from(const Frame& frame);
+
     std::string gl_description() const;  // vendor, renderer and version of the context
     std::string gl_note() const;         // why it is not the context one would have expected; mostly empty
 

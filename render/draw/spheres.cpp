@@ -1,23 +1,15 @@
 #include "render/draw/spheres.hpp"
 
-#include "engine/base/error.hpp"
-#include "render/draw/palette.hpp"
 #include "render/draw/styles.hpp"
 
 namespace grainreel {
-namespace {
-
-std::array<float, 3> linear(const Colour& colour) {
-    return {static_cast<float>(to_linear(colour.red)), static_cast<float>(to_linear(colour.green)),
-            static_cast<float>(to_linear(colour.blue))};
-}
-
-}  // namespace
 
 SpherePainter::SpherePainter(const Scene& scene, int width, int height, int threads)
-    : team_(threads), layer_(width, height), look_(scene.film.look), lamp_(lamp_of(look_)) {
-    for (const Species& species : scene.species) palette_.push_back(linear(species.colour));
-}
+    : grain_colours_(scene),
+      team_(threads),
+      layer_(width, height),
+      look_(scene.film.look),
+      lamp_(lamp_of(look_)) {}
 
 void SpherePainter::take(const View& view, const Frame& frame) {
     sight_ = {view.orthographic, static_cast<float>(view.focal), 0.5f * static_cast<float>(view.port.width),
@@ -26,14 +18,12 @@ void SpherePainter::take(const View& view, const Frame& frame) {
     lamp_.up[1] = static_cast<float>(view.up.z());
     lamp_.up[2] = static_cast<float>(view.forward.z());
     spheres_.spheres.resize(frame.size());
-    spheres_.albedo.resize(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const Vec3 at = view.to_view(frame.position[i]);
         spheres_.spheres[i] = {static_cast<float>(at.x()), static_cast<float>(at.y()),
                                static_cast<float>(at.z()), static_cast<float>(frame.radius[i])};
-        GRAINREEL_CHECK(static_cast<std::size_t>(frame.species[i]) < palette_.size());
-        spheres_.albedo[i] = palette_[static_cast<std::size_t>(frame.species[i])];
     }
+    spheres_.albedo = grain_colours_.of(frame);
     open_bed(view, frame);
     mark_rotation(view, frame);
 }

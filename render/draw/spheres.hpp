@@ -1,12 +1,10 @@
 // From a frame's grains to a layer of lit spheres.
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "engine/base/team.hpp"
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/draw/grain_colours.hpp"
 #include "render/draw/view.hpp"
 #include "render/spheres/sphere_layer.hpp"
 
@@ -16,6 +14,9 @@ class SpherePainter {
   public:
     // width, height: pixels of the port. threads: >= 1.
     SpherePainter(const Scene& scene, int width, int height, int threads);
+
+    // See Renderer.
+    void start_from(const Frame& frame) { grain_colours_.start_from(frame); }
 
     // One after the other.
     void take(const View& view, const Frame& frame);
@@ -29,7 +30,7 @@ class SpherePainter {
     void open_bed(const View& view, const Frame& frame);
     void mark_rotation(const View& view, const Frame& frame);
 
-    std::vector<std::array<float, 3>> palette_;  // linear colour by species
+    GrainColours grain_colours_;
     Team team_;
     SphereLayer layer_;
     Spheres spheres_;

@@ -14,21 +14,25 @@ struct FreeOptions {
     void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
 };
 
-PangoFontMap* font_map() {
-    static const std::unique_ptr<PangoFontMap, Unref> map(
+// One a thread, as font maps want it; to make one costs more than to write a word with it.
+PangoContext* text_context() {
+    thread_local const std::unique_ptr<PangoFontMap, Unref> map(
         pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
-    return map.get();
+    thread_local const std::unique_ptr<PangoContext, Unref> context = [] {
+        std::unique_ptr<PangoContext, Unref> made(pango_font_map_create_context(map.get()));
+        const std::unique_ptr<cairo_font_options_t, FreeOptions> options(cairo_font_options_create());
+        cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+        cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+        cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+        pango_cairo_context_set_font_options(made.get(), options.get());
+        pango_context_set_round_glyph_positions(made.get(), FALSE);
+        return made;
+    }();
+    return context.get();
 }
 
 Layout make_layout(const std::string& text, const TextStyle& style, double wrap, int lines) {
-    const std::unique_ptr<PangoContext, Unref> context(pango_font_map_create_context(font_map()));
-    const std::unique_ptr<cairo_font_options_t, FreeOptions> options(cairo_font_options_create());
-    cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
-    cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
-    cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
-    pango_cairo_context_set_font_options(context.get(), options.get());
-    pango_context_set_round_glyph_positions(context.get(), FALSE);
-    Layout layout(pango_layout_new(context.get()));
+    Layout layout(pango_layout_new(text_context()));
     PangoFontDescription* font = pango_font_description_new();
     pango_font_description_set_family(font, "DejaVu Sans");
     pango_font_description_set_weight(font, style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);

@@ -33,7 +33,15 @@ struct Writer {
 // Each draws itself with its top left corner at (x, y), pixels, and returns its size.
 TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
 TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
-// scale: pixels a metre.
+// Where the colours are inside the colour bar's block, whose words end at y; whole pixels.
+struct ColourBarPlace {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+ColourBarPlace colour_bar_place(const TypeScale& type, double x, double y, double width);
+// Nothing when the grains are coloured by species.
+TextSize colour_bar_block(const Writer& writer, const Scene& scene, double x, double y, double width);
+// What the marks over the grains mean, with a sample of each; nothing without marks. scale: pixels a metre.
+TextSize marks_block(const Writer& writer, const Scene& scene, double scale, double x, double y, double wrap);
 TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest);
 // Directions of gravity and of the drive as the camera sees them. view: null while measuring.
 TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view, double x, double y);
@@ -47,6 +55,8 @@ TextSize exaggeration_block(const Writer& writer, const Film& film, double x, do
 // still part.
 TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
                     double y);
+// All that clock_block would write.
+std::string clock_words(const Scene& scene, const Frame& frame);
 // Time and, with a drive, the cycle.
 TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y);
 

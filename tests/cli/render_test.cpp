@@ -156,7 +156,7 @@ TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
         {{"render", "cut"}, "cut/trajectory.nc: was cut off: of its 7 frames 6 are whole"},
         {{"render", "run", "--set", "drive.frequency=3"}, "--set drive.frequency: the run is over"},
         {{"render", "run", "--set", "species.big.count=3"}, "the run is over"},
-        {{"render", "run", "--set", "film.colour=3"}, "unknown key"},
+        {{"render", "run", "--set", "film.shade=3"}, "unknown key"},
         {{"render", "run", "--from", "1 s"},
          "--from: no frame of the run lies there; they go from 0 to 0.3 s"},
         {{"render", "run", "--to", "3 kg"}, "--to must be a time, but \"3 kg\" is a mass"},

@@ -56,7 +56,8 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
                              "velocity = [0, \"0.5 m/s\", 0]\n", "spin = [0, 0, \"60 rad/s\"]\n"})
         exact = with(exact, line, "");
     exact += "[drive]\nfrequency = 20\namplitude = 0.001\n";
-    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact};
+    const std::string layers = wedge_text + "[film.colour]\nby = \"start-height\"\n";
+    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact, layers};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

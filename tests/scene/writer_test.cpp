@@ -83,6 +83,23 @@ TEST(Writer, ResolvedScenesReadBackBitByBit) {
                              "contact.wall.restitution=0.77", "contact.tangential_damping=12.3"}));
 }
 
+TEST(Writer, WhatTheFilmShowsReadsBackBitByBit) {
+    for (const char* by : {"speed", "vertical-velocity", "start-height", "displacement", "rise", "spin",
+                           "kinetic-energy", "coordination", "contact-force"})
+        expect_round_trip(read_text(wedge_text, {std::string("film.colour.by=") + by}));
+    expect_round_trip(read_text(
+        wedge_text,
+        {"film.colour.by=speed", "film.colour.range=[\"1 cm/s\", \"31.7 cm/s\"]", "film.colour.unit=mm/s",
+         "film.colour.map=cividis", "film.hide=[\"big\"]", "film.highlight=[3, 14]"}));
+    expect_round_trip(read_text(wedge_text +
+                                    "[[film.plot]]\ny = \"lacey\"\nlabel = \"mixing\"\nrange = [0, 1]\n"
+                                    "[[film.plot]]\ny = \"kinetic\"\n[film.arrows]\ngrid = 9\n[film.trails]\n"
+                                    "species = [\"big\"]\ngrains = [1, 2]\nduration = \"0.3 s\"\n",
+                                {"film.force_chains=true"}));
+    expect_round_trip(
+        read_text(wedge_text, {"film.arrows.grid=5", "film.arrows.of=now", "film.arrows.speed=1 cm/s"}));
+}
+
 TEST(Writer, ShippedScenesReadBackBitByBit) {
     for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
         if (entry.path().extension() != ".toml") continue;

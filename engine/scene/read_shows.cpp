@@ -1,0 +1,166 @@
+// Film: what colours and marks say.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/grain_values.hpp"
+#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/reader_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double usual_trail_periods = 10;
+
+// Index of a species that is named at `path`.
+std::size_t species_at(const Document& document, const Scene& scene, const std::string& path,
+                       const std::string& name) {
+    std::string known;
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        if (scene.species[i].name == name) return i;
+        known += (i > 0 ? ", \"" : "\"") + scene.species[i].name + "\"";
+    }
+    document.fail(path,
+                  fmt::format("names the species \"{}\", which is not there; there is {}", name, known));
+}
+
+std::vector<std::int32_t> ids_at(Document& document, const Scene& scene, const std::string& path) {
+    std::vector<std::int32_t> ids;
+    for (const std::int64_t id : document.integer_list(path)) {
+        if (id >= scene.grains())
+            document.fail(path,
+                          fmt::format("has the id {}, but ids run from 0 to {}", id, scene.grains() - 1));
+        ids.push_back(static_cast<std::int32_t>(id));
+    }
+    return ids;
+}
+
+void check_range(const Document& document, const GrainColouring& colour) {
+    const char* const path = "film.colour.range";
+    const auto [low, high] = colour.range;
+    if (low < high) return;
+    if (document.has(path)) document.fail(path, "must rise, from low to high; exchange them or widen it");
+    document.fail("film.colour.by",
+                  fmt::format("is \"{}\", for which this scene gives no scale; write a 'range' for it",
+                              word_of(colour.by, grain_value_words)));
+}
+
+void read_colour(Document& document, const Scene& scene, GrainColouring& colour) {
+    colour.by = chosen(document, "film.colour.by", grain_value_words, colour.by);
+    if (colour.by == GrainValue::species) {
+        for (const char* key : {"map", "range", "unit"})
+            document.refuse(fmt::format("film.colour.{}", key), "the grains are coloured by species");
+    }
+    if (colour.by != GrainValue::start_height)
+        document.refuse("film.colour.layers", "only 'by = \"start-height\"' makes bands");
+    if (colour.by == GrainValue::species) return;
+    if (needs_displacement(scene.film.shows) && !scene.drive.present)
+        document.fail("film.colour.by",
+                      "counts from one period of the drive to the next, but nothing "
+                      "oscillates; add [drive] or write \"speed\"");
+    const Dimension dimension = dimension_of(colour.by);
+    colour.map = chosen(document, "film.colour.map", colour_map_words,
+                        is_signed(colour.by) ? ColourMap::vik : ColourMap::viridis);
+    colour.range = document.interval("film.colour.range", dimension).value_or(usual_range(colour.by, scene));
+    check_range(document, colour);
+    colour.layers = static_cast<int>(document.integer("film.colour.layers").value_or(colour.layers));
+    if (dimension == Dimension::number) document.refuse("film.colour.unit", "it is a pure number");
+    const auto unit = document.text("film.colour.unit");
+    try {
+        if (unit) unit_size(*unit, dimension);
+    } catch (const UserError& error) {
+        document.fail("film.colour.unit", error.what());
+    }
+    colour.unit = unit.value_or(fitting_unit(std::max(-colour.range[0], colour.range[1]), dimension));
+}
+
+constexpr std::size_t most_plots = 3;  // beside the grains
+
+// The column that a scene means, with or without its unit ("kinetic_J", "kinetic"). The first four count
+// steps and time, which is the plot's other axis.
+const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name) {
+    for (std::size_t i = 4; i < columns.size(); ++i) {
+        const std::string& full = columns[i].name;
+        const bool has_unit = columns[i].dimension != Dimension::number;
+        if (full == name || (has_unit && full.substr(0, full.rfind('_')) == name)) return &columns[i];
+    }
+    return nullptr;
+}
+
+FilmPlot read_plot(Document& document, const std::vector<MeasureColumn>& columns, const std::string& table) {
+    const std::string name = document.required_text(table + ".y");
+    const MeasureColumn* column = find_column(columns, name);
+    if (column == nullptr) {
+        std::string known;
+        for (std::size_t i = 4; i < columns.size(); ++i) known += (i > 4 ? ", " : "") + columns[i].name;
+        document.fail(
+            table + ".y",
+            fmt::format("must be a column of measures.csv, but is \"{}\"; there are {}", name, known));
+    }
+    FilmPlot plot;
+    plot.column = column->name;
+    plot.label = document.text(table + ".label").value_or(column->label);
+    plot.range = document.interval(table + ".range", column->dimension);
+    if (plot.range && !((*plot.range)[0] < (*plot.range)[1]))
+        document.fail(table + ".range", "must rise, from low to high; exchange them or widen it");
+    return plot;
+}
+
+void read_plots(Document& document, Scene& scene) {
+    std::vector<std::string> names;
+    for (const Species& species : scene.species) names.push_back(species.name);
+    const std::vector<MeasureColumn> columns = measure_columns(names);
+    const std::size_t count = document.size("film.plot");
+    if (count > most_plots)
+        document.fail("film.plot", fmt::format("are {}, but only {} fit beside the grains; remove some",
+                                               count, most_plots));
+    for (std::size_t i = 0; i < count; ++i)
+        scene.film.shows.plots.push_back(read_plot(document, columns, fmt::format("film.plot[{}]", i)));
+}
+
+void read_arrows(Document& document, const Scene& scene, FilmArrows& arrows) {
+    if (!document.is_table("film.arrows")) return;
+    const auto across = document.integer("film.arrows.grid");
+    if (!across) document.fail_missing("film.arrows.grid");
+    arrows.across = static_cast<int>(*across);
+    arrows.period =
+        chosen<bool>(document, "film.arrows.of", {{"period", true}, {"now", false}}, scene.drive.present);
+    if (arrows.period && !scene.drive.present)
+        document.fail("film.arrows.of",
+                      "is \"period\", but nothing oscillates; add [drive] or write \"now\"");
+    // A grain's diameter in five periods is a fast circulation.
+    const double usual =
+        arrows.period ? 0.1 * usual_range(GrainValue::displacement, scene)[1] * 2 * scene.drive.frequency
+                      : 0.5 * usual_range(GrainValue::speed, scene)[1];
+    arrows.speed = document.quantity("film.arrows.speed").value_or(usual);
+    if (arrows.speed <= 0) document.fail("film.arrows", "need a 'speed': this scene gives no scale for it");
+}
+
+void read_trails(Document& document, const Scene& scene, FilmTrails& trails) {
+    if (!document.is_table("film.trails")) return;
+    for (const std::string& name : document.name_list("film.trails.species"))
+        trails.species.push_back(species_at(document, scene, "film.trails.species", name));
+    trails.grains = ids_at(document, scene, "film.trails.grains");
+    if (!trails.wanted())
+        document.fail("film.trails", "need 'species' or 'grains'; write for example grains = [3, 14]");
+    const double usual =
+        scene.drive.present ? usual_trail_periods / scene.drive.frequency : 0.1 * scene.run.duration;
+    trails.duration = document.quantity("film.trails.duration").value_or(usual);
+}
+
+}  // namespace
+
+void read_shows(Document& document, Scene& scene) {
+    FilmShows& look = scene.film.shows;
+    read_colour(document, scene, look.colour);
+    for (const std::string& name : document.name_list("film.hide"))
+        look.hidden.push_back(species_at(document, scene, "film.hide", name));
+    look.highlighted = ids_at(document, scene, "film.highlight");
+    read_plots(document, scene);
+    read_arrows(document, scene, look.arrows);
+    read_trails(document, scene, look.trails);
+    look.force_chains = document.flag("film.force_chains").value_or(look.force_chains);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,124 @@
+#include "render/draw/marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "engine/scene/grain_values.hpp"
+#include "render/draw/velocity_field.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double longest_arrow = 1.5;   // cells
+constexpr double weakest_force = 0.02;  // of the widest; weaker ones are left out
+
+// Place of a grain in the frame, whose ids rise; none when it is not there.
+std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
+    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+    if (found == frame.id.end() || *found != id) return std::nullopt;
+    return static_cast<std::size_t>(found - frame.id.begin());
+}
+
+}  // namespace
+
+double arrow_scale(const Scene& scene) {
+    return field_cell_size(scene) / scene.film.shows.arrows.speed;
+}
+
+double widest_force(const Scene& scene) {
+    return 0.5 * usual_range(GrainValue::contact_force, scene)[1];
+}
+
+double widest_line(int picture_height) {
+    return 0.012 * picture_height;
+}
+
+Marks::Marks(const Scene& scene, const Palette& palette)
+    : scene_(scene), palette_(palette), pen_(std::max(1.0, scene.film.height / 540.0)), trails_(scene) {}
+
+void Marks::draw(const View& view, const Frame& frame, Shapes& on) {
+    const FilmShows& look = scene_.film.shows;
+    if (look.force_chains) draw_chains(view, frame, on);
+    if (look.trails.wanted()) {
+        trails_.take(frame);
+        draw_trails(view, on);
+    }
+    if (look.arrows.across > 0) draw_arrows(view, frame, on);
+    if (!look.highlighted.empty()) draw_rings(view, frame, on);
+}
+
+void Marks::outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
+                     const Colour& colour) const {
+    on.line(points, closed, width + 2 * pen_, {palette_.background, 1});
+    on.line(points, closed, width, {colour, 1});
+}
+
+void Marks::draw_chains(const View& view, const Frame& frame, Shapes& on) const {
+    const double widest = widest_line(scene_.film.height), force = widest_force(scene_);
+    const double too_far = scene_.container.periodic_depth ? 0.5 * scene_.container.depth
+                                                           : std::numeric_limits<double>::infinity();
+    for (const Touch& touch : frame.touches) {
+        const auto first = find_grain(frame, touch.first), second = find_grain(frame, touch.second);
+        if (!first || !second || touch.force < weakest_force * force) continue;
+        const Vec3 &a = frame.position[*first], &b = frame.position[*second];
+        if (std::abs(a.x() - b.x()) > too_far) continue;
+        const double width = widest * std::min(1.0, touch.force / force);
+        on.line({view.project(a), view.project(b)}, false, width, {palette_.accent, 1});
+    }
+}
+
+void Marks::draw_trails(const View& view, Shapes& on) const {
+    for (const bool outline : {true, false}) {
+        for (const auto& path : trails_.paths()) {
+            for (std::size_t k = 1; k < path.size(); ++k) {
+                // Thinner with age.
+                const double width = pen_ * (2.2 - 1.6 * path[k - 1].age);
+                on.line({view.project(path[k - 1].at), view.project(path[k].at)}, false,
+                        outline ? width + 1.4 * pen_ : width,
+                        {outline ? palette_.background : palette_.accent, 1});
+            }
+        }
+    }
+}
+
+void Marks::draw_arrows(const View& view, const Frame& frame, Shapes& on) const {
+    const double scale = arrow_scale(scene_), longest = longest_arrow * field_cell_size(scene_);
+    for (const FieldCell& cell : velocity_field(scene_, frame)) {
+        Vec3 along = scale * Vec3(0, cell.velocity.y(), cell.velocity.z());
+        if (along.norm() > longest) along *= longest / along.norm();
+        const Pixel tail = view.project(cell.middle - 0.5 * along);
+        const Pixel tip = view.project(cell.middle + 0.5 * along);
+        const double length = (tip - tail).norm();
+        if (length < 1) continue;
+        const Pixel ahead = (tip - tail) / length, aside(-ahead.y(), ahead.x());
+        const double head = std::min(5 * pen_, 0.5 * length);
+        const Pixel neck = tip - head * ahead;
+        const std::vector<Pixel> corners{tip, neck + 0.45 * head * aside, neck - 0.45 * head * aside};
+        on.line(corners, true, 2 * pen_, {palette_.background, 1});
+        outlined(on, {tail, neck}, false, 1.4 * pen_, palette_.ink);
+        on.polygon(corners, {palette_.ink, 1});
+        on.line(corners, true, 0.5 * pen_, {palette_.ink, 1});
+    }
+}
+
+void Marks::draw_rings(const View& view, const Frame& frame, Shapes& on) const {
+    constexpr int corners = 48;
+    for (const std::int32_t id : scene_.film.shows.highlighted) {
+        const auto grain = find_grain(frame, id);
+        if (!grain) continue;
+        const Vec3& at = frame.position[*grain];
+        const Pixel middle = view.project(at);
+        const double radius = frame.radius[*grain] * view.pixels_per_metre(at) + 2.5 * pen_;
+        std::vector<Pixel> ring;
+        for (int k = 0; k < corners; ++k) {
+            const double angle = 2 * std::numbers::pi * k / corners;
+            ring.push_back(middle + radius * Pixel(std::cos(angle), std::sin(angle)));
+        }
+        outlined(on, ring, true, 2 * pen_, palette_.accent);
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,41 @@
+// What is drawn over the grains: velocity arrows, trails, lines of force, rings around chosen grains.
+#pragma once
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/draw/canvas.hpp"
+#include "render/draw/palette.hpp"
+#include "render/draw/trails.hpp"
+#include "render/draw/view.hpp"
+
+namespace grainreel {
+
+// m an arrow is long for each m/s.
+double arrow_scale(const Scene& scene);
+// N of a contact whose line is as wide as lines of force get.
+double widest_force(const Scene& scene);
+double widest_line(int picture_height);  // pixels
+
+class Marks {
+  public:
+    Marks(const Scene& scene, const Palette& palette);
+
+    // Adds them to what is to be painted after the grains. Frames come in the order of time.
+    void draw(const View& view, const Frame& frame, Shapes& on);
+
+  private:
+    void draw_chains(const View& view, const Frame& frame, Shapes& on) const;
+    void draw_trails(const View& view, Shapes& on) const;
+    void draw_arrows(const View& view, const Frame& frame, Shapes& on) const;
+    void draw_rings(const View& view, const Frame& frame, Shapes& on) const;
+    // A line on a wider one of the background's colour, so that it reads on any grain.
+    void outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
+                  const Colour& colour) const;
+
+    const Scene& scene_;
+    const Palette palette_;
+    const double pen_;  // pixels
+    Trails trails_;
+};
+
+}  // namespace grainreel

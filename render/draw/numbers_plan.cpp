@@ -1,0 +1,93 @@
+#include "render/draw/numbers_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/draw/layout.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double most_plot = 0.25, least_plot = 0.16;  // heights over that of the picture
+constexpr double plot_width = 0.2;                     // in a gutter at the side, over the picture's width
+
+Rectangle whole(double x, double y, double width, double height) {
+    return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};
+}
+
+// Clock, dial, drive and caption below each other, plots at the lower end.
+void plan_column(const Writer& measure, const Scene& scene, double height, NumbersPlan& plan) {
+    const TypeScale& type = measure.type;
+    double y = plan.clock_end;
+    if (scene.drive.present) {
+        plan.dial = y + 0.6 * type.gap;
+        const TextSize disc = dial_block(measure, scene.drive, nullptr, plan.radius, 0, 0);
+        plan.drive = plan.dial + disc.height + 0.6 * type.gap;
+        plan.dial_end = plan.drive;
+        plan.drive_x = plan.x;
+        const TextSize drive = drive_block(measure, scene, 0, 0);
+        y = plan.drive + drive.height + type.gap;
+        plan.width = std::max({plan.width, disc.width, drive.width});
+    }
+    plan.caption = y;
+    plan.caption_lines = 4;
+    const double line = measure.write(0, 0, "0", measure.minor(), {}).height;
+    plan.caption_end = y + 4 * line;
+    plan.height = plan.caption_end;
+    const auto count = static_cast<double>(scene.film.shows.plots.size());
+    if (count == 0) return;
+    plan.width = std::max(plan.width, plot_width * scene.film.width);
+    const double room = (height - type.margin - plan.caption_end) / count - type.gap;
+    const double each = std::clamp(room, least_plot * scene.film.height, most_plot * scene.film.height);
+    for (double k = 0; k < count; ++k)
+        plan.plots.push_back(whole(plan.x, height - type.margin - (count - k) * (each + type.gap) + type.gap,
+                                   plan.inner, each));
+}
+
+// Clock and caption above, dial and numbers side by side, plots in a row.
+void plan_rows(const Writer& measure, const Scene& scene, double height, NumbersPlan& plan) {
+    const TypeScale& type = measure.type;
+    plan.caption = plan.clock_end;
+    // Two lines are kept for the caption, whatever it says, so that nothing moves.
+    plan.caption_lines = 2;
+    double y = plan.caption + 2.6 * type.minor + type.gap;
+    plan.caption_end = y;
+    if (scene.drive.present) {
+        plan.dial = plan.drive = y;
+        const TextSize disc = dial_block(measure, scene.drive, nullptr, plan.radius, 0, 0);
+        plan.drive_x = plan.x + disc.width + type.gap;
+        plan.arrows_x = plan.drive_x + drive_block(measure, scene, 0, 0).width + 2 * type.gap;
+        y += std::max(disc.height, drive_block(measure, scene, 0, 0).height);
+        plan.dial_end = y + 0.2 * type.gap;
+    }
+    const auto count = static_cast<double>(scene.film.shows.plots.size());
+    const double room = height > 0 ? height - type.margin - y - type.gap : least_plot * scene.film.height;
+    const double each = std::clamp(room, 0.1 * scene.film.height, least_plot * scene.film.height);
+    const double wide = (plan.inner - type.gap * (count - 1.0)) / std::max(count, 1.0);
+    for (double k = 0; k < count; ++k)
+        plan.plots.push_back(whole(plan.x + k * (wide + type.gap), y + type.gap, wide, each));
+    if (count > 0) y += type.gap + each;
+    plan.height = y;
+}
+
+}  // namespace
+
+NumbersPlan plan_numbers(const Writer& measure, const Scene& scene, double width, double height,
+                         bool portrait) {
+    const TypeScale& type = measure.type;
+    NumbersPlan plan;
+    plan.x = portrait ? type.margin : 0.5 * type.margin;
+    plan.inner = std::max(1.0, width - (portrait ? 2.0 : 1.5) * type.margin);
+    plan.radius = portrait ? std::min(2.2 * type.main, 0.14 * plan.inner) : 2.2 * type.main;
+    plan.clock = type.margin;
+    const TextSize clock = clock_block(measure, scene, widest_frame(), 0, 0);
+    plan.clock_end = plan.clock + clock.height + 0.3 * type.gap;
+    plan.width = clock.width;
+    if (portrait)
+        plan_rows(measure, scene, height, plan);
+    else
+        plan_column(measure, scene, height, plan);
+    return plan;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,193 @@
+#include "render/draw/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "engine/measure/measure_table.hpp"
+#include "engine/scene/grain_values.hpp"
+#include "render/draw/text.hpp"
+#include "render/draw/ticks.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int most_ticks = 4;
+
+void set_colour(cairo_t* on, const Colour& colour) {
+    cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
+}
+
+void line(cairo_t* on, double x0, double y0, double x1, double y1) {
+    cairo_move_to(on, x0, y0);
+    cairo_line_to(on, x1, y1);
+    cairo_stroke(on);
+}
+
+double line_height(double letters) {
+    return measure_text("0", {letters, false}).height;
+}
+
+}  // namespace
+
+void Plot::Slice::add(double value) {
+    if (count++ == 0) first = low = high = value;
+    last = value;
+    low = std::min(low, value);
+    high = std::max(high, value);
+}
+
+Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette)
+    : frame_(frame),
+      type_(type),
+      palette_(palette),
+      axes_(blank_surface({0, 0, frame.width, frame.height}, palette.background)) {
+    const double words = line_height(type.minor);
+    const double end = measure_text(tick_text(frame.time[1], frame.time[1]), {type.minor, false}).width;
+    left_ = std::ceil(measure_text("−0.00", {type.minor, false}).width + 0.6 * type.minor);
+    right_ = std::floor(frame.width - std::max(0.5 * end, 0.4 * type.main));
+    top_ = std::ceil(line_height(type.main) + 0.6 * type.minor);
+    bottom_ = std::floor(frame.height - 2 * words - 0.35 * type.minor);
+    forget();
+}
+
+void Plot::forget() {
+    rows_ = 0;
+    any_ = false;
+    axes_fresh_ = false;
+    limits_ = frame_.range.value_or(std::array<double, 2>{0, 1});
+    slices_.assign(static_cast<std::size_t>(std::max(1.0, right_ - left_)) + 1, {});
+}
+
+double Plot::x_of(double time) const {
+    return left_ + (time - frame_.time[0]) / (frame_.time[1] - frame_.time[0]) * (right_ - left_);
+}
+
+double Plot::y_of(double value) const {
+    const double share = (value - limits_[0]) / (limits_[1] - limits_[0]);
+    return bottom_ - std::clamp(share, 0.0, 1.0) * (bottom_ - top_);
+}
+
+bool Plot::take(const Frame& frame) {
+    if (!frame.measures || (frame.measures == table_ && frame.measure_rows == rows_)) return false;
+    if (frame.measures != table_ || frame.measure_rows < rows_) forget();
+    table_ = frame.measures;
+    const std::vector<std::string>& columns = frame.measures->columns();
+    const auto column = [&](const std::string& name) {
+        const auto found = std::find(columns.begin(), columns.end(), name);
+        GRAINREEL_CHECK(found != columns.end());
+        return frame.measures->values(static_cast<std::size_t>(found - columns.begin()), rows_,
+                                      frame.measure_rows);
+    };
+    const std::vector<double> times = column("time_s"), values = column(frame_.column);
+    for (std::size_t i = 0; i < times.size(); ++i) add(times[i], values[i]);
+    rows_ = frame.measure_rows;
+    return true;
+}
+
+void Plot::add(double time, double value) {
+    if (!std::isfinite(value)) return;
+    if (!frame_.range) widen(value);
+    last_ = {time, value};
+    any_ = true;
+    const double slice =
+        std::clamp(std::floor(x_of(time) - left_), 0.0, static_cast<double>(slices_.size()) - 1);
+    slices_[static_cast<std::size_t>(slice)].add(value);
+}
+
+void Plot::widen(double value) {
+    if (any_ && value >= limits_[0] && value <= limits_[1]) return;
+    const double low = any_ ? std::min(limits_[0], value) : value;
+    const double high = any_ ? std::max(limits_[1], value) : value;
+    // The first value alone: room for a change by a tenth.
+    const double room = any_ ? 0 : std::max(0.1 * std::abs(value), 1e-12);
+    const std::array<double, 2> wide = round_limits(low - room, high + room, most_ticks + 1);
+    limits_ = {any_ ? std::min(limits_[0], wide[0]) : wide[0],
+               any_ ? std::max(limits_[1], wide[1]) : wide[1]};
+    axes_fresh_ = false;
+}
+
+void Plot::draw_axes() {
+    const CairoContext on(cairo_create(axes_.get()));
+    set_colour(on.get(), palette_.background);
+    cairo_paint(on.get());
+    const TextStyle minor{type_.minor, false};
+    const double pen = std::max(1.0, type_.main / 20), tick = 0.3 * type_.minor;
+    const double largest = std::max(std::abs(limits_[0]), std::abs(limits_[1]));
+    const std::string unit = fitting_unit(largest, frame_.dimension);
+    const double size = unit_size(unit, frame_.dimension);
+    const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
+    draw_text(on.get(), 0, 0, title, {type_.main, false}, palette_.ink, frame_.width, 1);
+
+    const std::vector<double> values = round_ticks(limits_[0] / size, limits_[1] / size, most_ticks);
+    for (const double value : values) {
+        const double y = y_of(value * size);
+        cairo_set_line_width(on.get(), 0.7 * pen);
+        set_colour(on.get(), mix(palette_.background, palette_.ink, 0.15));
+        line(on.get(), left_, y, right_, y);
+        const std::string text =
+            tick_text(value, values.size() > 1 ? values[1] - values[0] : std::abs(value) + 1e-30);
+        const TextSize words = measure_text(text, minor);
+        draw_text(on.get(), left_ - tick - words.width, y - 0.5 * words.height, text, minor,
+                  palette_.faint_ink);
+    }
+    const bool short_run = frame_.time[1] < 0.1;
+    const double second = short_run ? 1e-3 : 1;
+    const std::vector<double> times =
+        round_ticks(frame_.time[0] / second, frame_.time[1] / second, most_ticks);
+    set_colour(on.get(), palette_.faint_ink);
+    cairo_set_line_width(on.get(), pen);
+    line(on.get(), left_, top_, left_, bottom_);
+    line(on.get(), left_, bottom_, right_, bottom_);
+    double below = 0;
+    for (const double time : times) {
+        const double x = x_of(time * second);
+        set_colour(on.get(), palette_.faint_ink);
+        line(on.get(), x, bottom_, x, bottom_ + tick);
+        const std::string text = tick_text(time, times.size() > 1 ? times[1] - times[0] : 1);
+        const TextSize words = measure_text(text, minor);
+        draw_text(on.get(), x - 0.5 * words.width, bottom_ + tick, text, minor, palette_.faint_ink);
+        below = words.height;
+    }
+    const std::string name = short_run ? "time (ms)" : "time (s)";
+    draw_text(on.get(), right_ - measure_text(name, minor).width, bottom_ + tick + below, name, minor,
+              palette_.faint_ink);
+    axes_fresh_ = true;
+}
+
+void Plot::draw_curve(cairo_t* on) const {
+    cairo_new_path(on);
+    for (std::size_t i = 0; i < slices_.size(); ++i) {
+        const Slice& slice = slices_[i];
+        if (slice.count == 0) continue;
+        const double x = left_ + static_cast<double>(i) + 0.5;
+        for (const double value : {slice.first, slice.low, slice.high, slice.last})
+            cairo_line_to(on, x, y_of(value));
+    }
+    set_colour(on, palette_.ink);
+    cairo_set_line_width(on, std::max(1.0, type_.main / 14));
+    cairo_set_line_join(on, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke(on);
+}
+
+void Plot::draw(cairo_t* on, int x, int y) {
+    if (!axes_fresh_) draw_axes();
+    cairo_save(on);
+    cairo_translate(on, x, y);
+    cairo_set_source_surface(on, axes_.get(), 0, 0);
+    cairo_paint(on);
+    draw_curve(on);
+    if (any_) {
+        set_colour(on, palette_.accent);
+        cairo_new_path(on);
+        cairo_arc(on, x_of(last_[0]), y_of(last_[1]), std::max(2.5, 0.18 * type_.main), 0,
+                  2 * std::numbers::pi);
+        cairo_fill(on);
+    }
+    cairo_restore(on);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,70 @@
+// A measure against time, drawn beside the grains while the film goes on.
+#pragma once
+
+#include <cairo.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/film_shows.hpp"
+#include "engine/scene/units.hpp"
+#include "render/draw/cairo_surface.hpp"
+#include "render/draw/layout.hpp"
+#include "render/draw/palette.hpp"
+
+namespace grainreel {
+
+// What is known before the film begins.
+struct PlotFrame {
+    std::string column, label;
+    Dimension dimension = Dimension::number;
+    std::array<double, 2> time{0, 1};            // s, of the whole run
+    std::optional<std::array<double, 2>> range;  // SI
+    int width = 0, height = 0;                   // pixels
+};
+
+class Plot {
+  public:
+    Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette);
+
+    // The rows up to the frame's. Limits only grow, and depend on the rows alone. False when nothing changed.
+    bool take(const Frame& frame);
+    // Top left corner at (x, y).
+    void draw(cairo_t* on, int x, int y);
+
+    // Where a moment and a value lie, pixels from the plot's corner.
+    double x_of(double time) const;
+    double y_of(double value) const;
+
+  private:
+    // All values that fall into one column of pixels.
+    struct Slice {
+        int count = 0;
+        double first = 0, last = 0, low = 0, high = 0;
+        void add(double value);
+    };
+    void forget();
+    void add(double time, double value);
+    void widen(double value);
+    void draw_axes();
+    void draw_curve(cairo_t* on) const;
+
+    const PlotFrame frame_;
+    const TypeScale type_;
+    const Palette palette_;
+    double left_, right_, top_, bottom_;  // of the box, pixels
+    CairoSurface axes_;
+    bool axes_fresh_ = false;
+    std::shared_ptr<const MeasureTable> table_;
+    std::size_t rows_ = 0;
+    bool any_ = false;
+    std::array<double, 2> limits_{0, 1};  // SI
+    std::array<double, 2> last_{0, 0};    // time and value
+    std::vector<Slice> slices_;
+};
+
+}  // namespace grainreel

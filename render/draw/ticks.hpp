@@ -1,0 +1,21 @@
+// Round numbers for axes, and their words.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace grainreel {
+
+// Multiples of 1, 2 or 5 times a power of ten inside [low, high]: as many as there are, at most `most` (>=
+// 2).
+std::vector<double> round_ticks(double low, double high, int most);
+
+// The narrowest interval around [low, high] whose ends are such multiples, `most` of them at most. Equal ends
+// are taken a little apart.
+std::array<double, 2> round_limits(double low, double high, int most);
+
+// As many decimals as the distance between ticks asks for, a minus as wide as a digit.
+std::string tick_text(double value, double distance);
+
+}  // namespace grainreel

@@ -1,0 +1,42 @@
+#include "render/cli/earlier_positions.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/cli/agenda.hpp"
+
+namespace grainreel {
+namespace {
+
+Frame frame_at(std::int64_t step, const Vec3& position) {
+    Frame frame;
+    frame.step = step;
+    frame.id = {0};
+    frame.position = {position};
+    return frame;
+}
+
+TEST(EarlierPositions, AreWantedOnePeriodBeforeEachPicture) {
+    const EarlierPositions earlier({{0, 0}, {7, 0}, {12, 0}, {12, 1}, {30, 1}}, 10, 2, 0);
+    EXPECT_THAT(earlier.steps(), testing::ElementsAre(2, 20));
+    Agenda agenda({{12, 0}}, 0, 0, 2, 12, earlier.steps());
+    EXPECT_TRUE(agenda.next()->positions);  // step 2
+    const std::optional<Stop> picture = agenda.next();
+    EXPECT_EQ(picture->step, 12);
+    EXPECT_FALSE(picture->positions);
+}
+
+TEST(EarlierPositions, GiveTheWayOfAPeriod) {
+    EarlierPositions earlier({{10, 0}, {15, 0}}, 10, 0, 0.04);
+    earlier.keep(frame_at(0, {0.019, 0, 0.1}));
+    Frame now = frame_at(10, {-0.018, 0.002, 0.11});  // through the periodic wall: 3 mm, not -37
+    earlier.fill(now);
+    ASSERT_EQ(now.displacement.size(), 1u);
+    EXPECT_LT((now.displacement[0] - Vec3(0.003, 0.002, 0.01)).norm(), 1e-12);
+    Frame unknown = frame_at(15, {0, 0, 0});
+    earlier.fill(unknown);
+    EXPECT_TRUE(unknown.displacement.empty());
+}
+
+}  // namespace
+}  // namespace grainreel

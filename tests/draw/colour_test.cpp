@@ -1,0 +1,191 @@
+// Colours that stand for numbers.
+#include <gtest/gtest.h>
+
+#include "engine/scene/grain_values.hpp"
+#include "render/draw/colour_map.hpp"
+#include "render/draw/colour_scale.hpp"
+#include "render/draw/grain_colours.hpp"
+#include "render/draw/ticks.hpp"
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+void expect_colour(const Colour& found, const Colour& expected, double within) {
+    EXPECT_NEAR(found.red, expected.red, within);
+    EXPECT_NEAR(found.green, expected.green, within);
+    EXPECT_NEAR(found.blue, expected.blue, within);
+}
+
+double luminance(const Colour& c) {
+    return 0.2126 * to_linear(c.red) + 0.7152 * to_linear(c.green) + 0.0722 * to_linear(c.blue);
+}
+
+// Published colours at both ends and at places of the tables of 256 that ours leave out.
+TEST(ColourMaps, ArePublishedOnes) {
+    expect_colour(colour_of(ColourMap::viridis, 0), {0.267004, 0.004874, 0.329415}, 1e-12);
+    expect_colour(colour_of(ColourMap::viridis, 1), {0.993248, 0.906157, 0.143936}, 1e-12);
+    expect_colour(colour_of(ColourMap::viridis, 64 / 255.0), {0.229739, 0.322361, 0.545706}, 0.002);
+    expect_colour(colour_of(ColourMap::viridis, 128 / 255.0), {0.127568, 0.566949, 0.550556}, 0.003);
+    expect_colour(colour_of(ColourMap::viridis, 192 / 255.0), {0.369214, 0.788888, 0.382914}, 0.003);
+    expect_colour(colour_of(ColourMap::cividis, 0), {0.0, 0.135112, 0.304751}, 1e-12);
+    expect_colour(colour_of(ColourMap::cividis, 1), {0.995737, 0.909344, 0.217772}, 1e-12);
+    expect_colour(colour_of(ColourMap::cividis, 128 / 255.0), {0.488697, 0.485318, 0.471008}, 0.005);
+    expect_colour(colour_of(ColourMap::cividis, 192 / 255.0), {0.736488, 0.680629, 0.424028}, 0.003);
+    expect_colour(colour_of(ColourMap::vik, 0), {0, 0x12 / 255.0, 0x61 / 255.0}, 1e-12);
+    expect_colour(colour_of(ColourMap::vik, 0.5), {0xec / 255.0, 0xe5 / 255.0, 0xe0 / 255.0}, 1e-12);
+    expect_colour(colour_of(ColourMap::vik, 1), {0x59 / 255.0, 0, 0x08 / 255.0}, 1e-12);
+    expect_colour(colour_of(ColourMap::viridis, -3), colour_of(ColourMap::viridis, 0), 0);
+    expect_colour(colour_of(ColourMap::viridis, 3), colour_of(ColourMap::viridis, 1), 0);
+}
+
+TEST(ColourMaps, LightnessRisesAllTheWayOrTowardsTheMiddle) {
+    for (int i = 0; i < 1000; ++i) {
+        const double a = i / 1000.0, b = (i + 1) / 1000.0;
+        for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis})
+            ASSERT_LT(luminance(colour_of(map, a)), luminance(colour_of(map, b))) << a;
+        ASSERT_LT(luminance(colour_of(ColourMap::vik, 0.5 * a)),
+                  luminance(colour_of(ColourMap::vik, 0.5 * b)));
+        ASSERT_LT(luminance(colour_of(ColourMap::vik, 1 - 0.5 * a)),
+                  luminance(colour_of(ColourMap::vik, 1 - 0.5 * b)));
+    }
+}
+
+Scene coloured(GrainValue by, double low, double high, const std::string& unit) {
+    Scene scene = wedge(1280, 720);
+    scene.film.shows.colour = {by, is_signed(by) ? ColourMap::vik : ColourMap::viridis, {low, high}, unit, 5};
+    return scene;
+}
+
+void expect_albedo(GrainColours& colours, const Frame& frame, std::size_t grain, const Colour& expected) {
+    const Albedo& albedo = colours.of(frame)[grain];
+    EXPECT_NEAR(to_srgb(albedo[0]), expected.red, 0.002);
+    EXPECT_NEAR(to_srgb(albedo[1]), expected.green, 0.002);
+    EXPECT_NEAR(to_srgb(albedo[2]), expected.blue, 0.002);
+}
+
+Frame two_balls() {
+    Frame frame = frame_of({{{0, -0.02, 0.1}, 0.0025, 0}, {{0, 0.02, 0.08}, 0.005, 1}});
+    frame.velocity[0] = {0.3, 0, -0.4};
+    frame.spin[1] = {0, 30, 40};
+    return frame;
+}
+
+TEST(GrainColours, FollowTheFormulaOfTheQuantity) {
+    const Frame frame = two_balls();
+    const auto check = [&](GrainValue by, double low, double high, double first, double second) {
+        const Scene scene = coloured(by, low, high, "");
+        GrainColours colours(scene);
+        const ColourMap map = scene.film.shows.colour.map;
+        SCOPED_TRACE(static_cast<int>(by));
+        expect_albedo(colours, frame, 0, colour_of(map, (first - low) / (high - low)));
+        expect_albedo(colours, frame, 1, colour_of(map, (second - low) / (high - low)));
+    };
+    check(GrainValue::speed, 0, 0.8, 0.5, 0);
+    check(GrainValue::vertical_velocity, -0.8, 0.8, -0.4, 0);
+    check(GrainValue::spin, 0, 80, 0, 50);
+    const double mass = 2500 * 4.0 / 3 * pi * 1.25e-7;  // of the second
+    const double turning = 0.5 * 0.4 * mass * 2.5e-5 * 2500;
+    check(GrainValue::kinetic_energy, 0, 2 * turning, 0.5 * mass / 8 * 0.25, turning);
+}
+
+TEST(GrainColours, ContactsAreCountedOfBothPartners) {
+    Frame frame = two_balls();
+    frame.touches = {{0, 1, 0.3}, {1, -2, 0.5}};
+    GrainColours number(coloured(GrainValue::coordination, 0, 4, ""));
+    expect_albedo(number, frame, 0, colour_of(ColourMap::viridis, 0.25));
+    expect_albedo(number, frame, 1, colour_of(ColourMap::viridis, 0.5));
+    GrainColours force(coloured(GrainValue::contact_force, 0, 1, "N"));
+    expect_albedo(force, frame, 0, colour_of(ColourMap::viridis, 0.3));
+    expect_albedo(force, frame, 1, colour_of(ColourMap::viridis, 0.8));
+}
+
+TEST(GrainColours, LayersAreThoseOfTheFirstFrame) {
+    GrainColours colours(coloured(GrainValue::start_height, 0, 0.125, "mm"));
+    Frame frame = two_balls();  // heights 0.1 and 0.08, in the fifth and the fourth of five layers
+    expect_albedo(colours, frame, 0, colour_of(ColourMap::viridis, 1));
+    expect_albedo(colours, frame, 1, colour_of(ColourMap::viridis, 0.75));
+    std::swap(frame.position[0], frame.position[1]);
+    expect_albedo(colours, frame, 0, colour_of(ColourMap::viridis, 1));
+    expect_albedo(colours, frame, 1, colour_of(ColourMap::viridis, 0.75));
+    Frame more = two_balls();
+    more.id = {0, 2};  // one that was not there at the start
+    expect_albedo(colours, more, 1, neutral_grain);
+}
+
+TEST(GrainColours, WithoutDisplacementsTheyAreGrey) {
+    GrainColours colours(coloured(GrainValue::rise, -0.004, 0.004, "mm"));
+    Frame frame = two_balls();
+    expect_albedo(colours, frame, 0, neutral_grain);
+    frame.displacement = {{0, 0, 0.001}, {0.003, 0, -0.002}};
+    expect_albedo(colours, frame, 0, colour_of(ColourMap::vik, 0.625));
+    expect_albedo(colours, frame, 1, colour_of(ColourMap::vik, 0.25));
+}
+
+// A fast grain that comes into the film does not change what the colours of the others say.
+TEST(GrainColours, MeanTheSameInEveryFrame) {
+    const Scene scene = coloured(GrainValue::speed, 0, 1, "m/s");
+    Renderer renderer(scene, 1);
+    Frame frame = two_balls();
+    const Picture before = renderer.draw(frame, "");
+    frame.velocity[1] = {0, 0, 100};
+    const Picture after = renderer.draw(frame, "");
+    const View view = view_of(scene);
+    const auto pixel = [&](const Picture& picture, const Vec3& at) {
+        const Pixel p = view.project(at);
+        return picture.pixel(view.port.x + static_cast<int>(p.x()), view.port.y + static_cast<int>(p.y()));
+    };
+    for (int c = 0; c < 3; ++c)
+        EXPECT_EQ(pixel(before, frame.position[0])[c], pixel(after, frame.position[0])[c]);
+    EXPECT_NEAR(hue(pixel(after, frame.position[1])), hue(colour_of(ColourMap::viridis, 1)), 8);
+    EXPECT_NEAR(hue(pixel(before, frame.position[0])), hue(colour_of(ColourMap::viridis, 0.5)), 8);
+}
+
+// Some row of the first gutter holds the whole bar: its left end, and `width` further its right end.
+TEST(ColourBar, EndsAreTheMapsEnds) {
+    for (const GrainValue by : {GrainValue::speed, GrainValue::vertical_velocity, GrainValue::start_height}) {
+        for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 360}}) {
+            Scene scene = coloured(by, -1, 1, "");
+            scene.film.width = width;
+            scene.film.height = height;
+            const Rectangle part = plan_layout(scene).first;
+            const Picture picture = Renderer(scene, 1).draw(frame_of({}), "");
+            const ColourMap map = scene.film.shows.colour.map;
+            const auto is = [&](int x, int y, const Colour& colour) {
+                const std::uint8_t* p = picture.pixel(x, y);
+                return std::abs(p[0] - 255 * colour.red) < 0.6 && std::abs(p[1] - 255 * colour.green) < 0.6 &&
+                       std::abs(p[2] - 255 * colour.blue) < 0.6;
+            };
+            int rows = 0, longest = 0;
+            for (int y = part.y; y < part.y + part.height; ++y) {
+                int left = -1, right = -1;
+                for (int x = part.x; x < part.x + part.width; ++x) {
+                    if (left < 0 && is(x, y, colour_of(map, 0))) left = x;
+                    if (is(x, y, colour_of(map, 1))) right = x;
+                }
+                if (left < 0 || right <= left) continue;
+                ++rows;
+                longest = std::max(longest, right - left + 1);
+            }
+            const TypeScale type = type_scale(scene.film);
+            EXPECT_GE(rows, static_cast<int>(0.65 * type.main));
+            EXPECT_GE(longest, 0.6 * part.width);
+        }
+    }
+}
+
+TEST(Ticks, AreRoundAndInside) {
+    EXPECT_EQ(round_ticks(0, 0.78, 6), (std::vector<double>{0, 0.2, 2 * 0.2, 3 * 0.2}));
+    EXPECT_EQ(round_ticks(-6, 6, 4), (std::vector<double>{-5, 0, 5}));
+    EXPECT_EQ(round_ticks(0, 1, 11).size(), 11u);
+    EXPECT_EQ(tick_text(0.4, 0.2), "0.4");
+    EXPECT_EQ(tick_text(-50, 50), "−50");
+    EXPECT_EQ(tick_text(-1e-17, 0.05), "0.00");
+    EXPECT_EQ(round_limits(0.03, 0.92, 6), (std::array<double, 2>{0, 1}));
+    const auto [low, high] = round_limits(0.5, 0.5, 5);
+    EXPECT_LE(low, 0.5);
+    EXPECT_GT(high, low);
+}
+
+}  // namespace
+}  // namespace grainreel::test

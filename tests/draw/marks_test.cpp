@@ -1,0 +1,237 @@
+// Plots, arrows, trails, and grains that are left out or ringed.
+#include <gtest/gtest.h>
+
+#include "engine/measure/measure_table.hpp"
+#include "render/draw/overlay.hpp"
+#include "render/draw/shown_grains.hpp"
+#include "render/draw/trails.hpp"
+#include "render/draw/velocity_field.hpp"
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+Scene with_plot(int width, int height) {
+    Scene scene = wedge(width, height);
+    scene.run.duration = 4;
+    scene.film.shows.plots = {{"lacey", "mixing", std::array<double, 2>{0, 1}}};
+    return scene;
+}
+
+// A table with times and one column, and the frame that sees all of it.
+Frame frame_with_rows(const std::vector<std::array<double, 2>>& rows) {
+    const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey"});
+    for (const auto& [time, value] : rows) table->add({time, value});
+    Frame frame = frame_of({});
+    frame.measures = table;
+    frame.measure_rows = rows.size();
+    return frame;
+}
+
+// Middle of the accent-coloured pixels in the plots' gutter, below the dial, by how much they are changed
+// against a picture without rows.
+Pixel marker(const Picture& picture, const Rectangle& part, const Colour& accent) {
+    double weight = 0, x = 0, y = 0;
+    for (int j = part.y; j < part.y + part.height; ++j)
+        for (int i = part.x; i < part.x + part.width; ++i) {
+            const std::uint8_t* p = picture.pixel(i, j);
+            const double away = std::abs(p[0] - 255 * accent.red) + std::abs(p[1] - 255 * accent.green) +
+                                std::abs(p[2] - 255 * accent.blue);
+            if (away > 60) continue;
+            weight += 1;
+            x += i + 0.5;
+            y += j + 0.5;
+        }
+    return {x / weight, y / weight};
+}
+
+TEST(Plots, TheMarkerIsWhereTheLastRowIs) {
+    for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}}) {
+        const Scene scene = with_plot(width, height);
+        const PictureLayout layout = plan_layout(scene);
+        const TypeScale type = type_scale(scene.film);
+        const Palette palette = make_palette(scene.film.background);
+        const NumbersPlan plan = plan_numbers({nullptr, type, palette}, scene, layout.second.width,
+                                              layout.second.height, layout.portrait);
+        ASSERT_EQ(plan.plots.size(), 1u);
+        Rectangle part = plan.plots[0];
+        part.x += layout.second.x;
+        part.y += layout.second.y;
+        ASSERT_LE(part.y + part.height, height);
+        Renderer renderer(scene, 1);
+        const auto at = [&](double time, double value) {
+            return marker(renderer.draw(frame_with_rows({{0, 0.5}, {time, value}}), ""), part,
+                          palette.accent);
+        };
+        // Times and values are even along the axes: corners, and a point between them.
+        const Pixel origin = at(0, 0), right = at(4, 0), top = at(0, 1), between = at(1, 0.75);
+        EXPECT_NEAR(origin.x(), top.x(), 0.6);
+        EXPECT_NEAR(origin.y(), right.y(), 0.6);
+        EXPECT_GT(right.x() - origin.x(), 0.4 * part.width);
+        EXPECT_GT(origin.y() - top.y(), 0.3 * part.height);
+        EXPECT_NEAR(between.x(), origin.x() + 0.25 * (right.x() - origin.x()), 0.6);
+        EXPECT_NEAR(between.y(), origin.y() + 0.75 * (top.y() - origin.y()), 0.6);
+    }
+}
+
+PlotFrame any_plot() {
+    PlotFrame frame;
+    frame.column = "lacey";
+    frame.label = "mixing";
+    frame.time = {0, 10};
+    frame.width = 300;
+    frame.height = 160;
+    return frame;
+}
+
+TEST(Plots, LimitsOnlyGrowAndDependOnTheRowsAlone) {
+    const Scene scene = wedge(1280, 720);
+    const TypeScale type = type_scale(scene.film);
+    const Palette palette = make_palette(scene.film.background);
+    std::vector<std::array<double, 2>> rows;
+    Plot step_by_step(any_plot(), type, palette);
+    double above = -1e9, below = 1e9;  // where the limits' ends were, as values
+    for (int i = 0; i < 200; ++i) {
+        rows.push_back({0.05 * i, 3 + 0.01 * i * std::sin(0.3 * i)});
+        step_by_step.take(frame_with_rows(rows));
+        // A pixel's row is linear in the value between the ends: two values give both ends.
+        const double y0 = step_by_step.y_of(rows.back()[1]);
+        EXPECT_GE(y0, 0);
+        const double size = std::abs(step_by_step.y_of(3) - step_by_step.y_of(3.0001)) / 0.0001;
+        if (i == 0) continue;
+        EXPECT_LE(size, below * (1 + 1e-6)) << i;  // pixels a unit: never zooms in again
+        below = size;
+        above = std::max(above, size);
+    }
+    EXPECT_LT(below, 0.5 * above);
+    Plot at_once(any_plot(), type, palette);
+    at_once.take(frame_with_rows(rows));
+    EXPECT_EQ(at_once.y_of(3.3), step_by_step.y_of(3.3));
+    // An earlier frame again: as if the later ones had not been.
+    rows.resize(20);
+    step_by_step.take(frame_with_rows(rows));
+    Plot early(any_plot(), type, palette);
+    early.take(frame_with_rows(rows));
+    EXPECT_EQ(early.y_of(3.05), step_by_step.y_of(3.05));
+}
+
+TEST(Plots, ThePictureDependsOnTheRowsAlone) {
+    const Scene scene = with_plot(960, 540);
+    std::vector<std::array<double, 2>> rows;
+    Renderer renderer(scene, 1);
+    for (int i = 0; i < 30; ++i) {
+        rows.push_back({0.1 * i, 0.5 + 0.4 * std::sin(i)});
+        renderer.draw(frame_with_rows(rows), "");
+    }
+    const Picture step_by_step = renderer.draw(frame_with_rows(rows), "");
+    EXPECT_EQ(Renderer(scene, 1).draw(frame_with_rows(rows), "").rgba, step_by_step.rgba);
+}
+
+TEST(Arrows, AreTheMeanOfARotation) {
+    Scene scene = wedge();
+    scene.film.shows.arrows = {6, 0.1, false};
+    Frame frame = frame_of({});
+    std::vector<Ball> balls;
+    for (int k = 0; k < 4000; ++k) {
+        const double y = -0.07 + 0.14 * std::fmod(k * 0.618034, 1), z = 0.15 * std::fmod(k * 0.754878, 1);
+        balls.push_back({{0.03 * std::sin(k), y, z}, 0.001 + 0.001 * (k % 3), k % 2});
+    }
+    frame = frame_of(balls);
+    const Vec3 turning(7, 0, 0), axis(0, 0.01, 0.08);
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        frame.velocity[i] = turning.cross(frame.position[i] - axis);
+    const std::vector<FieldCell> cells = velocity_field(scene, frame);
+    EXPECT_GT(cells.size(), 20u);
+    int grains = 0;
+    for (const FieldCell& cell : cells) {
+        EXPECT_LT((cell.velocity - turning.cross(cell.centre_of_mass - axis)).norm(), 1e-12);
+        EXPECT_LT((cell.centre_of_mass - cell.middle).cwiseAbs().tail<2>().maxCoeff(),
+                  0.5 * field_cell_size(scene));
+        grains += cell.grains;
+    }
+    EXPECT_GT(grains, 3900);
+    // Over a period: displacements times the frequency.
+    scene.film.shows.arrows.period = true;
+    EXPECT_TRUE(velocity_field(scene, frame).empty());
+    frame.displacement.assign(frame.size(), Vec3(0, 0.001, 0));
+    for (const FieldCell& cell : velocity_field(scene, frame))
+        EXPECT_LT((cell.velocity - Vec3(0, 0.001 * 20, 0)).norm(), 1e-12);
+}
+
+TEST(Arrows, PointTheirWay) {
+    Scene scene = wedge(960, 540);
+    scene.film.shows.arrows = {1, 0.1, false};
+    scene.film.camera.field_of_view = 0;
+    scene.film.camera.azimuth = scene.film.camera.elevation = 0;
+    Frame frame = frame_of({{{0, 0, 0.07}, 1e-4, 0}, {{0, 0, 0.075}, 1e-4, 0}, {{0, 0, 0.08}, 1e-4, 0}});
+    Renderer renderer(scene, 1);
+    const Picture still = renderer.draw(frame, "");
+    frame.velocity.assign(3, Vec3(0, 0.05, 0));
+    const Picture moving = renderer.draw(frame, "");
+    const View view = view_of(scene);
+    const Extent seen = changed(still, moving, view.port, 60);
+    // Half a cell long, a cell being as wide as the container; the border adds a few pixels.
+    EXPECT_NEAR(seen.right - seen.left, 0.5 * 0.15 * view.focal, 6);
+    EXPECT_LT(seen.bottom - seen.top, 20);
+}
+
+TEST(HiddenSpecies, LeaveThePictureAsIfTheyWereNotThere) {
+    Scene scene = wedge();
+    std::vector<Ball> all, big;
+    for (int k = 0; k < 60; ++k) {
+        const Ball ball{
+            {0.012 * std::sin(2.0 * k), -0.04 + 0.0013 * k, 0.02 + 0.09 * std::fmod(k * 0.618, 1)},
+            k % 3 ? 0.003 : 0.007,
+            k % 3 ? 0 : 1};
+        all.push_back(ball);
+        if (ball.species == 1) big.push_back(ball);
+    }
+    const Picture without = Renderer(scene, 1).draw(frame_of(big), "");
+    const Picture with = Renderer(scene, 1).draw(frame_of(all), "");
+    EXPECT_NE(with.rgba, without.rgba);
+    scene.film.shows.hidden = {0};
+    EXPECT_EQ(Renderer(scene, 1).draw(frame_of(all), "").rgba, without.rgba);
+}
+
+TEST(Rings, GoAroundTheirGrain) {
+    Scene scene = wedge(960, 540);
+    scene.film.camera.field_of_view = 0;
+    const Frame frame = frame_of({{{0, -0.02, 0.08}, 0.008, 0}, {{0, 0.02, 0.1}, 0.004, 1}});
+    const Picture plain = Renderer(scene, 1).draw(frame, "");
+    scene.film.shows.highlighted = {1};
+    const Picture ringed = Renderer(scene, 1).draw(frame, "");
+    const View view = view_of(scene);
+    const Extent ring = changed(plain, ringed, view.port, 60);
+    const Pixel middle = view.project(frame.position[1]);
+    EXPECT_NEAR(0.5 * (ring.left + ring.right), middle.x(), 0.7);
+    EXPECT_NEAR(0.5 * (ring.top + ring.bottom), middle.y(), 0.7);
+    EXPECT_GT(ring.right - ring.left, 2 * 0.004 * view.focal);
+    EXPECT_LT(ring.right - ring.left, 2 * 0.004 * view.focal + 16);
+}
+
+TEST(TrailsOfGrains, AreThePositionsOfTheLastFrames) {
+    Scene scene = wedge();
+    scene.film.shows.trails = {{}, {1}, 0.25};
+    Trails trails(scene);
+    const auto frame_at = [](int k) {
+        Frame frame = frame_of({{{0, 0, 0}}, {{0, 0.001 * k, 0.1}}});
+        frame.time = 0.1 * k;
+        return frame;
+    };
+    for (int k = 0; k < 9; ++k) {
+        trails.take(frame_at(k));
+        trails.take(frame_at(k));  // drawn twice
+    }
+    const auto paths = trails.paths();
+    ASSERT_EQ(paths.size(), 1u);
+    ASSERT_EQ(paths[0].size(), 3u);  // now, 0.1 s and 0.2 s ago
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(paths[0][k].at.y(), 0.001 * (8.0 - static_cast<double>(k)), 1e-12);
+        EXPECT_NEAR(paths[0][k].age, 0.1 * static_cast<double>(k) / 0.25, 1e-12);
+    }
+    trails.take(frame_at(2));  // back in time
+    EXPECT_EQ(trails.paths()[0].size(), 1u);
+}
+
+}  // namespace
+}  // namespace grainreel::test

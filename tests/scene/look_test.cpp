@@ -1,0 +1,110 @@
+// What a scene says of colours and marks.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/grain_values.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+GrainColouring colour_of(const std::vector<std::string>& set) {
+    return read_text(wedge_text, set).film.shows.colour;
+}
+
+void expect_complaint(const std::vector<std::string>& set, const std::string& words) {
+    try {
+        read_text(wedge_text, set);
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr(words));
+    }
+}
+
+TEST(Look, UsualRangesComeFromTheDrive) {
+    const Scene scene = read_text(wedge_text);
+    const double omega = 2 * std::numbers::pi * 20, speed = 3 * 10.0 / omega;  // a w = Gamma g / w
+    EXPECT_NEAR(colour_of({"film.colour.by=speed"}).range[1], 2 * speed, 1e-12);
+    const GrainColouring upward = colour_of({"film.colour.by=vertical-velocity"});
+    EXPECT_EQ(upward.map, ColourMap::vik);
+    EXPECT_NEAR(upward.range[0], -2 * speed, 1e-12);
+    EXPECT_NEAR(upward.range[1], 2 * speed, 1e-12);
+    EXPECT_EQ(colour_of({"film.colour.by=displacement"}).range[1], 0.005);
+}
+
+TEST(Look, RangesAndUnitsAreQuantities) {
+    const GrainColouring colour =
+        colour_of({"film.colour.by=speed", "film.colour.range=[0, \"20 cm/s\"]", "film.colour.unit=cm/s"});
+    EXPECT_EQ(colour.range, (std::array<double, 2>{0, 0.2}));
+    EXPECT_EQ(colour.unit, "cm/s");
+    EXPECT_EQ(unit_size("cm/s", Dimension::speed), 0.01);
+    EXPECT_EQ(fitting_unit(0.3, Dimension::speed), "mm/s");
+    EXPECT_EQ(fitting_unit(0.5, Dimension::speed), "m/s");
+    EXPECT_EQ(fitting_unit(2e-6, Dimension::energy), "µJ");
+}
+
+TEST(Look, MistakesAreSaid) {
+    expect_complaint({"film.colour.by=speed", "film.colour.range=[1, 0]"}, "'range' must rise");
+    expect_complaint({"film.colour.by=speed", "film.colour.range=[\"1 mm\", \"2 mm\"]"}, "is a length");
+    expect_complaint({"film.colour.by=speed", "film.colour.range=5"}, "[low, high]");
+    expect_complaint({"film.colour.by=speed", "film.colour.unit=kg"}, "'unit' must be a speed");
+    expect_complaint({"film.colour.range=[0, 1]"}, "coloured by species");
+    expect_complaint({"film.colour.by=spin", "film.colour.layers=4"}, "only 'by = \"start-height\"'");
+    expect_complaint({"film.colour.by=coordination", "film.colour.unit=m"}, "pure number");
+    expect_complaint({"film.hide=[\"large\"]"}, "\"large\", which is not there; there is \"small\", \"big\"");
+    expect_complaint({"film.hide=\"big\""}, "must be a list of names");
+    expect_complaint({"film.highlight=[110]"}, "ids run from 0 to 109");
+    expect_complaint({"film.highlight=[-1]"}, "whole numbers");
+}
+
+TEST(Look, PlotsAreColumnsOfMeasures) {
+    const std::string text =
+        wedge_text + "[[film.plot]]\ny = \"kinetic\"\n[[film.plot]]\ny = \"big_height_m\"\n";
+    const std::vector<FilmPlot> plots = read_text(text).film.shows.plots;
+    ASSERT_EQ(plots.size(), 2u);
+    EXPECT_EQ(plots[0].column, "kinetic_J");
+    EXPECT_EQ(plots[0].label, "kinetic energy");
+    EXPECT_EQ(plots[1].label, "mean height of big");
+    const auto complaint = [&](const std::string& more) -> std::string {
+        try {
+            read_text(text + more);
+        } catch (const UserError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_THAT(complaint("[[film.plot]]\ny = \"time_s\"\n"),
+                testing::HasSubstr("test.toml:33:1: 'y' must be a column of measures.csv"));
+    EXPECT_THAT(complaint("[[film.plot]]\ny = \"lacey\"\nrange = [1, 0]\n"), testing::HasSubstr("must rise"));
+    EXPECT_THAT(complaint("[[film.plot]]\ny = \"lacey\"\n[[film.plot]]\ny = \"lost\"\n"),
+                testing::HasSubstr("only 3 fit"));
+    EXPECT_THAT(complaint("[film.arrows]\nspeed = 1\n"), testing::HasSubstr("lacks 'grid'"));
+    EXPECT_THAT(complaint("[film.trails]\nduration = 1\n"), testing::HasSubstr("need 'species' or 'grains'"));
+}
+
+TEST(Look, ArrowsOfAPeriodScaleWithDiameterAndFrequency) {
+    EXPECT_NEAR(read_text(wedge_text, {"film.arrows.grid=8"}).film.shows.arrows.speed, 0.2 * 0.005 * 20,
+                1e-12);
+    const FilmArrows now =
+        read_text(wedge_text, {"film.arrows.grid=8", "film.arrows.of=now"}).film.shows.arrows;
+    EXPECT_NEAR(now.speed, 3 * 10.0 / (2 * std::numbers::pi * 20), 1e-12);
+}
+
+TEST(Look, WithoutADriveOrScaleItIsSaid) {
+    const auto complaint = [](const std::vector<std::string>& set) -> std::string {
+        try {
+            read_text(box_text, set);
+        } catch (const UserError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_THAT(complaint({"film.colour.by=rise"}), testing::HasSubstr("nothing oscillates"));
+    EXPECT_THAT(complaint({"film.colour.by=speed"}), testing::HasSubstr("gives no scale; write a 'range'"));
+}
+
+}  // namespace
+}  // namespace grainreel
