@@ -143,7 +143,7 @@ void Renderer::Impl::draw(const Frame& true_frame, const std::string& playback, 
     const Frame& grains_shown = shown.of(frame);
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
     marks.draw(eye, grains_shown, shapes.before);
-    if (ground) ground->update(frame, eye);
+    if (ground) ground->update(grains_shown, eye);
     behind.draw(shape_painter, shapes.behind, ground ? [&] { ground->paint(eye); } : std::function<void()>());
     before.draw(shape_painter, shapes.before, {});
     watch.lap(&DrawTimes::walls);

@@ -190,7 +190,10 @@ TEST(HiddenSpecies, LeaveThePictureAsIfTheyWereNotThere) {
     const Picture with = Renderer(scene, 1).draw(frame_of(all), "");
     EXPECT_NE(with.rgba, without.rgba);
     scene.film.shows.hidden = {0};
-    EXPECT_EQ(Renderer(scene, 1).draw(frame_of(all), "").rgba, without.rgba);
+    const Picture hidden = Renderer(scene, 1).draw(frame_of(all), "");
+    const Extent away = changed(hidden, without, {0, 0, hidden.width, hidden.height}, 1);
+    EXPECT_EQ(away.count, 0) << away.left << " to " << away.right << ", " << away.top << " to "
+                             << away.bottom;
 }
 
 TEST(Rings, GoAroundTheirGrain) {
