@@ -60,4 +60,9 @@ std::string colour_text(const Colour& colour) {
     return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.red), byte(colour.green), byte(colour.blue));
 }
 
+Colour default_background(FilmLook::Style style) {
+    if (style == FilmLook::Style::dark) return {18 / 255.0, 21 / 255.0, 27 / 255.0};
+    return {1, 1, 1};
+}
+
 }  // namespace grainreel

@@ -24,6 +24,12 @@ struct FilmLook {
     bool rotation = false;  // two-tone grains that show how they turn; needs orientations
     FilmCut cut;
     bool operator==(const FilmLook&) const = default;
+
+    // What a style means where nothing else is said.
+    static FilmLook of(Style style) {
+        const bool lit = style != Style::flat;
+        return {style, lit, lit, lit, false, {}};
+    }
 };
 
 }  // namespace grainreel

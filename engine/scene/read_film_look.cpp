@@ -24,12 +24,12 @@ void read_film_look(Document& document, Film& film) {
     using Style = FilmLook::Style;
     FilmLook& look = film.look;
     look.style = chosen<Style>(document, "film.style", style_words, Style::studio);
-    const bool flat = look.style == Style::flat;
-    look.occlusion = document.flag("film.occlusion").value_or(!flat);
-    look.shadows = document.flag("film.shadows").value_or(!flat);
-    look.ground = document.flag("film.ground").value_or(!flat);
+    look = FilmLook::of(look.style);
+    look.occlusion = document.flag("film.occlusion").value_or(look.occlusion);
+    look.shadows = document.flag("film.shadows").value_or(look.shadows);
+    look.ground = document.flag("film.ground").value_or(look.ground);
     look.rotation = document.flag("film.rotation").value_or(false);
-    if (look.style == Style::dark) film.background = {0.071, 0.082, 0.106};
+    film.background = default_background(look.style);
     read_cut(document, look.cut);
 }
 

@@ -229,9 +229,11 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
 
 void write_film_look(SceneText& out, const FilmLook& look) {
     out.words("style", word_of(look.style, style_words));
-    out.flag("occlusion", look.occlusion);
-    out.flag("shadows", look.shadows);
-    out.flag("ground", look.ground);
+    // Only what the style does not imply, so that the scene can be given another style.
+    const FilmLook implied = FilmLook::of(look.style);
+    if (look.occlusion != implied.occlusion) out.flag("occlusion", look.occlusion);
+    if (look.shadows != implied.shadows) out.flag("shadows", look.shadows);
+    if (look.ground != implied.ground) out.flag("ground", look.ground);
     out.flag("rotation", look.rotation);
     if (!look.cut.present) return;
     out.table("film.cut");
@@ -315,7 +317,8 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
     out.words("title", film.title);
     out.whole("quality", film.quality);
     out.words("preset", film.preset);
-    out.words("background", colour_text(film.background));
+    if (!(film.background == default_background(film.look.style)))
+        out.words("background", colour_text(film.background));
     // Else as the camera moves, also when a finished run is drawn again with another camera.
     if (film.axes != film.camera.moves()) out.flag("axes", film.axes);
     out.flag("wall_ghost", film.wall_ghost);

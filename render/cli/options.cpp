@@ -13,6 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/chart/chart.hpp"
+#include "engine/scene/colours.hpp"
 #include "engine/scene/units.hpp"
 #include "render/cli/version.hpp"
 
@@ -264,7 +265,7 @@ void set_bench_style(const std::string& style, Film& film) {
     film.look.style = style == "flat" ? FilmLook::Style::flat
                       : style == "dark" ? FilmLook::Style::dark
                                         : FilmLook::Style::studio;
-    if (style == "dark") film.background = {0.071, 0.082, 0.106};
+    film.background = default_background(film.look.style);
 }
 
 void add_bench(CLI::App& app, Options& options) {

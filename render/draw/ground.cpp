@@ -163,7 +163,7 @@ GroundPainter::GroundPainter(const gl::Functions& gl, const Scene& scene)
       array_(gl),
       corners_(gl),
       texture_(gl, ShadowMap::kSide, ShadowMap::kSide, {GL_R8, GL_RED, GL_UNSIGNED_BYTE}),
-      strength_(scene.film.look.style == FilmLook::Style::dark ? 0.75f : 0.36f),
+      strength_(scene.film.look.style == FilmLook::Style::dark ? 0.75f : 0.30f),
       bytes_(ShadowMap::kSide * ShadowMap::kSide) {
     array_.bind();
     corners_.bind();
