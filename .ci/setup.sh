@@ -20,6 +20,7 @@ libxxhash-dev        libxxhash
 libhwy-dev           libhwy (Highway)
 libnetcdf-dev        netcdf
 libpng-dev           libpng
+libdeflate-dev       libdeflate
 libpango1.0-dev      pangocairo, pangoft2, cairo
 fonts-dejavu-core    the DejaVu fonts
 libosmesa6-dev       osmesa (Mesa before 25.1), headers and library
@@ -28,6 +29,7 @@ libegl-dev           EGL/eglext.h, and libEGL.so.1 for --gl egl
 libavformat-dev      libavformat
 libavcodec-dev       libavcodec, with libx264
 libswscale-dev       libswscale
+libavfilter-dev      libavfilter
 gnuplot-nox          gnuplot, for grainreel chart
 "
 test_packages="

@@ -38,11 +38,15 @@ bool is_empty_folder(const fs::path& path) {
     return fs::is_directory(path, error) && fs::is_empty(path, error) && !error;
 }
 
-// All that a run may leave in its folder, beside frames/; the .part are of files cut off while being written.
-constexpr std::array<std::string_view, 15> files_of_runs{
-    "run.json",        ".run.json.part", "scene.toml",          ".scene.toml.part", "final.csv",
-    ".final.csv.part", "checkpoint.grs", "checkpoint.grs.part", "movie.mp4",        "movie.mp4.part",
-    "poster.png",      "trajectory.nc",  "contacts.nc",         "measures.csv",     "log.txt"};
+// All that a run may leave in its folder, beside frames/ and movie.work/ (what a film needs while it is
+// made); the .part are of files cut off while being written.
+constexpr std::array<std::string_view, 23> files_of_runs{
+    "run.json",        ".run.json.part",  "scene.toml",     ".scene.toml.part",
+    "final.csv",       ".final.csv.part", "checkpoint.grs", "checkpoint.grs.part",
+    "movie.mp4",       "movie.mp4.part",  "movie.webm",     "movie.webm.part",
+    "movie.gif",       "movie.mkv",       "movie.y4m",      "poster.png",
+    "poster.png.part", "sheet.png",       "sheet.png.part", "trajectory.nc",
+    "contacts.nc",     "measures.csv",    "log.txt"};
 
 bool is_file_of_runs(const fs::path& name) {
     return std::find(files_of_runs.begin(), files_of_runs.end(), name.string()) != files_of_runs.end();
@@ -82,7 +86,8 @@ std::optional<fs::path> foreign_file(const fs::path& run) {
     };
     const auto is_ours = [&](const fs::directory_entry& entry) {
         const fs::path name = entry.path().filename();
-        return is_real_folder(entry) ? name == "frames" || is_panel(name) : is_file_of_runs(name);
+        return is_real_folder(entry) ? name == "frames" || name == "movie.work" || is_panel(name)
+                                     : is_file_of_runs(name);
     };
     if (auto foreign = first_foreign(run, is_ours)) return foreign;
     const fs::path frames = run / "frames";

@@ -84,6 +84,7 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"finished", text_or_null(r.finished)},
         {"program", program(r)},
         {"gl", text_or_null(r.gl)},
+        {"encoder", text_or_null(r.encoder)},
         {"threads",
          {{"engine", r.engine_threads}, {"raster", r.raster_threads}, {"encoder", r.encoder_threads}}},
         {"engine", r.drawn.empty() && r.panels.empty() ? engine(r) : Json(nullptr)},

@@ -34,8 +34,9 @@ struct RunRecord {
     std::string scene_file;
     std::string version, commit, compiler, build_flags;
     std::vector<std::pair<std::string, std::string>> libraries;  // name, version
-    std::string gl;      // of the context that drew the film; empty without one
-    std::string vector;  // vector instructions the engine used
+    std::string gl;       // of the context that drew the film; empty without one
+    std::string encoder;  // of the film: what, and how it was set up; empty without one
+    std::string vector;   // vector instructions the engine used
 
     std::uint64_t seed = 0;
     int engine_threads = 0, raster_threads = 0, encoder_threads = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/scene/grain_values.hpp"
+#include "engine/scene/purposes.hpp"
 #include "engine/scene/words.hpp"
 
 namespace grainreel {
@@ -348,11 +349,22 @@ void add_film(Keys& keys) {
     keys.push_back(
         quantity("film.rate", Dimension::number, {1, 240, false, false}, literal("30"), "Frames a second."));
     keys.push_back(entry("film.title", KeyKind::text, note("`title`"), "Shown on the frame."));
-    keys.push_back(integer("film.quality", 0, 51, literal("20"), "x264's crf: 18 near-lossless, 23 small."));
+    keys.push_back(integer("film.quality", 0, 51, note("20; 18 with `max_size`"),
+                           "x264's crf: 18 near-lossless, 23 small; other codecs take what looks alike."));
     keys.push_back(choice(
         "film.preset",
         {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
         literal("\"veryfast\""), "x264's preset: slower makes smaller files."));
+    keys.push_back(choice("film.for", purpose_names(), note("none"),
+                          "Defaults for what the film is for: size, rate, format, quality, max_size."));
+    keys.push_back(choice("film.format", all_of(film_format_words), literal("\"mp4\""),
+                          "mp4 is H.264, webm VP9, ffv1 lossless; docs/films.md compares them."));
+    keys.push_back(entry("film.transparent", KeyKind::flag, literal("false"),
+                         "png and ffv1 only: alpha in place of the background."));
+    keys.push_back(entry("film.max_size", KeyKind::text, literal("\"none\""),
+                         "mp4 and webm only: largest file, as in \"10 MB\" (kB, MB, GB, KiB, MiB, GiB)."));
+    keys.push_back(entry("film.sheet", KeyKind::picture_size, note("none"),
+                         "Columns x rows of sheet.png, frames spread evenly over the film."));
     keys.push_back(entry("film.background", KeyKind::colour, note("\"#ffffff\"; \"#12151b\" with dark"),
                          "As species.colour."));
     keys.push_back(

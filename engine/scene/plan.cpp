@@ -124,7 +124,9 @@ Plan make_plan(const Scene& scene) {
         plan.settle_steps_limit =
             count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");
     plan_output(scene, plan);
-    plan.warnings = plan_warnings(scene, plan, bed, step);
+    plan.warnings = scene.notes;
+    const std::vector<std::string> found = plan_warnings(scene, plan, bed, step);
+    plan.warnings.insert(plan.warnings.end(), found.begin(), found.end());
     return plan;
 }
 

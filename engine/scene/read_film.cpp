@@ -12,10 +12,10 @@ namespace grainreel {
 namespace {
 
 constexpr std::int64_t least_pixels = 64, most_pixels = 8192;
+constexpr std::int64_t most_tiles = 12;  // of a contact sheet, each way
 
-void read_size(Document& document, Film& film) {
-    const char* path = "film.size";
-    if (!document.has(path)) return;
+// "1920x1080" or [1920, 1080]; zeros for what is neither.
+std::array<std::int64_t, 2> two_counts(Document& document, const char* path) {
     std::array<std::int64_t, 2> size{0, 0};
     if (document.is_array(path)) {
         size = document.two_integers(path).value_or(size);
@@ -28,6 +28,13 @@ void read_size(Document& document, Film& film) {
             if (height.ptr != end) size[1] = 0;
         }
     }
+    return size;
+}
+
+void read_size(Document& document, Film& film) {
+    const char* path = "film.size";
+    if (!document.has(path)) return;
+    const std::array<std::int64_t, 2> size = two_counts(document, path);
     const auto wrong = [](std::int64_t pixels) { return pixels < least_pixels || pixels > most_pixels; };
     if (wrong(size[0]) || wrong(size[1]))
         document.fail(path,
@@ -36,6 +43,19 @@ void read_size(Document& document, Film& film) {
                                   least_pixels, most_pixels, document.written_value(path)));
     film.width = static_cast<int>(size[0]);
     film.height = static_cast<int>(size[1]);
+}
+
+void read_sheet(Document& document, Film& film) {
+    const char* path = "film.sheet";
+    if (!document.has(path)) return;
+    const std::array<std::int64_t, 2> sheet = two_counts(document, path);
+    const auto wrong = [](std::int64_t count) { return count < 1 || count > most_tiles; };
+    if (wrong(sheet[0]) || wrong(sheet[1]))
+        document.fail(
+            path,
+            fmt::format("must be columns x rows, each from 1 to {}, but is {}; write for example \"4x3\"",
+                        most_tiles, document.written_value(path)));
+    film.sheet = {static_cast<int>(sheet[0]), static_cast<int>(sheet[1])};
 }
 
 FilmSegment read_segment(Document& document, const Scene& scene, const std::string& table) {
@@ -102,11 +122,12 @@ void fit_segments(Document& document, Scene& scene) {
 
 void read_film(Document& document, Scene& scene) {
     Film& film = scene.film;
+    take_purpose(document, film);
     read_size(document, film);
     film.rate = document.quantity("film.rate").value_or(film.rate);
     film.title = document.text("film.title").value_or(scene.title);
-    film.quality = static_cast<int>(document.integer("film.quality").value_or(film.quality));
-    film.preset = document.text("film.preset").value_or(film.preset);
+    read_sheet(document, film);
+    read_film_file(document, scene);
     read_film_look(document, film);
     if (const auto text = document.text("film.background")) {
         const auto colour = parse_colour(*text);

@@ -219,6 +219,8 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+enum class FilmFormat { mp4, webm, av1, gif, ffv1, png, y4m };  // docs/films.md says what each is
+
 struct Film {
     int width = 1920, height = 1080;
     double rate = 30;   // frames a second of film
@@ -227,12 +229,17 @@ struct Film {
     Camera camera;
     Colour background{1, 1, 1};
     FilmLook look;
-    int quality = 20;  // x264 crf
+    int quality = 20;  // x264 crf; other codecs take what looks alike
     std::string preset = "veryfast";
     bool axes = false;        // x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
     double exaggerate = 1;    // of the container's motion, grains and all
     FilmShows shows;
+    FilmFormat format = FilmFormat::mp4;
+    bool transparent = false;              // no background: alpha in its place
+    std::optional<std::int64_t> max_size;  // bytes, of the film's file
+    std::array<int, 2> sheet{0, 0};        // columns and rows of the contact sheet; zeros: none
+    std::string purpose;                   // whose defaults were taken ("journal"); empty: nobody's
     bool operator==(const Film&) const = default;
 };
 
@@ -249,6 +256,9 @@ struct Scene {
     Run run;
     Output output;
     Film film;
+
+    // What the reader took in place of what was written, for the user to know.
+    std::vector<std::string> notes;
 
     // Where each value was written, by its key path ("species[1].count"); for messages found later than
     // reading.

@@ -317,6 +317,11 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
     out.words("title", film.title);
     out.whole("quality", film.quality);
     out.words("preset", film.preset);
+    if (!film.purpose.empty()) out.words("for", film.purpose);
+    out.words("format", word_of(film.format, film_format_words));
+    out.flag("transparent", film.transparent);
+    out.words("max_size", film.max_size ? fmt::format("{} B", *film.max_size) : "none");
+    if (film.sheet[0] > 0) out.put("sheet", fmt::format("[{}, {}]", film.sheet[0], film.sheet[1]));
     if (!(film.background == default_background(film.look.style)))
         out.words("background", colour_text(film.background));
     // Else as the camera moves, also when a finished run is drawn again with another camera.

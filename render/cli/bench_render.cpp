@@ -113,7 +113,7 @@ double encode_time(const Picture& picture, const Film& film, int threads) {
         settings.path = path;
         settings.width = film.width;
         settings.height = film.height;
-        settings.crf = film.quality;
+        settings.quality = film.quality;
         settings.preset = film.preset;
         settings.threads = threads;
         Encoder encoder(settings);

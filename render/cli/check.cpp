@@ -11,16 +11,18 @@
 #include "engine/base/team.hpp"
 #include "engine/chart/single_contact.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/data_size.hpp"
 #include "render/cli/thread_plan.hpp"
+#include "render/film/codec.hpp"
+#include "render/film/film_limits.hpp"
 #include "render/film/sampler.hpp"
 
 namespace grainreel {
 namespace {
 
 // What the estimates assume; measured on one 2-core x86-64 machine, good to a factor of two.
-constexpr double steps_a_second = 8e6;         // grains x steps, a thread
-constexpr double seconds_a_frame = 0.15;       // drawing and encoding at 1920x1080
-constexpr double film_bytes_a_second = 1.2e6;  // at 1920x1080, crf 20
+constexpr double steps_a_second = 8e6;    // grains x steps, a thread
+constexpr double seconds_a_frame = 0.15;  // drawing and encoding at 1920x1080
 constexpr double engine_bytes_a_grain = 600;
 constexpr double bytes_a_pixel = 122;  // from the renderer to the encoder, and what those keep themselves
 constexpr double bytes_of_program = 138e6;  // with its libraries, the software rasteriser above all
@@ -43,13 +45,6 @@ std::string span(double seconds) {
     if (seconds >= 0.1) return fmt::format("{:.3g} s", seconds);
     return seconds >= 1e-3 ? fmt::format("{:.3g} ms", seconds * 1e3)
                            : fmt::format("{:.3g} us", seconds * 1e6);
-}
-
-std::string bytes(double size) {
-    constexpr std::array<const char*, 5> units{"B", "kB", "MB", "GB", "TB"};
-    std::size_t unit = 0;
-    for (; size >= 1000 && unit + 1 < units.size(); ++unit) size /= 1000;
-    return fmt::format("{:.3g} {}", size, units[unit]);
 }
 
 // 1234567 as "1,234,567".
@@ -253,32 +248,43 @@ FilmCost film_cost(const Scene& scene, const Plan& plan) {
     return cost;
 }
 
+std::string film_format_text(const Film& film) {
+    return film.format == FilmFormat::png ? std::string("PNG pictures") : codec_of(film.format).words;
+}
+
 void print_files(const Scene& scene, const Plan& plan, const FilmCost& film, Listing& list) {
     list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {} frames, plays for {}", scene.film.width,
                                   scene.film.height, scene.film.rate, film.frames, span(film.playing)));
     for (const FilmSegment& segment : scene.film.segments)
         list.line("", fmt::format("{}: {}", segment.duration ? span(*segment.duration) : "the rest",
                                   playback_caption(segment, scene.drive, scene.film.rate)));
-    list.line("files", fmt::format("film about {}", bytes(film.playing * film_bytes_a_second * film.pixels)));
+    list.line("files",
+              fmt::format(
+                  "film ({}) about {}{}", film_format_text(scene.film),
+                  data_size_text(estimated_film_size(scene.film, static_cast<std::int64_t>(film.frames))),
+                  scene.film.max_size
+                      ? fmt::format(", {} at most", data_size_text(static_cast<double>(*scene.film.max_size)))
+                      : ""));
     const auto grains = static_cast<double>(scene.grains());
     if (plan.trajectory_every > 0) {
         const std::int64_t frames = plan.steps / plan.trajectory_every + 1;
         const double size = trajectory_bytes + (scene.keeps_orientations() ? orientation_bytes : 0);
         list.line("", fmt::format("trajectory {}, {} frames, one every {}",
-                                  bytes(static_cast<double>(frames) * grains * size), grouped(frames),
-                                  span(plan.clock.time(plan.trajectory_every))));
+                                  data_size_text(static_cast<double>(frames) * grains * size),
+                                  grouped(frames), span(plan.clock.time(plan.trajectory_every))));
     }
     const std::int64_t rows = plan.steps / plan.measures_every + 1;
     list.line("", fmt::format("measures {}, {} rows, one every {}",
-                              bytes(static_cast<double>(rows) * measures_bytes), grouped(rows),
+                              data_size_text(static_cast<double>(rows) * measures_bytes), grouped(rows),
                               span(plan.clock.time(plan.measures_every))));
 }
 
 void print_cost(const Scene& scene, const Plan& plan, const FilmCost& film, Listing& list) {
     const auto grains = static_cast<double>(scene.grains());
     const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
-    list.line("memory", fmt::format("about {}", bytes(bytes_of_program + grains * engine_bytes_a_grain +
-                                                      pixels * bytes_a_pixel)));
+    list.line("memory",
+              fmt::format("about {}", data_size_text(bytes_of_program + grains * engine_bytes_a_grain +
+                                                     pixels * bytes_a_pixel)));
     const double settling =
         std::min(static_cast<double>(plan.settle_steps_limit), assumed_settling / plan.clock.step);
     const double work = grains * (static_cast<double>(plan.steps) + settling);
@@ -310,6 +316,8 @@ void print_plan(const Scene& scene, const Plan& plan, std::ostream& out) {
     print_cost(scene, plan, film, list);
     std::vector<std::string> warnings = plan.warnings;
     for (std::string& line : strobe_warnings(scene.film, scene.drive)) warnings.push_back(std::move(line));
+    for (std::string& line : film_warnings(scene, static_cast<std::int64_t>(film.frames)))
+        warnings.push_back(std::move(line));
     if (!warnings.empty()) list.gap();
     for (const std::string& line : warnings) list.line("warning", line);
 }

@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "render/cli/record.hpp"
 #include "render/cli/stop_signal.hpp"
+#include "render/film/film_limits.hpp"
 
 namespace grainreel {
 
@@ -29,6 +30,12 @@ FilmRun::FilmRun(const Options& options, Reporter& reporter) : options_(options)
 
 FilmRun::~FilmRun() {
     reporter_.keep_log(nullptr);
+}
+
+void FilmRun::check_film(const Scene& scene, std::int64_t frames) const {
+    if (options_.to_stdout && !(options_.film && scene.film.format == FilmFormat::y4m))
+        throw UserError("--out -: stdout takes a film in y4m alone; add --format y4m, or name a folder");
+    if (options_.film) check_max_size(scene, frames);
 }
 
 void FilmRun::make_folder(const RunFolderRequest& request) {
@@ -59,7 +66,7 @@ int FilmRun::run() {
     settle_status(stopped);
     close_record();
     report_end();
-    std::printf("%s\n", folder_->path().c_str());
+    std::fprintf(options_.to_stdout ? stderr : stdout, "%s\n", folder_->path().c_str());
     return *record_.exit_status;
 }
 
@@ -85,6 +92,7 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     film.folder = folder_->path();
     film.film = options_.film;
     film.frames = options_.frames;
+    film.to_stdout = options_.to_stdout;
     film.raster_threads = threads_.raster;
     film.encoder_threads = threads_.encoder;
     film.gl = options_.gl;
@@ -111,6 +119,7 @@ void FilmRun::close_record() {
     record_.error = failure_.what();
     record_.finished = utc_now();
     record_.film_frames = film_report_.frames;
+    record_.encoder = film_report_.encoder;
     record_.peak_memory = peak_memory();
     times_.add("total", watch_.seconds());
     for (const auto& time : times_.all()) record_.wall_seconds.push_back(time);
@@ -137,8 +146,11 @@ void FilmRun::report_end() {
 
 std::string FilmRun::film_files_text() const {
     std::string text;
-    if (options_.film) text += fmt::format("movie.mp4 ({} frames), poster.png, ", film_report_.frames);
-    if (options_.frames) text += fmt::format("frames/ ({} pictures), ", film_report_.frames);
+    if (!film_report_.file.empty())
+        text += fmt::format("{} ({} frames), ", film_report_.file, film_report_.frames);
+    if (options_.to_stdout) text += fmt::format("to stdout {} frames, ", film_report_.frames);
+    if (options_.film) text += film_report_.sheet ? "poster.png, sheet.png, " : "poster.png, ";
+    if (film_report_.pictures) text += fmt::format("frames/ ({} pictures), ", film_report_.frames);
     return text;
 }
 

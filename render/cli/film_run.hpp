@@ -43,6 +43,8 @@ class FilmRun {
     virtual void report_written() = 0;             // that which went well
 
     bool wants_pictures() const { return options_.film || options_.frames; }
+    // What scene and options ask of the film's file. Throws UserError.
+    void check_film(const Scene& scene, std::int64_t frames) const;
     // To be called when all that the user gave has been accepted.
     void make_folder(const RunFolderRequest& request);
     // Shows the warnings and writes run.json for the first time.

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/measures_csv.hpp"
+#include "engine/scene/purposes.hpp"
 #include "engine/scene/reader.hpp"
 #include "render/cli/earlier_positions.hpp"
 
@@ -52,9 +53,22 @@ void check_sets(const std::vector<std::string>& sets) {
     }
 }
 
+// The scene of a run names all its values, so that defaults of a purpose would change nothing: they are set.
+std::vector<std::string> with_purpose(const std::vector<std::string>& sets) {
+    const std::string key = "film.for=";
+    std::vector<std::string> all;
+    for (const std::string& set : sets) {
+        const Purpose* purpose = set.rfind(key, 0) == 0 ? find_purpose(set.substr(key.size())) : nullptr;
+        if (purpose != nullptr) all = assignments_of(*purpose);
+    }
+    all.insert(all.end(), sets.begin(), sets.end());
+    return all;
+}
+
 Scene scene_of(const fs::path& folder, const std::vector<std::string>& sets) {
     check_sets(sets);
-    Scene scene = read_scene(file_in(folder, "scene.toml", "give the folder of a run of `movie`"), sets);
+    Scene scene =
+        read_scene(file_in(folder, "scene.toml", "give the folder of a run of `movie`"), with_purpose(sets));
     scene.name = folder.filename().string();
     return scene;
 }

@@ -7,6 +7,7 @@
 
 #include "engine/base/team.hpp"
 #include "render/cli/stop_signal.hpp"
+#include "render/film/film_limits.hpp"
 
 namespace grainreel {
 
@@ -32,6 +33,7 @@ MovieRun::MovieRun(const Options& options, Reporter& reporter, const Scene& scen
       shots_(schedule(scene, plan, wants_pictures())),
       run_(scene, plan, threads_for(scene, wants_pictures()).engine) {
     threads_ = threads_for(scene, wants_pictures());
+    check_film(scene, static_cast<std::int64_t>(shots_.size()));
     make_folder({scene.name, options.base, options.out, options.force});
 }
 
@@ -57,6 +59,9 @@ void MovieRun::describe() {
     if (wants_pictures()) {
         const std::vector<std::string> strobes = strobe_warnings(scene.film, scene.drive);
         warnings.insert(warnings.end(), strobes.begin(), strobes.end());
+        const std::vector<std::string> limits =
+            film_warnings(scene, static_cast<std::int64_t>(shots_.size()));
+        warnings.insert(warnings.end(), limits.begin(), limits.end());
     }
     run_.describe(record_);
     begin_record(warnings);

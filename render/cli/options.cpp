@@ -6,6 +6,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -14,7 +15,9 @@
 #include "engine/base/error.hpp"
 #include "engine/chart/chart.hpp"
 #include "engine/scene/colours.hpp"
+#include "engine/scene/purposes.hpp"
 #include "engine/scene/units.hpp"
+#include "engine/scene/words.hpp"
 #include "render/cli/version.hpp"
 
 namespace grainreel {
@@ -59,7 +62,7 @@ void add_gl(CLI::App& verb, Options& options) {
 
 // An option that stands for a key of the scene.
 void add_key(CLI::App& verb, Options& options, const char* flag, const char* key, const char* type,
-             const char* about) {
+             const std::string& about) {
     verb.add_option_function<std::string>(
             flag,
             [&options, key](const std::string& value) {
@@ -81,7 +84,28 @@ void add_sets(CLI::App& verb, Options& options, const char* about) {
         ->take_all();
 }
 
+std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// Of the film's file.
+void add_file_keys(CLI::App& verb, Options& options) {
+    add_key(verb, options, "--for", "film.for", "WHAT",
+            "Defaults of size, rate, format, quality and cap for " + joined(purpose_names()) +
+                " (docs/films.md); what is set elsewhere wins");
+    add_key(verb, options, "--format", "film.format", "FORMAT",
+            joined(all_of(film_format_words)) + " (docs/films.md) [mp4]");
+    add_key(verb, options, "--max-size", "film.max_size", "SIZE",
+            "Largest file, as in 10MB; of mp4 and webm, in two passes when it needs them");
+    add_key(verb, options, "--sheet", "film.sheet", "CxR",
+            "A contact sheet of so many columns and rows too, sheet.png");
+    verb.add_flag_callback(
+        "--transparent", [&options] { options.sets.emplace_back("film.transparent=true"); },
+        "Alpha in place of the background; of png and ffv1");
+}
+
 void add_picture_keys(CLI::App& verb, Options& options) {
+    add_file_keys(verb, options);
     add_key(verb, options, "--size", "film.size", "WxH",
             "Size of the film in pixels [the scene's, or 1920x1080]");
     add_key(verb, options, "--fps", "film.rate", "N", "Frames a second of film [the scene's, or 30]");
@@ -120,10 +144,14 @@ constexpr const char* exit_statuses =
     "terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.";
 
 // Where the film goes, and what is kept of it.
-void add_film(CLI::App& verb, Options& options, const char* about_out) {
+void add_film(CLI::App& verb, Options& options, const std::string& about_out) {
+    const auto take_out = [&options](const std::string& folder) {
+        options.to_stdout = folder == "-";
+        if (!options.to_stdout) options.out = folder;
+    };
     CLI::Option* out =
-        verb.add_option_function<std::string>(
-                "--out", [&options](const std::string& folder) { options.out = folder; }, about_out)
+        verb.add_option_function<std::string>("--out", take_out,
+                                              about_out + "; - puts the film on\nstdout, with --format y4m")
             ->type_name("DIR");
     verb.add_flag("--force", options.force, "Replace the run in --out, once the new one is complete")
         ->needs(out);

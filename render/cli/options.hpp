@@ -44,6 +44,7 @@ struct Options {
     bool force = false;
     bool film = true;
     bool frames = false;
+    bool to_stdout = false;  // the film; the folder's name then goes to stderr
     RenderRequest render;
     CompareRequest compare;
     gl::Provider gl = gl::Provider::automatic;  // $GRAINREEL_GL when that is set and --gl is not

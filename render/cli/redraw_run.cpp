@@ -64,6 +64,7 @@ RedrawRun::RedrawRun(const Options& options, Reporter& reporter, const FinishedR
       moments_(moments_at(chosen_, run.moments())),
       scene_(run.scene()) {
     check_out(options, run);
+    check_film(scene_, static_cast<std::int64_t>(chosen_.size()));
     threads_ = drawing_threads(scene_.run.threads);
     make_folder({scene_.name + "-render", run.folder().parent_path(), options.out, options.force});
 }

@@ -56,7 +56,8 @@ int draw_still(const Options& options, Reporter& reporter, const FinishedRun& ru
     if (const std::string note = renderer.gl_note(); !note.empty()) reporter.info(note);
     renderer.start_from(run.trajectory().read(0));
     const std::string& title = run.scene().film.title;
-    write_png(path, renderer.draw(frame, "", seconds(index)), texts_of(run.scene().name, title, frame, ""));
+    write_png(path, renderer.draw(frame, "", seconds(index)), texts_of(run.scene().name, title, frame, ""),
+              run.scene().film.transparent);
     reporter.info(fmt::format("wrote {}: frame {} of {}, at {:.6g} s", path.string(), index + 1,
                               run.trajectory().frames(), frame.time));
     std::printf("%s\n", path.c_str());

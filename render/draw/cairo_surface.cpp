@@ -2,18 +2,22 @@
 
 #include <cstdint>
 
+#include "render/draw/compose.hpp"
+
 namespace grainreel {
 
-CairoSurface blank_surface(const Rectangle& part, const Colour& colour) {
-    CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, part.width, part.height));
+CairoSurface blank_surface(const Rectangle& part, const Colour& colour, double alpha) {
+    CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, part.width, part.height));
     const CairoContext on(cairo_create(surface.get()));
-    fill_surface(on.get(), colour);
+    fill_surface(on.get(), colour, alpha);
     return surface;
 }
 
-void fill_surface(cairo_t* on, const Colour& colour) {
-    cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
+void fill_surface(cairo_t* on, const Colour& colour, double alpha) {
+    cairo_set_operator(on, CAIRO_OPERATOR_SOURCE);
+    cairo_set_source_rgba(on, colour.red, colour.green, colour.blue, alpha);
     cairo_paint(on);
+    cairo_set_operator(on, CAIRO_OPERATOR_OVER);
 }
 
 void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture) {
@@ -32,9 +36,10 @@ void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Pictu
             out[0] = static_cast<std::uint8_t>(row[i] >> 16);
             out[1] = static_cast<std::uint8_t>(row[i] >> 8);
             out[2] = static_cast<std::uint8_t>(row[i]);
-            out[3] = 255;
+            out[3] = static_cast<std::uint8_t>(row[i] >> 24);
         }
     }
+    divide_by_alpha(picture, {x + part.x, y + part.y, part.width, part.height});
 }
 
 }  // namespace grainreel

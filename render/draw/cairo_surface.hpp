@@ -17,9 +17,9 @@ struct CairoDestroy {
 using CairoSurface = std::unique_ptr<cairo_surface_t, CairoDestroy>;
 using CairoContext = std::unique_ptr<cairo_t, CairoDestroy>;
 
-// As large as the part, all of one colour.
-CairoSurface blank_surface(const Rectangle& part, const Colour& colour);
-void fill_surface(cairo_t* on, const Colour& colour);
+// As large as the part, all of one colour, or of none with alpha 0.
+CairoSurface blank_surface(const Rectangle& part, const Colour& colour, double alpha = 1);
+void fill_surface(cairo_t* on, const Colour& colour, double alpha = 1);
 
 // Puts a surface where `to` lies in the picture; they have the same size.
 void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture);

@@ -16,4 +16,7 @@ namespace grainreel {
 void compose(const std::vector<std::uint32_t>& behind, const Layer& grains,
              const std::vector<std::uint32_t>& before, const Rectangle& port, Picture& picture, Team& team);
 
+// From colours multiplied by their alpha, as layers have them, to plain ones, as pictures have them.
+void divide_by_alpha(Picture& picture, const Rectangle& port);
+
 }  // namespace grainreel

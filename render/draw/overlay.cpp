@@ -43,6 +43,14 @@ TextSize static_part(const Writer& writer, const Scene& scene, const View* view,
     return {width, y};
 }
 
+namespace {
+
+double ground_alpha(const Scene& scene) {
+    return scene.film.transparent ? 0 : 1;
+}
+
+}  // namespace
+
 Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view)
     : scene_(scene),
       palette_(palette),
@@ -50,18 +58,18 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
       type_(type_scale(scene.film)),
       plan_(plan_numbers({nullptr, type_, palette_}, scene, layout.second.width, layout.second.height,
                          layout.portrait)),
-      first_(blank_surface(layout.first, palette.background)),
-      still_(blank_surface(layout.second, palette.background)),
-      second_(blank_surface(layout.second, palette.background)) {
+      first_(blank_surface(layout.first, palette.background, ground_alpha(scene))),
+      still_(blank_surface(layout.second, palette.background, ground_alpha(scene))),
+      second_(blank_surface(layout.second, palette.background, ground_alpha(scene))) {
     draw_still(view);
     make_plots();
 }
 
 void Overlay::draw_still(const View& view) {
-    first_ = blank_surface(layout_.first, palette_.background);
+    first_ = blank_surface(layout_.first, palette_.background, ground_alpha(scene_));
     const CairoContext on(cairo_create(first_.get()));
     static_part({on.get(), type_, palette_}, scene_, &view, layout_, layout_.first.width);
-    still_ = blank_surface(layout_.second, palette_.background);
+    still_ = blank_surface(layout_.second, palette_.background, ground_alpha(scene_));
     draw_still_numbers(view);
     drawn_for_ = view;
     written_ = false;
@@ -100,8 +108,10 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     const CairoContext on(cairo_create(second_.get()));
     cairo_rectangle(on.get(), part.x, part.y, part.width, part.height);
     cairo_clip(on.get());
+    cairo_set_operator(on.get(), CAIRO_OPERATOR_SOURCE);  // what was there goes, also without a background
     cairo_set_source_surface(on.get(), still_.get(), 0, 0);
     cairo_paint(on.get());
+    cairo_set_operator(on.get(), CAIRO_OPERATOR_OVER);
     draw(on.get());
     copy_part(second_.get(), part, layout_.second.x, layout_.second.y, picture);
 }

@@ -8,7 +8,8 @@ namespace grainreel {
 
 struct Picture {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;  // width * height * 4, no row padding; alpha 255
+    std::vector<std::uint8_t> rgba;  // width * height * 4, no row padding; not multiplied by alpha, which is
+                                     // 255 but in films with a transparent background
 
     Picture() = default;
     Picture(int w, int h) : width(w), height(h), rgba(static_cast<std::size_t>(w) * h * 4) {}

@@ -81,7 +81,8 @@ class SideLayer {
     std::vector<std::uint32_t> pixels_;
 };
 
-std::array<float, 4> opaque(const Colour& colour) {
+std::array<float, 4> ground(const Colour& colour, bool transparent) {
+    if (transparent) return {0, 0, 0, 0};
     return {static_cast<float>(colour.red), static_cast<float>(colour.green), static_cast<float>(colour.blue),
             1.0f};
 }
@@ -98,7 +99,7 @@ struct Renderer::Impl {
           overlay(scene, palette, layout, path.at(0)),
           context(gl::make_context(provider, raster_threads)),
           shape_painter(context->gl()),
-          behind(context->gl(), port, opaque(palette.background)),
+          behind(context->gl(), port, ground(palette.background, s.film.transparent)),
           before(context->gl(), port, {0, 0, 0, 0}),
           shown(s),
           marks(scene, palette),
@@ -149,6 +150,7 @@ void Renderer::Impl::draw(const Frame& true_frame, const std::string& playback, 
     watch.lap(&DrawTimes::walls);
     const Layer& grains = draw_grains(grains_shown, watch);
     compose(behind.read(), grains, before.read(), port, picture, sphere_painter.team());
+    if (scene.film.transparent) divide_by_alpha(picture, port);
     watch.lap(&DrawTimes::readback);
 }
 

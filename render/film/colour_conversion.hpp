@@ -1,4 +1,5 @@
-// From drawn pixels to what H.264 stores: sRGB to BT.709 Y'CbCr, limited range, chroma halved both ways.
+// From drawn pixels to what a codec stores: sRGB to BT.709 Y'CbCr, limited range, chroma halved both ways; or
+// the same RGB in another order.
 #pragma once
 
 #include "render/draw/picture.hpp"
@@ -6,21 +7,30 @@
 
 namespace grainreel {
 
+struct EvenSize {
+    int width = 0, height = 0;  // pixels
+};
+
+// Where the chroma is halved an odd width or height grows by one.
+EvenSize coded_size(int width, int height, AVPixelFormat pixels);
+
 class ColourConversion {
   public:
-    // Size of the pictures, pixels. An odd width or height grows by one: its last column or row is repeated.
-    ColourConversion(int width, int height);
+    // Size of the pictures, pixels. Where the coded size is larger the last column or row is repeated.
+    // pixels: yuv420p, bgr0, bgra, or pal8, for which there is nothing to convert here.
+    ColourConversion(int width, int height, AVPixelFormat pixels = AV_PIX_FMT_YUV420P);
 
-    int coded_width() const { return width_ + width_ % 2; }
-    int coded_height() const { return height_ + height_ % 2; }
+    int coded_width() const { return coded_.width; }
+    int coded_height() const { return coded_.height; }
 
-    // `target`: yuv420p of the coded size, writable.
+    // `target`: of the coded size, writable.
     void convert(const Picture& picture, AVFrame& target);
 
   private:
     const Picture& even(const Picture& picture);
 
     int width_, height_;
+    EvenSize coded_;
     ScalerPtr scaler_;
     Picture padded_;  // only used when a size is odd
 };

@@ -8,9 +8,6 @@
 namespace grainreel {
 namespace {
 
-// Shortest that still costs next to nothing: a fragment's header is some hundred bytes.
-constexpr std::int64_t fragment_microseconds = 500'000;
-
 AvFramePtr make_frame(const AVCodecContext& codec) {
     AvFramePtr frame(av_frame_alloc());
     if (!frame) throw RunError("film: no memory for a frame");
@@ -26,24 +23,32 @@ AvFramePtr make_frame(const AVCodecContext& codec) {
     return frame;
 }
 
-H264Settings h264_settings(const EncoderSettings& settings, const ColourConversion& conversion) {
-    return {conversion.coded_width(), conversion.coded_height(), av_d2q(settings.rate, 100'000), settings.crf,
-            settings.preset,          settings.threads};
+AVPixelFormat pixels_of(const EncoderSettings& settings) {
+    return settings.alpha ? settings.codec->pixels_with_alpha : settings.codec->pixels;
 }
 
 }  // namespace
 
+CodecSettings codec_settings(const EncoderSettings& settings) {
+    const EvenSize size = coded_size(settings.width, settings.height, pixels_of(settings));
+    return {size.width,       size.height,     av_d2q(settings.rate, 100'000),
+            settings.quality, settings.preset, settings.threads,
+            settings.alpha,   settings.pass,   settings.bit_rate,
+            settings.log};
+}
+
 Encoder::Encoder(const EncoderSettings& settings)
-    : settings_(settings), conversion_(settings.width, settings.height) {
+    : settings_(settings), conversion_(settings.width, settings.height, pixels_of(settings)) {
     quiet_ffmpeg();
-    if (conversion_.coded_width() != settings.width || conversion_.coded_height() != settings.height)
+    const CodecSettings wanted = codec_settings(settings);
+    if (wanted.width != settings.width || wanted.height != settings.height)
         notes_.push_back(fmt::format(
-            "{}x{} padded to {}x{}: H.264 for browsers needs even sizes; the last "
-            "column or row is repeated",
-            settings.width, settings.height, conversion_.coded_width(), conversion_.coded_height()));
-    const H264Settings h264 = h264_settings(settings, conversion_);
-    codec_ = open_h264(h264);
-    description_ = describe_h264(*codec_, h264);
+            "{}x{} padded to {}x{}: {} needs even sizes to play everywhere; the last column or "
+            "row is repeated",
+            settings.width, settings.height, wanted.width, wanted.height, settings.codec->standard));
+    OpenCodec open = open_codec(*settings.codec, wanted);
+    codec_ = std::move(open.context);
+    description_ = fmt::format("{}: {}", settings.codec->words, open.description);
     frame_ = make_frame(*codec_);
     packet_.reset(av_packet_alloc());
     if (!packet_) throw RunError("film: no memory for a packet");
@@ -59,13 +64,18 @@ Encoder::~Encoder() {
     }
 }
 
+std::string Encoder::name() const {
+    return settings_.path == to_stdout ? "stdout" : settings_.path.string();
+}
+
 void Encoder::open_file() {
+    const FilmContainer& container = settings_.codec->container;
     AVFormatContext* context = nullptr;
-    avformat_alloc_output_context2(&context, nullptr, "mp4", nullptr);
+    avformat_alloc_output_context2(&context, nullptr, container.muxer, nullptr);
     file_.reset(context);
     AVStream* stream = context ? avformat_new_stream(context, nullptr) : nullptr;
     if (!stream || avcodec_parameters_from_context(stream->codecpar, codec_.get()) < 0)
-        throw RunError("film: this libavformat writes no MP4");
+        throw RunError(fmt::format("film: this libavformat writes no {}", settings_.codec->words));
     stream->time_base = codec_->time_base;
     stream->avg_frame_rate = codec_->framerate;
     av_dict_set(&context->metadata, "title", settings_.title.c_str(), 0);
@@ -73,21 +83,32 @@ void Encoder::open_file() {
 
     // Each fragment reaches the disk whole as soon as it ends.
     context->flags |= AVFMT_FLAG_FLUSH_PACKETS;
+    context->flags |= AVFMT_FLAG_BITEXACT;  // or Matroska would draw a number by lot
     AvOptions options;
-    options.set("movflags", "frag_keyframe+empty_moov+default_base_moof");
-    options.set("frag_duration", std::to_string(fragment_microseconds));
-    int code = avio_open(&context->pb, ffmpeg_url(settings_.path).c_str(), AVIO_FLAG_WRITE);
+    for (const auto& [key, value] : container.growing) options.set(key, value);
+    const std::string url = settings_.path == to_stdout ? "pipe:1" : ffmpeg_url(settings_.path);
+    int code = avio_open(&context->pb, url.c_str(), AVIO_FLAG_WRITE);
     if (code >= 0) code = avformat_write_header(context, options.get());
     if (code < 0) fail(code);
 }
 
+void Encoder::check_open() const {
+    if (!file_) throw RunError(fmt::format("{}: closed after an error", name()));
+}
+
 void Encoder::add(const Picture& picture) {
-    if (!file_) throw RunError(fmt::format("{}: closed after an error", settings_.path.string()));
-    const int code = av_frame_make_writable(frame_.get());  // x264 may still read the last one
+    check_open();
+    const int code = av_frame_make_writable(frame_.get());  // the encoder may still read the last one
     if (code < 0) fail(code);
     conversion_.convert(picture, *frame_);
-    frame_->pts = frames_;
-    encode(frame_.get());
+    add(*frame_);
+}
+
+void Encoder::add(AVFrame& frame) {
+    check_open();
+    frame.pts = frames_;
+    frame.pict_type = AV_PICTURE_TYPE_NONE;  // what kind it was where it comes from is of no interest
+    encode(&frame);
     ++frames_;
 }
 
@@ -101,6 +122,7 @@ void Encoder::encode(const AVFrame* frame) {
 
 void Encoder::write(AVPacket& packet) {
     AVFormatContext& context = *file_;
+    payload_ += packet.size;
     packet.duration = 1;
     packet.stream_index = 0;
     av_packet_rescale_ts(&packet, codec_->time_base, context.streams[0]->time_base);
@@ -110,7 +132,7 @@ void Encoder::write(AVPacket& packet) {
 }
 
 void Encoder::close() {
-    encode(nullptr);
+    if (frames_ > 0) encode(nullptr);  // SVT-AV1 would wait for ever for a first frame
     int code = av_write_trailer(file_.get());
     if (code >= 0) code = avio_closep(&file_->pb);
     if (code < 0) fail(code);
@@ -118,15 +140,21 @@ void Encoder::close() {
 }
 
 void Encoder::finish() {
-    if (!file_) throw RunError(fmt::format("{}: closed after an error", settings_.path.string()));
+    check_open();
     close();
-    remux_for_streaming(settings_.path);
+    const FilmContainer& container = settings_.codec->container;
+    if (frames_ > 0 && !container.complete.empty()) remux_for_streaming(settings_.path, container);
 }
 
 void Encoder::fail(int code) {
     file_.reset();
+    const std::string reason = ffmpeg_error(code);
+    if (settings_.path == to_stdout)
+        throw RunError(fmt::format(
+            "stdout: cannot write the film: {}; after {} frames, {}", reason, frames_,
+            code == AVERROR(EPIPE) ? "the program that reads it has ended" : "what was written plays"));
     throw RunError(fmt::format("{}: cannot write the film: {}; {} frames were taken, what is on disk plays",
-                               settings_.path.string(), ffmpeg_error(code), frames_));
+                               name(), reason, frames_));
 }
 
 }  // namespace grainreel

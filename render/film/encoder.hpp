@@ -1,6 +1,6 @@
-// Pictures in, an H.264 film in MP4 out. While it is written the file is fragmented, so that a killed process
-// leaves a film that plays up to its last 2 s; finish() turns it into an ordinary MP4 with its index in
-// front.
+// Pictures in, a film of one codec out. While it is written the file consists of short fragments or clusters,
+// so that a killed process leaves a film that plays up to its last 2 s; finish() turns it into one with its
+// index in front where the container has such a form.
 #pragma once
 
 #include <cstdint>
@@ -9,47 +9,60 @@
 #include <vector>
 
 #include "render/draw/picture.hpp"
+#include "render/film/codec.hpp"
 #include "render/film/colour_conversion.hpp"
 #include "render/film/ffmpeg_handles.hpp"
-#include "render/film/h264.hpp"
+#include "render/film/film_writer.hpp"
 
 namespace grainreel {
 
+inline constexpr const char* to_stdout = "-";  // a path
+
 struct EncoderSettings {
+    const Codec* codec = &codec_of(FilmFormat::mp4);
     std::filesystem::path path;
-    int width = 0, height = 0;  // pixels of the pictures; an odd one is padded by one and noted
+    int width = 0, height = 0;  // pixels of the pictures; an odd one may be padded by one and noted
     double rate = 30;           // frames a second
-    int crf = 20;
+    int quality = 20;           // as film.quality
     std::string preset = "veryfast";
+    bool alpha = false;
     int threads = 1;
+    int pass = 0;               // and what belongs to it: see CodecSettings
+    std::int64_t bit_rate = 0;  // bits/s
+    std::string log;
     std::string title, comment;  // metadata, UTF-8
 };
 
-class Encoder {
+class Encoder final : public FilmWriter {
   public:
     // Creates the file. Throws RunError when it cannot be written or no encoder is to be had.
     explicit Encoder(const EncoderSettings& settings);
-    // Without finish(): writes what was taken in, and leaves the fragmented film, which plays.
-    ~Encoder();
+    // Without finish(): writes what was taken in, and leaves the film as it grew, which plays.
+    ~Encoder() override;
     Encoder(const Encoder&) = delete;
     Encoder& operator=(const Encoder&) = delete;
 
     // Throws RunError, naming the file and the reason, when writing fails; what was written still plays, and
     // no more pictures are taken.
-    void add(const Picture& picture);
+    void add(const Picture& picture) override;
+    // The next frame, in the codec's pixels and size; its time stamp is set here.
+    void add(AVFrame& frame);
 
     // Writes what is left and replaces the file by one for streaming. Throws RunError likewise.
-    void finish();
+    void finish() override;
 
     std::int64_t frames() const { return frames_; }
-    const std::string& description() const { return description_; }
-    const std::vector<std::string>& notes() const { return notes_; }
+    std::int64_t payload() const { return payload_; }  // bytes of coded pictures, without the container's
+    std::string description() const override { return description_; }
+    std::vector<std::string> notes() const override { return notes_; }
 
   private:
     void open_file();
     void encode(const AVFrame* frame);
     void write(AVPacket& packet);
     void close();
+    void check_open() const;
+    std::string name() const;
     [[noreturn]] void fail(int code);
 
     EncoderSettings settings_;
@@ -60,7 +73,10 @@ class Encoder {
     AvFramePtr frame_;
     PacketPtr packet_;
     OutputPtr file_;  // empty once closed or failed
-    std::int64_t frames_ = 0;
+    std::int64_t frames_ = 0, payload_ = 0;
 };
+
+// What an encoder is asked for, the size padded where it must be even.
+CodecSettings codec_settings(const EncoderSettings& settings);
 
 }  // namespace grainreel

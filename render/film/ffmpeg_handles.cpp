@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <mutex>
 #include <utility>
 
@@ -32,11 +34,39 @@ void collect(void*, int level, const char* format, std::va_list arguments) {
     log.last = std::move(text);
 }
 
+// One black picture for an encoder, and what comes of it thrown away.
+void encode_nothing(AVCodecContext& codec) {
+    const AvFramePtr frame(av_frame_alloc());
+    if (!frame) return;
+    frame->format = codec.pix_fmt;
+    frame->width = codec.width;
+    frame->height = codec.height;
+    frame->pts = 0;
+    if (av_frame_get_buffer(frame.get(), 0) < 0) return;
+    for (int plane = 0; frame->buf[plane]; ++plane)
+        std::memset(frame->buf[plane]->data, 0, static_cast<std::size_t>(frame->buf[plane]->size));
+    const PacketPtr packet(av_packet_alloc());
+    avcodec_send_frame(&codec, frame.get());
+    avcodec_send_frame(&codec, nullptr);
+    while (packet && avcodec_receive_packet(&codec, packet.get()) >= 0) av_packet_unref(packet.get());
+}
+
 }  // namespace
+
+void free_codec(AVCodecContext* codec) {
+    // SVT-AV1 1.4 that never had a picture waits for one for ever when it is closed.
+    const bool waits = avcodec_is_open(codec) && av_codec_is_encoder(codec->codec) &&
+                       codec->codec_id == AV_CODEC_ID_AV1 && codec->frame_number == 0;
+    if (waits) encode_nothing(*codec);
+    avcodec_free_context(&codec);
+}
 
 void quiet_ffmpeg() {
     static std::once_flag once;
-    std::call_once(once, [] { av_log_set_callback(collect); });
+    std::call_once(once, [] {
+        av_log_set_callback(collect);
+        ::setenv("SVT_LOG", "1", 0);  // SVT-AV1 prints past FFmpeg's log; from 1 on errors alone
+    });
 }
 
 std::string ffmpeg_error(int code) {

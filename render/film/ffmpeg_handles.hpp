@@ -12,8 +12,10 @@ extern "C" {
 
 namespace grainreel {
 
+void free_codec(AVCodecContext* codec);
+
 struct FfmpegDeleter {
-    void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
+    void operator()(AVCodecContext* p) const { free_codec(p); }
     void operator()(AVFrame* p) const { av_frame_free(&p); }
     void operator()(AVPacket* p) const { av_packet_free(&p); }
     void operator()(SwsContext* p) const { sws_freeContext(p); }

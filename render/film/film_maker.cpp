@@ -160,6 +160,9 @@ FilmReport FilmMaker::finish() {
     report.encode_seconds = impl_->encode_seconds;
     report.waited_seconds = impl_->waited_seconds;
     report.gl = impl_->gl;
+    report.file = impl_->files.film_file();
+    report.pictures = impl_->files.has_frames();
+    report.sheet = impl_->files.has_sheet();
     report.encoder = impl_->files.encoder();
     report.notes = impl_->files.notes();
     if (!impl_->note.empty()) report.notes.push_back(impl_->note);

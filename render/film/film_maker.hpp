@@ -18,9 +18,10 @@
 namespace grainreel {
 
 struct FilmOptions {
-    std::filesystem::path folder;  // movie.mp4, poster.png and frames/ go here
-    bool film = true;              // movie.mp4 and poster.png
-    bool frames = false;           // frames/000000.png ...
+    std::filesystem::path folder;  // movie.mp4 (or .webm, ...), poster.png, sheet.png and frames/ go here
+    bool film = true;              // the film, in its scene's format, and the pictures that stand for it
+    bool frames = false;           // frames/000000.png ...; always with the format png
+    bool to_stdout = false;        // the film goes to stdout in place of the folder: y4m only
     int raster_threads = 1;
     int encoder_threads = 1;
     gl::Provider gl = gl::Provider::automatic;
@@ -32,7 +33,10 @@ struct FilmReport {
     double draw_seconds = 0, encode_seconds = 0;  // busy time of the two threads
     double waited_seconds = 0;                    // the engine's, for a place in the queue
     std::string gl;                               // context description
-    std::string encoder;             // "libx264 (...), crf 20, veryfast, 2 threads"; empty without film
+    std::string file;                             // "movie.mp4"; empty without one
+    bool pictures = false;                        // frames/ is there
+    bool sheet = false;                           // sheet.png is there
+    std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty likewise
     std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
 };
 

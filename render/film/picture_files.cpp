@@ -16,20 +16,6 @@ bool poster_in_passing(std::int64_t count) {
     return count == 1 || (count >= 32 && std::has_single_bit(static_cast<std::uint64_t>(count)));
 }
 
-std::unique_ptr<Encoder> make_encoder(const Scene& scene, const FilmOptions& options) {
-    EncoderSettings settings;
-    settings.path = options.folder / "movie.mp4";
-    settings.width = scene.film.width;
-    settings.height = scene.film.height;
-    settings.rate = scene.film.rate;
-    settings.crf = scene.film.quality;
-    settings.preset = scene.film.preset;
-    settings.threads = options.encoder_threads;
-    settings.title = scene.title.empty() ? scene.name : scene.title;
-    settings.comment = fmt::format("grainreel, scene {}, seed {}", scene.name, scene.run.seed);
-    return std::make_unique<Encoder>(settings);
-}
-
 }  // namespace
 
 std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
@@ -47,7 +33,8 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
     : folder_(options.folder),
       name_(scene.name),
       title_(scene.title),
-      frames_wanted_(options.frames),
+      frames_wanted_(options.frames || (options.film && scene.film.format == FilmFormat::png)),
+      transparent_(scene.film.transparent),
       poster_time_(poster_time(scene.film, scene.run.duration)),
       poster_done_(!options.film) {
     if (frames_wanted_) {
@@ -57,13 +44,17 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
             throw RunError(fmt::format("{}: cannot make the folder: {}", (folder_ / "frames").string(),
                                        error.message()));
     }
-    if (options.film) encoder_ = make_encoder(scene, options);
+    if (!options.film) return;
+    film_ = make_film_writer(scene, {folder_, options.to_stdout, options.encoder_threads});
+    if (!options.to_stdout) film_file_ = film_file_name(scene.film.format);
+    if (scene.film.sheet[0] > 0) sheet_ = std::make_unique<ContactSheet>(scene.film);
 }
 
 Picture PictureFiles::add(DrawnFrame drawn) {
     if (count_ == 0) first_time_ = drawn.frame->time;
-    if (encoder_) encoder_->add(drawn.picture);
+    if (film_) film_->add(drawn.picture);
     if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", count_), drawn);
+    if (sheet_) sheet_->add(drawn.picture, drawn.frame->time);
     ++count_;
     if (!poster_done_) consider_poster(drawn);
     std::swap(last_, drawn);
@@ -85,11 +76,14 @@ void PictureFiles::close_poster() {
 }
 
 void PictureFiles::finish() {
-    if (encoder_) encoder_->finish();
+    if (sheet_ && count_ > 0)
+        write_png(folder_ / "sheet.png", sheet_->draw(last_.picture),
+                  {{"Title", title_}, {"Scene", name_}, {"Software", "grainreel"}});
+    if (film_) film_->finish();
 }
 
 void PictureFiles::write(const std::filesystem::path& path, const DrawnFrame& drawn) const {
-    write_png(path, drawn.picture, texts_of(name_, title_, *drawn.frame, drawn.playback));
+    write_png(path, drawn.picture, texts_of(name_, title_, *drawn.frame, drawn.playback), transparent_);
 }
 
 }  // namespace grainreel

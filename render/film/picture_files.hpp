@@ -1,4 +1,4 @@
-// What the encoding thread does with a drawn picture: the film, numbered PNG files, the poster.
+// What the encoding thread does with a drawn picture: the film, numbered PNG files, poster and contact sheet.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,10 @@
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/draw/contact_sheet.hpp"
 #include "render/draw/picture.hpp"
-#include "render/film/encoder.hpp"
 #include "render/film/film_maker.hpp"
+#include "render/film/film_writer.hpp"
 #include "render/film/png.hpp"
 
 namespace grainreel {
@@ -27,7 +28,7 @@ std::vector<PngText> texts_of(const std::string& scene, const std::string& title
 
 class PictureFiles {
   public:
-    // Creates movie.mp4 and the folder of frames. Throws RunError.
+    // Creates the film's file and the folder of frames. Throws RunError.
     PictureFiles(const Scene& scene, const FilmOptions& options);
 
     // Takes the next picture and gives a picture back whose buffer may be drawn over. Throws RunError.
@@ -35,13 +36,14 @@ class PictureFiles {
 
     // The poster, if it is still to come. Throws RunError.
     void close_poster();
-    // Closes the film for streaming, after close_poster(). Throws RunError.
+    // Completes the film and the contact sheet, after close_poster(). Throws RunError.
     void finish();
 
-    std::string encoder() const { return encoder_ ? encoder_->description() : ""; }
-    std::vector<std::string> notes() const {
-        return encoder_ ? encoder_->notes() : std::vector<std::string>{};
-    }
+    std::string film_file() const { return film_file_; }  // its name; empty without one
+    bool has_frames() const { return frames_wanted_; }
+    bool has_sheet() const { return sheet_ != nullptr && count_ > 0; }
+    std::string encoder() const { return film_ ? film_->description() : ""; }
+    std::vector<std::string> notes() const { return film_ ? film_->notes() : std::vector<std::string>{}; }
 
   private:
     void consider_poster(const DrawnFrame& drawn);
@@ -49,13 +51,15 @@ class PictureFiles {
 
     std::filesystem::path folder_;
     std::string name_, title_;
-    bool frames_wanted_;
+    bool frames_wanted_, transparent_;
     double poster_time_;  // s after the first frame
     double first_time_ = 0;
     std::int64_t count_ = 0;
     bool poster_done_;
     DrawnFrame last_;  // kept because it is the poster when the next one comes too late
-    std::unique_ptr<Encoder> encoder_;
+    std::unique_ptr<FilmWriter> film_;
+    std::string film_file_;
+    std::unique_ptr<ContactSheet> sheet_;
 };
 
 }  // namespace grainreel

@@ -14,8 +14,9 @@ struct PngText {
     std::string text;     // UTF-8
 };
 
-// 8-bit sRGB without alpha, written to `path`.part and renamed, so that a file with the name is whole.
-// Throws RunError naming the file and the reason.
-void write_png(const std::filesystem::path& path, const Picture& picture, const std::vector<PngText>& texts);
+// 8-bit sRGB, with alpha where that is asked for, written to `path`.part and renamed, so that a file with the
+// name is whole. Throws RunError naming the file and the reason.
+void write_png(const std::filesystem::path& path, const Picture& picture, const std::vector<PngText>& texts,
+               bool alpha = false);
 
 }  // namespace grainreel

@@ -19,9 +19,10 @@ int open_input(const std::filesystem::path& path, InputPtr& input) {
     return code;
 }
 
-int open_output(const AVFormatContext& input, const std::filesystem::path& path, OutputPtr& output) {
+int open_output(const AVFormatContext& input, const std::filesystem::path& path,
+                const FilmContainer& container, OutputPtr& output) {
     AVFormatContext* context = nullptr;
-    int code = avformat_alloc_output_context2(&context, nullptr, "mp4", ffmpeg_url(path).c_str());
+    int code = avformat_alloc_output_context2(&context, nullptr, container.muxer, ffmpeg_url(path).c_str());
     output.reset(context);
     if (code < 0) return code;
     const AVStream& from = *input.streams[0];
@@ -33,8 +34,9 @@ int open_output(const AVFormatContext& input, const std::filesystem::path& path,
     to->time_base = from.time_base;
     to->avg_frame_rate = from.avg_frame_rate;
     av_dict_copy(&context->metadata, input.metadata, 0);
+    context->flags |= AVFMT_FLAG_BITEXACT;
     AvOptions options;
-    options.set("movflags", "faststart");
+    for (const auto& [key, value] : container.complete) options.set(key, value);
     code = avio_open(&context->pb, context->url, AVIO_FLAG_WRITE);
     return code < 0 ? code : avformat_write_header(context, options.get());
 }
@@ -59,11 +61,12 @@ int copy_packets(AVFormatContext& input, AVFormatContext& output) {
     return code == AVERROR_EOF ? 0 : code;
 }
 
-int write_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
+int write_copy(const std::filesystem::path& from, const std::filesystem::path& to,
+               const FilmContainer& container) {
     InputPtr input;
     OutputPtr output;
     int code = open_input(from, input);
-    if (code >= 0) code = open_output(*input, to, output);
+    if (code >= 0) code = open_output(*input, to, container, output);
     if (code >= 0) code = copy_packets(*input, *output);
     if (code >= 0) code = av_write_trailer(output.get());
     if (code >= 0) code = avio_closep(&output->pb);
@@ -85,18 +88,21 @@ std::string ffmpeg_url(const std::filesystem::path& path) {
     return "file:" + path.string();
 }
 
-void remux_for_streaming(const std::filesystem::path& path) {
-    const std::filesystem::path part = path.string() + ".part";
-    int code = write_copy(path, part);
-    if (code >= 0) code = sync(part);
+int replace_synced(const std::filesystem::path& from, const std::filesystem::path& to) {
+    const int code = sync(from);
+    if (code < 0) return code;
     std::error_code renamed;
-    if (code >= 0) std::filesystem::rename(part, path, renamed);
-    if (renamed) code = AVERROR(renamed.value());
-    if (code >= 0) {
-        sync(std::filesystem::absolute(path)
-                 .parent_path());  // the new name; without it the film is no worse off
-        return;
-    }
+    std::filesystem::rename(from, to, renamed);
+    if (renamed) return AVERROR(renamed.value());
+    sync(std::filesystem::absolute(to).parent_path());  // the new name; without it the film is no worse off
+    return 0;
+}
+
+void remux_for_streaming(const std::filesystem::path& path, const FilmContainer& container) {
+    const std::filesystem::path part = path.string() + ".part";
+    int code = write_copy(path, part, container);
+    if (code >= 0) code = replace_synced(part, path);
+    if (code >= 0) return;
     std::error_code ignored;
     std::filesystem::remove(part, ignored);
     throw RunError(fmt::format("{}: cannot put the index in front: {}; the film on disk is whole and plays",

@@ -52,7 +52,7 @@ TEST_F(EncoderTest, ColoursAreBt709InLimitedRange) {
                                                   {128, 128, 128}, {0, 0, 0},     {230, 159, 0},
                                                   {255, 255, 255}, {86, 180, 233}};
     EncoderSettings s = settings(64, 64);
-    s.crf = 10;
+    s.quality = 10;
     Encoder encoder(s);
     for (const auto& c : colours) encoder.add(flat(64, 64, c[0], c[1], c[2]));
     encoder.finish();
@@ -285,12 +285,15 @@ TEST_F(EncoderTest, ARefusedPresetIsARunError) {
 }
 
 TEST_F(EncoderTest, WithoutAnEncoderTheMessageSaysWhatToInstall) {
-    H264Settings s;
+    Codec codec = codec_of(FilmFormat::mp4);
+    codec.encoders.resize(1);
+    codec.encoders[0].name = "libnothing";
+    CodecSettings s;
     s.width = s.height = 64;
     EXPECT_EQ(
-        message_of([&] { open_h264(s, {"libnothing"}); }),
+        message_of([&] { open_codec(codec, s); }),
         "film: this machine's FFmpeg has no H.264 encoder (libnothing); install FFmpeg libraries built with "
-        "libx264 (Debian: libavcodec59), or ask for --no-film --frames");
+        "libnothing (Debian: libavcodec59), choose another --format, or ask for --no-film --frames");
 }
 
 }  // namespace

@@ -77,6 +77,32 @@ inline Picture ball(int width, int height, int number) {
     return picture;
 }
 
+// Eighty discs that wander over grey: hard enough for an encoder that sizes can be steered.
+inline Picture discs(int width, int height, int number) {
+    Picture picture = flat(width, height, 235, 235, 235);
+    const double radius = height / 14.0;
+    for (int disc = 0; disc < 80; ++disc) {
+        const double turn = 2.399963 * disc, speed = 0.3 + 0.02 * disc;  // the golden angle
+        const double cx =
+            width * (0.5 + 0.48 * std::cos(turn + 0.02 * speed * number) * std::sqrt((disc + 1) / 80.0));
+        const double cy =
+            height * (0.5 + 0.48 * std::sin(turn + 0.03 * speed * number) * std::sqrt((disc + 1) / 80.0));
+        for (int y = std::max(0, static_cast<int>(cy - radius)); y < std::min<double>(height, cy + radius);
+             ++y)
+            for (int x = std::max(0, static_cast<int>(cx - radius)); x < std::min<double>(width, cx + radius);
+                 ++x) {
+                const double light = 1 - std::hypot(x - cx, y - cy) / radius;
+                if (light <= 0) continue;
+                picture.pixel(x, y)[0] =
+                    static_cast<std::uint8_t>(disc % 3 == 0 ? 40 + 200 * light : 230 * light);
+                picture.pixel(x, y)[1] =
+                    static_cast<std::uint8_t>(disc % 3 == 0 ? 90 + 100 * light : 159 * light);
+                picture.pixel(x, y)[2] = static_cast<std::uint8_t>(disc % 3 == 0 ? 180 : 40 * light);
+            }
+    }
+    return picture;
+}
+
 // Nothing that an encoder could make small.
 inline Picture noise(int width, int height, int number) {
     Picture picture(width, height);

@@ -34,12 +34,32 @@ YuvFrame copy_of(const AVFrame& frame, AVRational time_base) {
     return out;
 }
 
+// Of the two orders of bytes that these films have: B, G, R and alpha or nothing.
+Picture rgb_copy_of(const AVFrame& frame) {
+    if (frame.format != AV_PIX_FMT_BGR0 && frame.format != AV_PIX_FMT_BGRA)
+        throw std::runtime_error("neither yuv420p nor bgr0 nor bgra");
+    Picture out(frame.width, frame.height);
+    for (int y = 0; y < frame.height; ++y) {
+        const std::uint8_t* row = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
+        for (int x = 0; x < frame.width; ++x, row += 4) {
+            std::uint8_t* to = out.pixel(x, y);
+            to[0] = row[2], to[1] = row[1], to[2] = row[0];
+            to[3] = frame.format == AV_PIX_FMT_BGRA ? row[3] : 255;
+        }
+    }
+    return out;
+}
+
 // What comes out of the decoder for one packet; null at the end.
 void decode(AVCodecContext& codec, const AVPacket* packet, AVRational time_base, FilmFile& film) {
     if (avcodec_send_packet(&codec, packet) < 0) return;
     const AvFramePtr frame(av_frame_alloc());
     while (avcodec_receive_frame(&codec, frame.get()) >= 0) {
-        film.frames.push_back(copy_of(*frame, time_base));
+        film.times.push_back(static_cast<double>(frame->best_effort_timestamp) * av_q2d(time_base));
+        if (frame->format == AV_PIX_FMT_YUV420P)
+            film.frames.push_back(copy_of(*frame, time_base));
+        else
+            film.pictures.push_back(rgb_copy_of(*frame));
     }
 }
 
@@ -51,6 +71,8 @@ void read_tags(const AVFormatContext& file, FilmFile& film) {
     film.range = codec.color_range;
     film.pixel_format = codec.format;
     film.rate = av_q2d(file.streams[0]->avg_frame_rate);
+    film.duration = file.duration == AV_NOPTS_VALUE ? 0 : static_cast<double>(file.duration) / AV_TIME_BASE;
+    film.codec = avcodec_get_name(codec.codec_id);
     const AVDictionaryEntry* entry = nullptr;
     while ((entry = av_dict_get(file.metadata, "", entry, AV_DICT_IGNORE_SUFFIX)))
         film.metadata[entry->key] = entry->value;
@@ -146,7 +168,7 @@ PngFile read_png(const std::filesystem::path& path) {
     out.channels = png_get_channels(png, info);
     out.picture = Picture(static_cast<int>(png_get_image_width(png, info)),
                           static_cast<int>(png_get_image_height(png, info)));
-    png_set_filler(png, 255, PNG_FILLER_AFTER);
+    if (out.channels == 3) png_set_filler(png, 255, PNG_FILLER_AFTER);
     for (int y = 0; y < out.picture.height; ++y) png_read_row(png, out.picture.pixel(0, y), nullptr);
     png_read_end(png, info);
     int intent = -1;

@@ -20,7 +20,11 @@ struct YuvFrame {
 };
 
 struct FilmFile {
-    std::vector<YuvFrame> frames;                                              // in order of display
+    std::vector<YuvFrame> frames;   // in order of display; of films in Y'CbCr
+    std::vector<Picture> pictures;  // likewise, of films in RGB
+    std::vector<double> times;      // s, of either
+    double duration = 0;            // s, as the file says; 0 when it does not
+    std::string codec;              // FFmpeg's name
     int primaries = 0, transfer = 0, matrix = 0, range = 0, pixel_format = 0;  // FFmpeg's enums
     double rate = 0;
     std::map<std::string, std::string> metadata;

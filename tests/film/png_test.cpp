@@ -32,6 +32,14 @@ TEST_F(PngTest, ComesBackBitForBitWithItsText) {
     }
 }
 
+TEST_F(PngTest, AlphaIsKeptWhenAskedFor) {
+    const Picture picture = noise(37, 23, 4);
+    write_png(folder / "picture.png", picture, {}, true);
+    const PngFile png = read_png(folder / "picture.png");
+    EXPECT_EQ(png.channels, 4);
+    EXPECT_TRUE(png.picture.rgba == picture.rgba);
+}
+
 TEST_F(PngTest, AFailedWriteNamesFileAndReasonAndKeepsTheOldPicture) {
     const std::filesystem::path path = folder / "picture.png";
     write_png(path, flat(8, 8, 1, 2, 3), {});

@@ -1,0 +1,48 @@
+// A page of small pictures, frames spread evenly over a film, each with its time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "render/draw/picture.hpp"
+
+struct _cairo;
+struct _cairo_surface;
+
+namespace grainreel {
+
+class ContactSheet {
+  public:
+    // Columns and rows are film.sheet's; the page is 1920 pixels wide at most.
+    explicit ContactSheet(const Film& film);
+
+    // Every frame of the film in order, since nobody knows how many will come: a run may be stopped. time: s,
+    // simulated.
+    void add(const Picture& picture, double time);
+
+    // The page as of now. last: the frame that was added last, which ends the page whatever was kept.
+    Picture draw(const Picture& last) const;
+
+  private:
+    struct Tile {
+        std::int64_t number = 0;  // of the frame
+        double time = 0;          // s
+        std::shared_ptr<_cairo_surface> picture;
+    };
+    Tile tile(const Picture& picture, std::int64_t number, double time) const;
+    std::vector<Tile> chosen(const Picture& last) const;
+    void draw_tile(_cairo* on, const Tile& tile, std::size_t place, int decimals) const;
+
+    int columns_, rows_;
+    int width_, height_;  // of a tile, pixels
+    double letters_;      // pixels
+    Colour background_, ink_;
+    std::vector<Tile> kept_;  // every stride_-th frame, some times more than there is room for
+    std::int64_t stride_ = 1;
+    std::int64_t count_ = 0;
+    double last_time_ = 0;
+};
+
+}  // namespace grainreel

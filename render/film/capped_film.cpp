@@ -1,0 +1,146 @@
+#include "render/film/capped_film.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/data_size.hpp"
+#include "render/film/film_reader.hpp"
+#include "render/film/remux.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double aim = 0.96, least = 0.9;  // of the cap
+constexpr int most_passes = 4;             // the first of them hits nearly always
+// Of its size at crf 18 a film keeps its look down to a twentieth, crf 44; below, grains melt into each
+// other.
+constexpr double least_of_full_size = 1.0 / 20;
+
+EncoderSettings first_settings(EncoderSettings settings, const WorkFolder& work) {
+    if (!settings.codec->film_is_first_pass) return settings;
+    settings.pass = 1;
+    settings.log = work.file("pass.log");
+    return settings;
+}
+
+EncoderSettings spool_settings(EncoderSettings settings, const WorkFolder& work) {
+    settings.codec = &spool_of_yuv();
+    settings.path = work.file("spool.mkv");
+    return settings;
+}
+
+std::int64_t size_of(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(path, error);
+    if (error) throw RunError(fmt::format("{}: cannot be found again: {}", path.string(), error.message()));
+    return static_cast<std::int64_t>(size);
+}
+
+}  // namespace
+
+CappedFilm::CappedFilm(const EncoderSettings& settings, std::int64_t cap)
+    : settings_(settings),
+      cap_(cap),
+      work_(settings.path),
+      film_(std::make_unique<Encoder>(first_settings(settings, work_))),
+      spool_(std::make_unique<Encoder>(spool_settings(settings, work_))),
+      description_(film_->description()),
+      notes_(film_->notes()) {}
+
+void CappedFilm::add(const Picture& picture) {
+    film_->add(picture);
+    spool_->add(picture);
+}
+
+void CappedFilm::finish() {
+    spool_->finish();
+    film_->finish();
+    const std::int64_t size = size_of(settings_.path);
+    result_ =
+        fmt::format("{} at this quality, below the cap of {}", data_size_text(static_cast<double>(size)),
+                    data_size_text(static_cast<double>(cap_)));
+    if (size > cap_) fit(size);
+    work_.remove();
+}
+
+// Encodes anew, with the rate corrected by what came out, until the size is within its bounds.
+void CappedFilm::fit(std::int64_t size) {
+    const auto cap = static_cast<double>(cap_);
+    const auto overhead = static_cast<double>(size - film_->payload());  // of the container
+    const double wanted = aim * cap - overhead;
+    if (wanted < least_of_full_size * static_cast<double>(film_->payload()))
+        throw RunError(fmt::format(
+            "{}: a cap of {} is too small for this film, which has {} at its quality: below {} grains melt "
+            "into each "
+            "other; raise --max-size, or make the film smaller with --size, --fps or --duration (the whole "
+            "film is kept)",
+            settings_.path.string(), data_size_text(cap), data_size_text(static_cast<double>(size)),
+            data_size_text((least_of_full_size * static_cast<double>(film_->payload()) + overhead) / aim)));
+    film_.reset();  // x264 writes the last of its log when it is closed
+    const std::string log = first_pass();
+    const double seconds = static_cast<double>(spool_->frames()) / settings_.rate;
+    double rate = 8 * wanted / seconds;
+    const std::filesystem::path fitted = work_.file("fitted");
+    for (int pass = 1; pass <= most_passes; ++pass) {
+        const std::int64_t got = encode(std::llround(rate), log);
+        result_ = fmt::format("{} in two passes of {:.0f} kbit/s, under the cap of {}",
+                              data_size_text(static_cast<double>(got)), rate / 1000, data_size_text(cap));
+        const bool fits = got <= cap_ && static_cast<double>(got) >= least * cap;
+        if (fits || (pass == most_passes && got <= cap_)) {
+            const int code = replace_synced(fitted, settings_.path);
+            if (code < 0)
+                throw RunError(
+                    fmt::format("{}: cannot be replaced: {}", settings_.path.string(), ffmpeg_error(code)));
+            return;
+        }
+        rate *= wanted / std::max(1.0, static_cast<double>(got) - overhead);
+    }
+    throw RunError(
+        fmt::format("{}: {} could not be brought under the cap of {}; raise --max-size (the whole film "
+                    "is kept)",
+                    settings_.path.string(), settings_.codec->words, data_size_text(cap)));
+}
+
+// What the first pass found, for the second one: the name of x264's file, or libvpx's text.
+std::string CappedFilm::first_pass() const {
+    if (settings_.codec->film_is_first_pass) return work_.file("pass.log");
+    CodecSettings settings = codec_settings(settings_);
+    settings.pass = 1;
+    settings.bit_rate = 1'000'000;  // of no consequence yet
+    const OpenCodec codec = open_codec(*settings_.codec, settings);
+    FilmReader spool(work_.file("spool.mkv"));
+    const PacketPtr packet(av_packet_alloc());
+    std::int64_t number = 0;
+    for (AVFrame* frame = spool.next();; frame = spool.next()) {
+        if (frame) frame->pts = number++;
+        int code = avcodec_send_frame(codec.context.get(), frame);
+        while (code >= 0) code = avcodec_receive_packet(codec.context.get(), packet.get());
+        if (code != AVERROR(EAGAIN) && code != AVERROR_EOF)
+            throw RunError(
+                fmt::format("{}: the first pass failed: {}", settings_.path.string(), ffmpeg_error(code)));
+        if (!frame) break;
+    }
+    return codec.context->stats_out ? codec.context->stats_out : "";
+}
+
+// The film at that rate, bits/s; its size in bytes.
+std::int64_t CappedFilm::encode(std::int64_t bit_rate, const std::string& log) const {
+    EncoderSettings settings = settings_;
+    settings.path = work_.file("fitted");
+    settings.pass = 2;
+    settings.bit_rate = bit_rate;
+    settings.log = log;
+    Encoder encoder(settings);
+    FilmReader spool(work_.file("spool.mkv"));
+    while (AVFrame* frame = spool.next()) encoder.add(*frame);
+    encoder.finish();
+    return size_of(settings.path);
+}
+
+std::string CappedFilm::description() const {
+    return result_.empty() ? description_ : description_ + "; " + result_;
+}
+
+}  // namespace grainreel

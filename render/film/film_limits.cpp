@@ -1,0 +1,88 @@
+#include "render/film/film_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/data_size.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double least_bits_a_pixel = 0.0005;  // a hundredth of what a film of grains has at crf 20
+
+// Bits a pixel of the default film, a wedge of which grains fill a quarter, at quality 20; measured.
+double bits_a_pixel(FilmFormat format) {
+    switch (format) {
+        case FilmFormat::mp4:
+            return 0.058;
+        case FilmFormat::webm:
+            return 0.05;
+        case FilmFormat::av1:
+            return 0.04;
+        case FilmFormat::gif:
+            return 0.8;
+        case FilmFormat::ffv1:
+            return 2;
+        case FilmFormat::png:
+            return 1.6;
+        case FilmFormat::y4m:
+            break;
+    }
+    return 12;  // exactly: yuv420p
+}
+
+bool has_quality(FilmFormat format) {
+    return format == FilmFormat::mp4 || format == FilmFormat::webm || format == FilmFormat::av1;
+}
+
+double pixels_of(const Film& film, std::int64_t frames) {
+    return static_cast<double>(film.width) * film.height * static_cast<double>(frames);
+}
+
+}  // namespace
+
+double estimated_film_size(const Film& film, std::int64_t frames) {
+    // 6 of crf halve the rate.
+    const double quality = has_quality(film.format) ? std::exp2((20 - film.quality) / 6.0) : 1;
+    const double bytes = bits_a_pixel(film.format) * quality * pixels_of(film, frames) / 8;
+    return film.max_size ? std::min(bytes, static_cast<double>(*film.max_size)) : bytes;
+}
+
+void check_max_size(const Scene& scene, std::int64_t frames) {
+    const Film& film = scene.film;
+    if (!film.max_size || frames == 0) return;
+    const double pixels = pixels_of(film, frames);
+    if (8 * static_cast<double>(*film.max_size) >= least_bits_a_pixel * pixels) return;
+    throw UserError(
+        fmt::format("{}: {} for {} frames of {}x{} are {:.1g} bits a pixel, and grains need {:.1g} to be "
+                    "seen; allow {} or make the "
+                    "film smaller with size, rate or duration",
+                    scene.where("film.max_size"), data_size_text(static_cast<double>(*film.max_size)), frames,
+                    film.width, film.height, 8 * static_cast<double>(*film.max_size) / pixels,
+                    10 * least_bits_a_pixel, data_size_text(10 * least_bits_a_pixel * pixels / 8)));
+}
+
+std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames) {
+    const Film& film = scene.film;
+    std::vector<std::string> warnings;
+    if (film.purpose != "journal") return warnings;
+    constexpr int most_lines = 720, least_rate = 15, most_seconds = 300;
+    if (film.height > most_lines)
+        warnings.push_back(fmt::format("{}: Elsevier takes films of {} lines at most, this one has {}",
+                                       scene.where("film.size"), most_lines, film.height));
+    if (film.rate < least_rate)
+        warnings.push_back(
+            fmt::format("{}: Elsevier takes films of {} frames/s at least, this one has {:.4g}",
+                        scene.where("film.rate"), least_rate, film.rate));
+    const double seconds = static_cast<double>(frames) / film.rate;
+    if (seconds > most_seconds)
+        warnings.push_back(
+            fmt::format("{}: the film plays for {:.0f} s; Elsevier and Wiley take {} s at most",
+                        scene.where("film.segment"), seconds, most_seconds));
+    return warnings;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,22 @@
+// What can be said of a film's file before it is made.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// Bytes of a film of so many frames, good to a factor of two or three: by pixels, format and quality, and not
+// more than its cap.
+double estimated_film_size(const Film& film, std::int64_t frames);
+
+// Throws UserError when film.max_size leaves so few bits for a pixel that no codec could show grains.
+void check_max_size(const Scene& scene, std::int64_t frames);
+
+// Where a film for a journal is not what the journals take.
+std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames);
+
+}  // namespace grainreel

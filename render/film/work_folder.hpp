@@ -1,0 +1,41 @@
+// What a film needs beside itself while it is made: a folder next to it that goes with the writer.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+class WorkFolder {
+  public:
+    // Throws RunError.
+    explicit WorkFolder(const std::filesystem::path& film) : path_(film.parent_path() / "movie.work") {
+        std::error_code error;
+        std::filesystem::create_directories(path_, error);
+        if (error)
+            throw RunError(fmt::format("{}: cannot make the folder: {}", path_.string(), error.message()));
+    }
+    ~WorkFolder() {
+        if (!kept_) remove();
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+
+    std::filesystem::path file(const char* name) const { return path_ / name; }
+    // From now on it stays, since it holds the only copy of the film; until remove().
+    void keep() { kept_ = true; }
+    void remove() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+        kept_ = true;
+    }
+
+  private:
+    std::filesystem::path path_;
+    bool kept_ = false;
+};
+
+}  // namespace grainreel

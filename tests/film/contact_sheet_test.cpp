@@ -1,0 +1,89 @@
+#include "render/draw/contact_sheet.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/film/film_fixture.hpp"
+#include "tests/film/film_reading.hpp"
+
+namespace grainreel::test {
+namespace {
+
+constexpr int gap = 16;
+
+Film film_of(int columns, int rows, int width, int height) {
+    Film film;
+    film.width = width;
+    film.height = height;
+    film.sheet = {columns, rows};
+    return film;
+}
+
+// Of a film whose frame k is the grey k / 2 (so 512 frames can be told apart by pairs).
+Picture sheet_of(const Film& film, int frames) {
+    ContactSheet sheet(film);
+    Picture last;
+    for (int k = 0; k < frames; ++k) {
+        last = flat(film.width, film.height, k / 2, k / 2, k / 2);
+        sheet.add(last, 0.01 * k);
+    }
+    return sheet.draw(last);
+}
+
+// The greys in the middles of the tiles, row by row.
+std::vector<int> greys(const Picture& page, const Film& film) {
+    const int width = (page.width - gap) / film.sheet[0], height = (page.height - gap) / film.sheet[1];
+    std::vector<int> result;
+    for (int row = 0; row < film.sheet[1]; ++row)
+        for (int column = 0; column < film.sheet[0]; ++column)
+            result.push_back(
+                page.pixel(gap + column * width + width / 2, gap + row * height + height / 3)[0]);
+    return result;
+}
+
+TEST(ContactSheet, FramesAreSpreadEvenlyFromTheFirstToTheLast) {
+    const Film film = film_of(4, 3, 160, 96);
+    for (const int frames : {12, 45, 96, 97, 200, 511}) {
+        const std::vector<int> found = greys(sheet_of(film, frames), film);
+        ASSERT_EQ(found.size(), 12u);
+        const double spacing = (frames - 1) / 11.0;
+        for (int i = 0; i < 12; ++i)
+            // An eighth of the spacing, half a frame of rounding, one for the greys by pairs.
+            EXPECT_NEAR(2 * found[static_cast<std::size_t>(i)], i * spacing, spacing / 8 + 1.5)
+                << frames << ' ' << i;
+        EXPECT_EQ(found.back(), (frames - 1) / 2);
+    }
+}
+
+TEST(ContactSheet, FewerFramesThanTilesLeaveTheRestEmpty) {
+    const Film film = film_of(3, 2, 160, 96);
+    const std::vector<int> found = greys(sheet_of(film, 4), film);
+    EXPECT_EQ(found, (std::vector<int>{0, 0, 1, 1, 255, 255}));
+}
+
+TEST(ContactSheet, IsNoWiderThan1920PixelsAndKeepsTheShapeOfItsFrames) {
+    const Picture page = sheet_of(film_of(4, 3, 1920, 1080), 12);
+    EXPECT_LE(page.width, 1920);
+    EXPECT_GT(page.width, 1880);
+    const double tile = (page.width - 5.0 * gap) / 4;
+    EXPECT_GT(page.height, 3 * tile * 9 / 16);
+    EXPECT_LT(page.height, 3 * tile * 9 / 16 + 4 * gap + 3 * 45);
+}
+
+// Below each tile something is written, and in no other gap.
+TEST(ContactSheet, EveryTileHasItsTime) {
+    const Film film = film_of(4, 3, 480, 270);
+    const Picture page = sheet_of(film, 60);
+    const int width = (page.width - gap) / 4, height = (page.height - gap) / 3;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column) {
+            const int tile_bottom = gap + row * height + 259;
+            int dark = 0;
+            for (int y = tile_bottom + 2; y < gap + (row + 1) * height - gap; ++y)
+                for (int x = gap + column * width; x < (column + 1) * width; ++x)
+                    if (page.pixel(x, y)[0] < 100) ++dark;
+            EXPECT_GT(dark, 40) << row << ' ' << column;
+        }
+}
+
+}  // namespace
+}  // namespace grainreel::test
