@@ -81,7 +81,7 @@ class SideLayer {
     std::vector<std::uint32_t> pixels_;
 };
 
-std::array<float, 4> ground(const Colour& colour, bool transparent) {
+std::array<float, 4> clear_colour(const Colour& colour, bool transparent) {
     if (transparent) return {0, 0, 0, 0};
     return {static_cast<float>(colour.red), static_cast<float>(colour.green), static_cast<float>(colour.blue),
             1.0f};
@@ -99,13 +99,13 @@ struct Renderer::Impl {
           overlay(scene, palette, layout, path.at(0)),
           context(gl::make_context(provider, raster_threads)),
           shape_painter(context->gl()),
-          behind(context->gl(), port, ground(palette.background, s.film.transparent)),
+          behind(context->gl(), port, clear_colour(palette.background, s.film.transparent)),
           before(context->gl(), port, {0, 0, 0, 0}),
           shown(s),
           marks(scene, palette),
           sphere_painter(s, port.width, port.height, raster_threads),
           picture(s.film.width, s.film.height) {
-        if (s.film.look.ground && s.container.shape != Container::Shape::none)
+        if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none)
             ground.emplace(context->gl(), scene);
     }
 
