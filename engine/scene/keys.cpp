@@ -343,6 +343,15 @@ void add_shows(Keys& keys) {
                             note("10 periods; a tenth of the run without a drive"), "How long they are."));
 }
 
+void add_film_cut(Keys& keys) {
+    keys.push_back(entry("film.cut.normal", KeyKind::vector, note("[1, 0, 0]"),
+                         "Opens the bed along a plane: what lies on this side of it is taken away."));
+    keys.push_back(quantity("film.cut.at", Dimension::length, any, note("0"),
+                            "Distance of that plane from the origin, along the normal."));
+    keys.push_back(quantity("film.cut.thickness", Dimension::length, positive, note("all behind it"),
+                            "Of the slab behind the plane that is kept."));
+}
+
 void add_film(Keys& keys) {
     keys.push_back(
         entry("film.size", KeyKind::picture_size, literal("\"1920x1080\""), "Width and height, pixels."));
@@ -378,17 +387,12 @@ void add_film(Keys& keys) {
                          "Under the container, to show its shadow."));
     keys.push_back(entry("film.rotation", KeyKind::flag, literal("false"),
                          "Grains are light on one half and dark on the other and so show how they turn."));
-    keys.push_back(entry("film.cut.normal", KeyKind::vector, literal("[1, 0, 0]"),
-                         "Opens the bed along a plane: what lies on this side of it is taken away."));
-    keys.push_back(quantity("film.cut.at", Dimension::length, any, literal("0"),
-                            "Distance of that plane from the origin, along the normal."));
-    keys.push_back(quantity("film.cut.thickness", Dimension::length, positive, note("all behind it"),
-                            "Of the slab behind the plane that is kept."));
     add_film_marks(keys);
     keys.push_back(entry("film.hide", KeyKind::name_list, note("none"), "Species that are not drawn."));
     keys.push_back(ids("film.highlight", "Ids of grains that are ringed."));
     keys.push_back(entry("film.force_chains", KeyKind::flag, literal("false"),
                          "Lines between grains that touch, as wide as they push."));
+    add_film_cut(keys);
     keys.push_back(quantity("film.camera.azimuth", Dimension::degrees, any, literal("20"),
                             "About z; 0 looks along -x at the wide face, positive goes to the right."));
     keys.push_back(quantity("film.camera.elevation", Dimension::degrees, {-90, 90, false, false},

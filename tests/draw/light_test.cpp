@@ -127,7 +127,7 @@ TEST(Light, AShadowEndsWhereTheFormulaSays) {
             }
             wrong += !near_outline;
         }
-    EXPECT_GT(in_shadow, 300);
+    EXPECT_GT(in_shadow, 100);
     EXPECT_EQ(wrong, 0);
 }
 
