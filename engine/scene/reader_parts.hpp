@@ -20,7 +20,7 @@ void read_start(Document& document, Scene& scene);
 void read_film(Document& document, Scene& scene);  // after drive and run
 void read_camera(Document& document, Film& film);
 void read_film_look(Document& document, Film& film);
-void read_shows(Document& document, Scene& scene);  // part of it
+void read_shows(Document& document, Scene& scene);      // part of it
 void take_purpose(Document& document, Film& film);      // first of the film: sets defaults only
 void read_film_file(Document& document, Scene& scene);  // format, quality, size of the file; after the rate
 

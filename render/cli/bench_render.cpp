@@ -13,8 +13,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
-#include "engine/bench/peers_bed.hpp"
 #include "engine/base/text_file.hpp"
+#include "engine/bench/peers_bed.hpp"
 #include "engine/bench/settled_bed.hpp"
 #include "engine/scene/words.hpp"
 #include "render/cli/share_watcher.hpp"
@@ -125,8 +125,8 @@ double encode_time(const Picture& picture, const Film& film, int threads) {
     return taken / kFrames;
 }
 
-// The picture, and what another renderer needs for the same one: spheres in view coordinates (x right, y up, z
-// away from the eye) and the camera.
+// The picture, and what another renderer needs for the same one: spheres in view coordinates (x right, y up,
+// z away from the eye) and the camera.
 void keep(const std::filesystem::path& folder, const Picture& picture, const Frame& frame, const View& view) {
     std::filesystem::create_directories(folder);
     write_png(folder / "picture.png", picture, {});
@@ -138,13 +138,13 @@ void keep(const std::filesystem::path& folder, const Picture& picture, const Fra
     }
     replace_file(folder / "grains.csv", table);
     const Lamp lamp;
-    const nlohmann::ordered_json camera = {{"orthographic", view.orthographic},
-                                           {"focal", view.focal},
-                                           {"centre", {view.port.x + 0.5 * view.port.width,
-                                                       view.port.y + 0.5 * view.port.height}},
-                                           {"width", picture.width},
-                                           {"height", picture.height},
-                                           {"to_key", lamp.to_key}};
+    const nlohmann::ordered_json camera = {
+        {"orthographic", view.orthographic},
+        {"focal", view.focal},
+        {"centre", {view.port.x + 0.5 * view.port.width, view.port.y + 0.5 * view.port.height}},
+        {"width", picture.width},
+        {"height", picture.height},
+        {"to_key", lamp.to_key}};
     replace_file(folder / "camera.json", camera.dump(2) + "\n");
 }
 

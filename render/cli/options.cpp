@@ -290,7 +290,7 @@ void read_bench_size(const std::string& size, Film& film) {
 void set_bench_style(const std::string& style, Film& film) {
     const bool bare = style == "plain" || style == "flat";
     film.look.occlusion = film.look.shadows = film.look.ground = !bare;
-    film.look.style = style == "flat" ? FilmLook::Style::flat
+    film.look.style = style == "flat"   ? FilmLook::Style::flat
                       : style == "dark" ? FilmLook::Style::dark
                                         : FilmLook::Style::studio;
     film.background = default_background(film.look.style);
@@ -337,7 +337,8 @@ void add_bench(CLI::App& app, Options& options) {
             "render: keep the picture, and the grains and camera for other renderers, in this folder")
         ->type_name("DIR");
     verb.add_option_function<std::string>(
-            "--style", [&options](const std::string& style) { set_bench_style(style, options.bench_render.film); },
+            "--style",
+            [&options](const std::string& style) { set_bench_style(style, options.bench_render.film); },
             "render: studio, flat, dark or plain (lit spheres alone) [studio]")
         ->check(CLI::IsMember({"studio", "flat", "dark", "plain"}))
         ->type_name("WHICH");

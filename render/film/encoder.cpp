@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/base/error.hpp"
 #include "render/film/remux.hpp"
 
@@ -134,6 +136,7 @@ void Encoder::write(AVPacket& packet) {
 void Encoder::close() {
     if (frames_ > 0) encode(nullptr);  // SVT-AV1 would wait for ever for a first frame
     int code = av_write_trailer(file_.get());
+    if (frames_ == 0) code = std::max(code, 0);  // the GIF muxer has nothing to end then
     if (code >= 0) code = avio_closep(&file_->pb);
     if (code < 0) fail(code);
     file_.reset();

@@ -232,8 +232,11 @@ TEST_F(MovieProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
 }
 
 TEST_F(MovieProgram, HelpAndVersionGoToStdout) {
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"--help"}, {"movie", "--help"}, {"render", "--help"}, {"check", "--help"}, {"--version"}}) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
+                                                  {"movie", "--help"},
+                                                  {"render", "--help"},
+                                                  {"check", "--help"},
+                                                  {"--version"}}) {
         const Ended ended = run_program(words, {here.path(), {}});
         EXPECT_EQ(ended.status, 0);
         EXPECT_THAT(ended.out, Not(IsEmpty()));

@@ -68,8 +68,6 @@ void expect_agreement(const std::vector<ViewSphere>& bed) {
     const Agreement found = compare_with_rays(bed);
     testing::Test::RecordProperty("mean_error", std::to_string(found.mean_error));
     testing::Test::RecordProperty("correlation", std::to_string(found.correlation));
-    std::printf("error %.3f, ours - rays %.3f, correlation %.3f, %d points\n", found.mean_error, found.mean,
-                found.correlation, found.points);
     EXPECT_GT(found.points, 500);
     EXPECT_LT(found.mean_error, 0.1);
     EXPECT_GT(found.correlation, 0.8);
