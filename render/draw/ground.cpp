@@ -129,29 +129,23 @@ void main() {
 }
 )";
 
-// The map fades towards its rim and towards the rim of the picture, so that no line shows where it ends.
+// Fades towards the rim of the picture, so that no line shows where it ends.
 const char* const fragment_source = R"(#version 330 core
 in vec2 at;
 uniform sampler2D taken;
 uniform vec2 size;
-uniform float strength;
 out vec4 result;
 void main() {
-    vec2 cell = at * SIDE - 0.5, low = floor(cell), share = cell - low;
-    ivec2 first = clamp(ivec2(low), ivec2(0), ivec2(SIDE - 2));
-    vec4 four = vec4(texelFetch(taken, first, 0).x, texelFetch(taken, first + ivec2(1, 0), 0).x,
-                     texelFetch(taken, first + ivec2(0, 1), 0).x, texelFetch(taken, first + ivec2(1, 1), 0).x);
-    vec2 two = mix(four.xy, four.zw, share.y);
-    vec2 rim = smoothstep(0.0, 0.10, at) * smoothstep(0.0, 0.10, 1.0 - at);
-    vec2 margin = min(gl_FragCoord.xy, size - gl_FragCoord.xy) / size.y;
-    vec2 inside = smoothstep(0.0, 0.08, margin);
-    result = vec4(0.0, 0.0, 0.0, strength * mix(two.x, two.y, share.x) * rim.x * rim.y * inside.x * inside.y);
+    vec2 margin = clamp(min(gl_FragCoord.xy, size - gl_FragCoord.xy) * (12.0 / size.y), 0.0, 1.0);
+    result = vec4(0.0, 0.0, 0.0, texture(taken, at).x * margin.x * margin.y);
 }
 )";
 
-std::string with_side(const std::string& source) {
-    const std::string first = source.substr(0, source.find('\n') + 1);
-    return first + "#define SIDE " + std::to_string(ShadowMap::kSide) + "\n" + source.substr(first.size());
+// Towards the rim of the map it fades, too.
+float rim(int cell) {
+    const int inside = std::min(2 * cell + 1, 2 * (ShadowMap::kSide - cell) - 1);  // half cells
+    const float t = std::min(5 * static_cast<float>(inside) / ShadowMap::kSide, 1.0f);
+    return t * t * (3 - 2 * t);
 }
 
 }  // namespace
@@ -159,12 +153,15 @@ std::string with_side(const std::string& source) {
 GroundPainter::GroundPainter(const gl::Functions& gl, const Scene& scene)
     : gl_(gl),
       map_(scene),
-      program_(gl, "ground", vertex_source, with_side(fragment_source)),
+      program_(gl, "ground", vertex_source, fragment_source),
       array_(gl),
       corners_(gl),
       texture_(gl, ShadowMap::kSide, ShadowMap::kSide, {GL_R8, GL_RED, GL_UNSIGNED_BYTE}),
       strength_(scene.film.look.style == FilmLook::Style::dark ? 0.75f : 0.30f),
       bytes_(ShadowMap::kSide * ShadowMap::kSide) {
+    gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl_.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
     array_.bind();
     corners_.bind();
     for (const GLuint attribute : {0u, 1u}) {
@@ -179,8 +176,12 @@ void GroundPainter::update(const Frame& frame, const View& view) {
     const Vec3 to_key =
         lamp.to_key[0] * view.right + lamp.to_key[1] * view.up + lamp.to_key[2] * view.forward;
     map_.cast(frame, to_key);
-    for (std::size_t i = 0; i < bytes_.size(); ++i)
-        bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * map_.cells()[i]));
+    for (int j = 0; j < ShadowMap::kSide; ++j)
+        for (int i = 0; i < ShadowMap::kSide; ++i) {
+            const auto cell = static_cast<std::size_t>(j * ShadowMap::kSide + i);
+            bytes_[cell] =
+                static_cast<std::uint8_t>(255 * strength_ * rim(i) * rim(j) * map_.cells()[cell] + 0.5f);
+        }
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
     gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -205,7 +206,6 @@ void GroundPainter::paint(const View& view) const {
     program_.use();
     program_.set("taken", 0);
     program_.set("size", static_cast<float>(view.port.width), static_cast<float>(view.port.height));
-    program_.set("strength", strength_);
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
     gl_.Enable(GL_BLEND);
