@@ -35,12 +35,7 @@ void draw_as(const Sight& sight, const Cut& cut, const DepthRows& rows, const Vi
         const std::size_t first = static_cast<std::size_t>(row - rows.first_row) * rows.stride;
         for (int at = box.x0; at < box.x1; at += F::count) {
             const Ray<orthographic> ray(load_any(rows.slope_x + at), slope_y);
-            const Meeting m = meet<orthographic>(ray, x, y, z, radius);
-            F away;
-            if constexpr (cut_open)
-                away = seen_at<orthographic>(m, kept<orthographic>(ray, cut));
-            else
-                away = seen_at<orthographic>(m);
+            const F away = seen_of<cut_open>(ray, cut, meet<orthographic>(ray, x, y, z, radius));
             keep_nearer(away, number, rows.depth + first + at, rows.seen + first + at);
         }
     }

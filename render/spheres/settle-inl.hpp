@@ -36,12 +36,7 @@ void settle_part(const Sight& sight, const Cut& cut, EdgeBlock& block, int first
         for (int p = 0; p < kPoints; ++p) {
             const Ray<orthographic> ray((x + F(kPointX[p] / 16) - F(sight.centre_x)) * scale,
                                         (F(sight.centre_y) - y - F(kPointY[p] / 16)) * scale);
-            const Meeting m = meet<orthographic>(ray, cx, cy, cz, cr);
-            F away;
-            if constexpr (cut_open)
-                away = seen_at<orthographic>(m, kept<orthographic>(ray, cut));
-            else
-                away = seen_at<orthographic>(m);
+            const F away = seen_of<cut_open>(ray, cut, meet<orthographic>(ray, cx, cy, cz, cr));
             const auto nearer = there & (away < nearest[p]);
             nearest[p] = select(nearer, away, nearest[p]);
             owner[p] = select(nearer, F(static_cast<float>(c)), owner[p]);
