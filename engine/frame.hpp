@@ -43,6 +43,10 @@ struct Frame {
     std::shared_ptr<const MeasureTable> measures;
     std::size_t measure_rows = 0;
 
+    // Earlier moments over which the picture is exposed, besides this one; by rising time. Their own lists
+    // are empty.
+    std::vector<std::shared_ptr<const Frame>> exposed;
+
     std::size_t size() const { return id.size(); }
 };
 

@@ -127,6 +127,8 @@ void add_film(Keys& keys) {
                          "Grains are light on one half and dark on the other and so show how they turn."));
     add_film_marks(keys);
     keys.push_back(entry("film.hide", KeyKind::name_list, note("none"), "Species that are not drawn."));
+    keys.push_back(entry("film.ghost", KeyKind::name_list, note("none"),
+                         "Species that the others are seen through, as if of glass."));
     keys.push_back(ids("film.highlight", "Ids of grains that are ringed."));
     keys.push_back(entry("film.force_chains", KeyKind::flag, literal("false"),
                          "Lines between grains that touch, as wide as they push."));
@@ -152,6 +154,12 @@ void add_film(Keys& keys) {
         integer("film.segment[].every", 1, 4, literal("1"), "locked: periods a frame, 1, 2 or 4."));
     keys.push_back(quantity("film.segment[].phase", Dimension::phase, any, literal("0"),
                             "locked: \"90 deg\" or 0.25 turns; beyond one turn with a unit only."));
+    keys.push_back(integer("film.segment[].average", 1, 1000, note("no mean"),
+                           "Whole periods up to the picture, of which it shows the grains' mean places."));
+    keys.push_back(quantity("film.segment[].exposure", Dimension::time, positive, note("one moment"),
+                            "Time up to the picture for which the shutter is open: what moves leaves a streak."));
+    keys.push_back(integer("film.segment[].exposures", 2, 1000, literal("16"),
+                           "Moments in that time; locked: whole periods apart."));
     add_shows(keys);
 }
 

@@ -64,6 +64,7 @@ struct FilmTrails {
 struct FilmShows {
     GrainColouring colour;
     std::vector<std::size_t> hidden;        // species that are not drawn
+    std::vector<std::size_t> ghosts;        // species that are seen through
     std::vector<std::int32_t> highlighted;  // ids
     std::vector<FilmPlot> plots;
     FilmArrows arrows;

@@ -58,12 +58,27 @@ void read_sheet(Document& document, Film& film) {
     film.sheet = {static_cast<int>(sheet[0]), static_cast<int>(sheet[1])};
 }
 
+void read_span(Document& document, const Scene& scene, const std::string& table, FilmSegment& segment) {
+    const std::string average = table + ".average", exposure = table + ".exposure";
+    if (const auto periods = document.integer(average)) {
+        if (!scene.drive.present)
+            document.fail(average, "counts periods of the drive, but nothing oscillates; add [drive] or leave it");
+        document.refuse(exposure, "a mean over periods has no shutter; keep one of the two");
+        segment.average = static_cast<int>(*periods);
+    }
+    segment.exposure = document.quantity(exposure).value_or(segment.exposure);
+    if (segment.exposure == 0)
+        document.refuse(table + ".exposures", "they are moments of an 'exposure'");
+    segment.exposures = static_cast<int>(document.integer(table + ".exposures").value_or(segment.exposures));
+}
+
 FilmSegment read_segment(Document& document, const Scene& scene, const std::string& table) {
     using Kind = FilmSegment::Kind;
     FilmSegment segment;
     segment.kind = chosen<Kind>(document, table + ".kind",
                                 {{"motion", Kind::motion}, {"locked", Kind::locked}}, Kind::motion);
     segment.duration = document.quantity(table + ".duration");
+    read_span(document, scene, table, segment);
     if (segment.kind == Kind::motion) {
         document.refuse(table + ".every", "a segment in motion has a 'playback'");
         document.refuse(table + ".phase", "a segment in motion shows every phase");

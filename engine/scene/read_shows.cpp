@@ -25,6 +25,13 @@ std::size_t species_at(const Document& document, const Scene& scene, const std::
                   fmt::format("names the species \"{}\", which is not there; there is {}", name, known));
 }
 
+std::vector<std::size_t> species_list(Document& document, const Scene& scene, const std::string& path) {
+    std::vector<std::size_t> list;
+    for (const std::string& name : document.name_list(path))
+        list.push_back(species_at(document, scene, path, name));
+    return list;
+}
+
 std::vector<std::int32_t> ids_at(Document& document, const Scene& scene, const std::string& path) {
     std::vector<std::int32_t> ids;
     for (const std::int64_t id : document.integer_list(path)) {
@@ -139,8 +146,7 @@ void read_arrows(Document& document, const Scene& scene, FilmArrows& arrows) {
 
 void read_trails(Document& document, const Scene& scene, FilmTrails& trails) {
     if (!document.is_table("film.trails")) return;
-    for (const std::string& name : document.name_list("film.trails.species"))
-        trails.species.push_back(species_at(document, scene, "film.trails.species", name));
+    trails.species = species_list(document, scene, "film.trails.species");
     trails.grains = ids_at(document, scene, "film.trails.grains");
     if (!trails.wanted())
         document.fail("film.trails", "need 'species' or 'grains'; write for example grains = [3, 14]");
@@ -154,8 +160,12 @@ void read_trails(Document& document, const Scene& scene, FilmTrails& trails) {
 void read_shows(Document& document, Scene& scene) {
     FilmShows& look = scene.film.shows;
     read_colour(document, scene, look.colour);
-    for (const std::string& name : document.name_list("film.hide"))
-        look.hidden.push_back(species_at(document, scene, "film.hide", name));
+    look.hidden = species_list(document, scene, "film.hide");
+    look.ghosts = species_list(document, scene, "film.ghost");
+    for (const std::size_t ghost : look.ghosts)
+        if (std::find(look.hidden.begin(), look.hidden.end(), ghost) != look.hidden.end())
+            document.fail("film.ghost", fmt::format("names \"{}\", which film.hide takes away; keep one of them",
+                                                    scene.species[ghost].name));
     look.highlighted = ids_at(document, scene, "film.highlight");
     read_plots(document, scene);
     read_arrows(document, scene, look.arrows);

@@ -193,6 +193,10 @@ struct FilmSegment {
     double playback = 1;  // motion: simulated seconds a second of film (0.1 = ten times slower)
     int every = 1;        // locked: one frame every 1, 2 or 4 periods ...
     double phase = 0;     // ... at this phase, turns
+    // What each picture shows up to its moment; at most one of the two.
+    int average = 0;      // whole periods, in which the grains' mean places are drawn; 0: none
+    double exposure = 0;  // s, of an open shutter; 0: one moment
+    int exposures = 16;   // moments in that time; locked: at most one a period
     bool operator==(const FilmSegment&) const = default;
 };
 

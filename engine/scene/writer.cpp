@@ -330,6 +330,7 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
     out.put("exaggerate", film.exaggerate);
     write_film_look(out, film.look);
     if (!film.shows.hidden.empty()) out.put("hide", names(film.shows.hidden, species));
+    if (!film.shows.ghosts.empty()) out.put("ghost", names(film.shows.ghosts, species));
     if (!film.shows.highlighted.empty()) out.put("highlight", ids(film.shows.highlighted));
     out.flag("force_chains", film.shows.force_chains);
     write_colour(out, film.shows.colour);
@@ -345,6 +346,11 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
         } else {
             out.whole("every", segment.every);
             out.put("phase", phase(segment.phase));
+        }
+        if (segment.average > 0) out.whole("average", segment.average);
+        if (segment.exposure > 0) {
+            out.put("exposure", segment.exposure);
+            out.whole("exposures", segment.exposures);
         }
     }
 }

@@ -15,15 +15,15 @@ struct Stop {
     std::vector<int> segments;  // of the film, one a picture to be taken; empty when the film wants none
     bool trajectory = false;
     bool measures = false;
-    bool positions = false;  // a later picture wants to know where the grains are now
+    bool moment = false;  // a later picture wants to know how the grains are now
 };
 
 class Agenda {
   public:
     // Steps from `first` to `last`. Shots before `first` are left out; trajectory and measures come at
-    // multiples of their interval (0: never), measures at `first` and `last` too. positions: steps, rising.
+    // multiples of their interval (0: never), measures at `first` and `last` too. moments: steps, rising.
     Agenda(std::vector<Shot> shots, std::int64_t trajectory_every, std::int64_t measures_every,
-           std::int64_t first, std::int64_t last, std::vector<std::int64_t> positions = {});
+           std::int64_t first, std::int64_t last, std::vector<std::int64_t> moments = {});
 
     // The next stop, in rising order of step; the last is at `last`. Empty after it.
     std::optional<Stop> next();
@@ -33,8 +33,8 @@ class Agenda {
   private:
     std::vector<Shot> shots_;
     std::size_t shot_ = 0;
-    std::vector<std::int64_t> positions_;
-    std::size_t position_ = 0;
+    std::vector<std::int64_t> moments_;
+    std::size_t moment_ = 0;
     std::int64_t trajectory_every_, measures_every_, first_, last_;
     std::int64_t at_;  // steps below are done with
 };

@@ -1,5 +1,6 @@
 #include "render/cli/earlier_positions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainreel {
@@ -24,7 +25,7 @@ EarlierPositions::EarlierPositions(const std::vector<Shot>& shots, std::int64_t 
 }
 
 void EarlierPositions::keep(const Frame& frame) {
-    kept_[frame.step] = frame.position;
+    if (std::binary_search(steps_.begin(), steps_.end(), frame.step)) kept_[frame.step] = frame.position;
 }
 
 void EarlierPositions::fill(Frame& frame) {

@@ -24,6 +24,7 @@ class EarlierPositions {
 
     // At which a frame has to be kept: strictly rising.
     const std::vector<std::int64_t>& steps() const { return steps_; }
+    // Copies the positions, when the step is one of those.
     void keep(const Frame& frame);
     // Gives the frame its displacements, when that of one period before was kept, and forgets older ones.
     void fill(Frame& frame);

@@ -54,13 +54,18 @@ std::optional<std::string> SceneRun::packing_warning() const {
 
 void SceneRun::start(std::vector<Shot> shots) {
     files_.emplace(folder_, scene_, plan_, simulation_.grains());
-    if (needs_displacement(scene_.film.shows)) {
-        const bool periodic = scene_.container.periodic_depth;
-        earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, first_step_,
-                                    periodic ? scene_.container.depth : 0);
-    }
+    const double depth = scene_.container.periodic_depth ? scene_.container.depth : 0;
+    if (needs_displacement(scene_.film.shows))
+        earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, first_step_, depth);
+    exposed_ = ExposedMoments(shots, scene_.film, plan_.clock, first_step_);
+    means_ = PeriodMeans(shots, scene_.film, plan_.clock, first_step_, depth);
+    std::vector<std::int64_t> moments;
+    for (const auto* steps : {&earlier_.steps(), &exposed_.steps(), &means_.steps()})
+        moments.insert(moments.end(), steps->begin(), steps->end());
+    std::sort(moments.begin(), moments.end());
+    moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
     agenda_.emplace(std::move(shots), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
-                    earlier_.steps());
+                    std::move(moments));
     shots_ = agenda_->shots();
     since_checkpoint_ = Stopwatch();
 }
@@ -99,20 +104,26 @@ FramePtr SceneRun::serve(const Stop& stop) {
         const auto timer = times_.during("measuring");
         files_->add_measures(simulation_.measures());
     }
-    if (!stop.trajectory && !stop.positions && stop.segments.empty()) return nullptr;
+    if (!stop.trajectory && !stop.moment && stop.segments.empty()) return nullptr;
     const auto frame = std::make_shared<Frame>(simulation_.frame());
-    if (stop.positions) earlier_.keep(*frame);
-    if (!stop.segments.empty()) add_what_the_film_needs(*frame);
     if (stop.trajectory) {
         const auto timer = times_.during("writing");
         files_->add_frame(*frame, simulation_);
     }
+    if (stop.moment) {
+        earlier_.keep(*frame);
+        exposed_.keep(*frame);
+        means_.keep(*frame);
+    }
+    if (!stop.segments.empty()) add_what_the_film_needs(*frame);
     return frame;
 }
 
 void SceneRun::add_what_the_film_needs(Frame& frame) {
     const FilmShows& look = scene_.film.shows;
     earlier_.fill(frame);
+    exposed_.fill(frame);
+    means_.fill(frame);
     if (needs_touches(look))
         for (const Simulation::ContactRecord& contact : simulation_.contacts())
             frame.touches.push_back({contact.first, contact.second, contact.normal});

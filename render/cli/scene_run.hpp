@@ -14,6 +14,8 @@
 #include "engine/scene/scene.hpp"
 #include "render/cli/agenda.hpp"
 #include "render/cli/earlier_positions.hpp"
+#include "render/cli/exposed_moments.hpp"
+#include "render/cli/period_means.hpp"
 #include "render/cli/first_failure.hpp"
 #include "render/cli/pace.hpp"
 #include "render/cli/run_files.hpp"
@@ -79,6 +81,8 @@ class SceneRun {
     std::optional<RunFiles> files_;
     std::optional<Agenda> agenda_;
     EarlierPositions earlier_;
+    ExposedMoments exposed_;
+    PeriodMeans means_;
     StageTimes times_;
     Pace pace_;
     Stopwatch since_checkpoint_;

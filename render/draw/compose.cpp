@@ -6,17 +6,23 @@
 namespace grainreel {
 namespace {
 
-// `top` over `below`, all four channels at once: two in each half, rounded.
+constexpr std::uint32_t kGhost = 90;  // strength of a ghost, of 255
+
+// All four channels times share / 255, two in each half, rounded.
+std::uint32_t scaled(std::uint32_t pixel, std::uint32_t share) {
+    constexpr std::uint32_t kEven = 0x00ff00ffu, kHalf = 0x00800080u;
+    const auto pair = [&](std::uint32_t two) {
+        const std::uint32_t product = two * share + kHalf;  // / 255: (p + p / 256) / 256
+        return ((product + ((product >> 8) & kEven)) >> 8) & kEven;
+    };
+    return pair(pixel & kEven) + (pair((pixel >> 8) & kEven) << 8);
+}
+
 std::uint32_t over(std::uint32_t top, std::uint32_t below) {
     const std::uint32_t left = 255 - (top >> 24);
     if (left == 255) return below;
     if (left == 0) return top;
-    constexpr std::uint32_t kEven = 0x00ff00ffu, kHalf = 0x00800080u;
-    const auto scaled = [&](std::uint32_t pair) {
-        const std::uint32_t product = pair * left + kHalf;  // / 255: (p + p / 256) / 256
-        return ((product + ((product >> 8) & kEven)) >> 8) & kEven;
-    };
-    return top + scaled(below & kEven) + (scaled((below >> 8) & kEven) << 8);
+    return top + scaled(below, left);
 }
 
 // Eight pixels at once where there is nothing to lay over, as in most of a picture.
@@ -28,32 +34,39 @@ bool nothing(const std::uint32_t* pixels) {
 }
 
 struct Row {
-    const std::uint32_t *behind, *grains, *before;
+    const std::uint32_t *behind, *grains, *ghosts, *before;  // ghosts may be null
     std::uint32_t* out;
 };
+
+std::uint32_t pixel_of(const Row& row, int x) {
+    std::uint32_t grains = row.grains[x];
+    if (row.ghosts) grains = over(scaled(row.ghosts[x], kGhost), grains);
+    return over(row.before[x], over(grains, row.behind[x]));
+}
 
 void compose_row(const Row& row, int width) {
     int x = 0;
     for (; x + kSpan <= width; x += kSpan) {
-        if (nothing(row.grains + x) && nothing(row.before + x)) {
+        const bool bare = nothing(row.grains + x) && nothing(row.before + x) &&
+                          (!row.ghosts || nothing(row.ghosts + x));
+        if (bare) {
             std::memcpy(row.out + x, row.behind + x, kSpan * sizeof *row.out);
             continue;
         }
-        for (int i = x; i < x + kSpan; ++i)
-            row.out[i] = over(row.before[i], over(row.grains[i], row.behind[i]));
+        for (int i = x; i < x + kSpan; ++i) row.out[i] = pixel_of(row, i);
     }
-    for (; x < width; ++x) row.out[x] = over(row.before[x], over(row.grains[x], row.behind[x]));
+    for (; x < width; ++x) row.out[x] = pixel_of(row, x);
 }
 
 }  // namespace
 
-void compose(const std::vector<std::uint32_t>& behind, const Layer& grains,
-             const std::vector<std::uint32_t>& before, const Rectangle& port, Picture& picture, Team& team) {
+void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team) {
     const auto width = static_cast<std::size_t>(port.width);
     team.run([&](int member) {
         for (int y = member; y < port.height; y += team.size()) {
             const std::size_t first = static_cast<std::size_t>(port.height - 1 - y) * width;
-            compose_row({behind.data() + first, grains.row(y), before.data() + first,
+            compose_row({layers.behind.data() + first, layers.grains.row(y),
+                         layers.ghosts ? layers.ghosts->row(y) : nullptr, layers.before.data() + first,
                          reinterpret_cast<std::uint32_t*>(picture.pixel(port.x, port.y + y))},
                         port.width);
         }

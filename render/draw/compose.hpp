@@ -11,10 +11,16 @@
 
 namespace grainreel {
 
-// behind, before: as OpenGL gives them, rows from the bottom; all of the port's size; colours multiplied by
-// alpha. The result goes into the port's part of the picture.
-void compose(const std::vector<std::uint32_t>& behind, const Layer& grains,
-             const std::vector<std::uint32_t>& before, const Rectangle& port, Picture& picture, Team& team);
+// All of the port's size; colours multiplied by alpha.
+struct Layers {
+    const std::vector<std::uint32_t>& behind;  // as OpenGL gives it, rows from the bottom
+    const Layer& grains;
+    const Layer* ghosts;  // laid over the grains at a part of their strength; may be null
+    const std::vector<std::uint32_t>& before;  // as behind
+};
+
+// The result goes into the port's part of the picture.
+void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team);
 
 // From colours multiplied by their alpha, as layers have them, to plain ones, as pictures have them.
 void divide_by_alpha(Picture& picture, const Rectangle& port);

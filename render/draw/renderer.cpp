@@ -9,6 +9,7 @@
 #include "render/draw/compose.hpp"
 #include "render/draw/container_drawing.hpp"
 #include "render/draw/exaggeration.hpp"
+#include "render/draw/exposure.hpp"
 #include "render/draw/ground.hpp"
 #include "render/draw/marks.hpp"
 #include "render/draw/overlay.hpp"
@@ -101,10 +102,13 @@ struct Renderer::Impl {
           shape_painter(context->gl()),
           behind(context->gl(), port, clear_colour(palette.background, s.film.transparent)),
           before(context->gl(), port, {0, 0, 0, 0}),
-          shown(s),
+          team(raster_threads),
+          shown(s, s.film.shows.hidden),
+          solid(s, s.film.shows.ghosts),
           marks(scene, palette),
-          sphere_painter(s, port.width, port.height, raster_threads),
+          sphere_painter(s, port.width, port.height, team, false),
           picture(s.film.width, s.film.height) {
+        if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
         if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none)
             ground.emplace(context->gl(), scene);
     }
@@ -120,48 +124,77 @@ struct Renderer::Impl {
     ShapePainter shape_painter;
     SideLayer behind, before;
     std::optional<GroundPainter> ground;
-    ShownGrains shown;
+    Team team;
+    ShownGrains shown, solid;  // of all: those that are not hidden; of these: those that are not ghosts
     Marks marks;
     SpherePainter sphere_painter;
+    std::optional<SpherePainter> ghost_painter;
+    std::optional<Exposure> exposure;
     ContainerShapes shapes;
     View eye;
     Picture picture;
 
     void draw(const Frame& frame, const std::string& playback, double film_time, DrawTimes* times);
-    const Layer& draw_grains(const Frame& frame, Stopwatch& watch);
+    void draw_exposed(const Frame& frame, const View& view, Stopwatch& watch);
+    void draw_moment(const Frame& frame, const Frame* marked, const View& view, Stopwatch& watch);
+    const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
 };
 
-void Renderer::Impl::draw(const Frame& true_frame, const std::string& playback, double film_time,
+void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time,
                           DrawTimes* times) {
     context->make_current();
-    const gl::Functions& gl = context->gl();
-    Stopwatch watch(gl, times);
+    Stopwatch watch(context->gl(), times);
     const View view = path.at(film_time);
-    overlay.write(picture, true_frame, playback, view);
+    overlay.write(picture, frame, playback, view);
     watch.lap(&DrawTimes::overlay);
+    if (frame.exposed.empty())
+        draw_moment(frame, nullptr, view, watch);
+    else
+        draw_exposed(frame, view, watch);
+}
+
+// Marks are those of the frame itself, in every moment.
+void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Stopwatch& watch) {
+    if (!exposure) exposure.emplace(port);
+    const Frame marked = shown.of(exaggeration.shown(frame));
+    for (const FramePtr& moment : frame.exposed) {
+        draw_moment(*moment, &marked, view, watch);
+        exposure->add(picture);
+    }
+    draw_moment(frame, &marked, view, watch);
+    exposure->add(picture);
+    exposure->develop(picture);
+    watch.lap(&DrawTimes::readback);
+}
+
+// marked: whose marks are drawn; the frame's own when null.
+void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, const View& view,
+                                 Stopwatch& watch) {
     const Frame& frame = exaggeration.shown(true_frame);
     eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
-    const Frame& grains_shown = shown.of(frame);
+    const Frame& all = shown.of(frame);
+    const Frame& opaque = ghost_painter ? solid.of(all) : all;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
-    marks.draw(eye, grains_shown, shapes.before);
-    if (ground) ground->update(grains_shown, eye);
+    marks.draw(eye, marked ? *marked : all, shapes.before);
+    if (ground) ground->update(opaque, eye);
     behind.draw(shape_painter, shapes.behind, ground ? [&] { ground->paint(eye); } : std::function<void()>());
     before.draw(shape_painter, shapes.before, {});
     watch.lap(&DrawTimes::walls);
-    const Layer& grains = draw_grains(grains_shown, watch);
-    compose(behind.read(), grains, before.read(), port, picture, sphere_painter.team());
+    const Layer& grains = draw_grains(sphere_painter, opaque, watch);
+    const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, all, watch) : nullptr;
+    compose({behind.read(), grains, ghosts, before.read()}, port, picture, team);
     if (scene.film.transparent) divide_by_alpha(picture, port);
     watch.lap(&DrawTimes::readback);
 }
 
-const Layer& Renderer::Impl::draw_grains(const Frame& frame, Stopwatch& watch) {
-    sphere_painter.take(eye, frame);
+const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const {
+    painter.take(eye, frame);
     watch.lap(&DrawTimes::upload);
-    sphere_painter.find_visible();
+    painter.find_visible();
     watch.lap(&DrawTimes::spheres);
-    sphere_painter.find_neighbours();
+    painter.find_neighbours();
     watch.lap(&DrawTimes::occlusion);
-    const Layer& layer = sphere_painter.light();
+    const Layer& layer = painter.light();
     watch.lap(&DrawTimes::shading);
     return layer;
 }
@@ -189,7 +222,9 @@ const View& Renderer::view() const {
 }
 
 void Renderer::start_from(const Frame& frame) {
-    impl_->sphere_painter.start_from(impl_->exaggeration.shown(frame));
+    const Frame& start = impl_->exaggeration.shown(frame);
+    impl_->sphere_painter.start_from(start);
+    if (impl_->ghost_painter) impl_->ghost_painter->start_from(start);
 }
 
 std::string Renderer::gl_description() const {

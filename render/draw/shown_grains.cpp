@@ -12,15 +12,16 @@ void keep(std::vector<T>& values, const std::vector<std::size_t>& kept) {
 
 }  // namespace
 
-ShownGrains::ShownGrains(const Scene& scene) : hidden_(scene.species.size(), false) {
-    for (const std::size_t species : scene.film.shows.hidden) hidden_[species] = any_ = true;
+ShownGrains::ShownGrains(const Scene& scene, const std::vector<std::size_t>& left_out)
+    : left_out_(scene.species.size(), false) {
+    for (const std::size_t species : left_out) left_out_[species] = any_ = true;
 }
 
 const Frame& ShownGrains::of(const Frame& frame) {
     if (!any_) return frame;
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < frame.size(); ++i)
-        if (!hidden_[static_cast<std::size_t>(frame.species[i])]) kept.push_back(i);
+        if (!left_out_[static_cast<std::size_t>(frame.species[i])]) kept.push_back(i);
     shown_ = frame;
     keep(shown_.id, kept);
     keep(shown_.species, kept);

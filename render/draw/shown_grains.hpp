@@ -1,5 +1,5 @@
-// The grains that the film shows: all but those of hidden species. The others are as if they were not there:
-// they are not lit, cast nothing and are not counted in fields.
+// A frame without the grains of some species. Those are as if they were not there: they are not lit, cast
+// nothing and are not counted in fields.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,14 @@ namespace grainreel {
 
 class ShownGrains {
   public:
-    explicit ShownGrains(const Scene& scene);
+    // left_out: species, indices into scene.species.
+    ShownGrains(const Scene& scene, const std::vector<std::size_t>& left_out);
 
-    // The frame itself when nothing is hidden, otherwise a copy that the next call overwrites.
+    // The frame itself when nothing is left out, otherwise a copy that the next call overwrites.
     const Frame& of(const Frame& frame);
 
   private:
-    std::vector<bool> hidden_;  // by species
+    std::vector<bool> left_out_;  // by species
     bool any_ = false;
     Frame shown_;
 };

@@ -4,12 +4,16 @@
 
 namespace grainreel {
 
-SpherePainter::SpherePainter(const Scene& scene, int width, int height, int threads)
+SpherePainter::SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts)
     : grain_colours_(scene),
-      team_(threads),
+      team_(team),
       layer_(width, height),
       look_(scene.film.look),
-      lamp_(lamp_of(look_)) {}
+      lamp_(lamp_of(look_)) {
+    if (!ghosts) return;
+    painted_.resize(scene.species.size(), 0);
+    for (const std::size_t species : scene.film.shows.ghosts) painted_[species] = 1;
+}
 
 void SpherePainter::take(const View& view, const Frame& frame) {
     sight_ = {view.orthographic, static_cast<float>(view.focal), 0.5f * static_cast<float>(view.port.width),
@@ -26,6 +30,7 @@ void SpherePainter::take(const View& view, const Frame& frame) {
     spheres_.albedo = grain_colours_.of(frame);
     open_bed(view, frame);
     mark_rotation(view, frame);
+    mark_painted(frame);
 }
 
 // The planes of the cut, which go with the container, in view coordinates.
@@ -53,6 +58,13 @@ void SpherePainter::mark_rotation(const View& view, const Frame& frame) {
                                   static_cast<float>(pole.dot(view.up)),
                                   static_cast<float>(pole.dot(view.forward))});
     }
+}
+
+void SpherePainter::mark_painted(const Frame& frame) {
+    if (painted_.empty()) return;
+    spheres_.painted.clear();
+    for (const std::int32_t species : frame.species)
+        spheres_.painted.push_back(painted_[static_cast<std::size_t>(species)]);
 }
 
 void SpherePainter::find_visible() {

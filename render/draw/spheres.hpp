@@ -12,8 +12,9 @@ namespace grainreel {
 
 class SpherePainter {
   public:
-    // width, height: pixels of the port. threads: >= 1.
-    SpherePainter(const Scene& scene, int width, int height, int threads);
+    // width, height: pixels of the port. ghosts: paint those of the scene's ghost species alone, where nothing
+    // else stands before them; otherwise paint all grains that are taken.
+    SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts);
 
     // See Renderer.
     void start_from(const Frame& frame) { grain_colours_.start_from(frame); }
@@ -24,14 +25,14 @@ class SpherePainter {
     void find_neighbours();
     const Layer& light();
 
-    Team& team() { return team_; }
-
   private:
     void open_bed(const View& view, const Frame& frame);
     void mark_rotation(const View& view, const Frame& frame);
+    void mark_painted(const Frame& frame);
 
     GrainColours grain_colours_;
-    Team team_;
+    Team& team_;
+    std::vector<std::uint8_t> painted_;  // by species; empty: all of them
     SphereLayer layer_;
     Spheres spheres_;
     FilmLook look_;

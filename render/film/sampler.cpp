@@ -73,9 +73,7 @@ std::string speed_words(double playback) {
     return fmt::format("{:.3g}", playback);
 }
 
-}  // namespace
-
-std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate) {
+std::string pace_words(const FilmSegment& segment, const Drive& drive, double film_rate) {
     if (segment.kind == FilmSegment::Kind::motion) {
         if (segment.playback == 1) return "real time";
         if (segment.playback > 1) return fmt::format("time lapse, {:.4g}× speed", segment.playback);
@@ -85,6 +83,20 @@ std::string playback_caption(const FilmSegment& segment, const Drive& drive, dou
         segment.every == 1 ? "a period" : fmt::format("every {} periods", segment.every);
     return fmt::format("1 frame {} at phase {:.3g} (plays {:.4g}×)", often, segment.phase,
                        film_rate * segment.every / drive.frequency);
+}
+
+// What each picture shows when it is not one moment.
+std::string span_words(const FilmSegment& segment) {
+    if (segment.average == 1) return ", mean of a period";
+    if (segment.average > 1) return fmt::format(", mean of {} periods", segment.average);
+    if (segment.exposure > 0) return fmt::format(", exposed for {:.3g} s", segment.exposure);
+    return "";
+}
+
+}  // namespace
+
+std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate) {
+    return pace_words(segment, drive, film_rate) + span_words(segment);
 }
 
 std::vector<Shot> film_schedule(const Film& film, const Clock& clock, std::int64_t steps) {
@@ -110,6 +122,32 @@ std::vector<Shot> film_schedule(const Film& film, const Clock& clock, std::int64
         start = ends[i];
     }
     return schedule.take();
+}
+
+std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock) {
+    std::vector<std::int64_t> steps;
+    if (segment.exposure <= 0) return steps;
+    // Locked pictures stay in phase: the shutter opens once a period at most.
+    const std::int64_t unit =
+        segment.kind == FilmSegment::Kind::locked ? std::max<std::int64_t>(1, clock.steps_per_period) : 1;
+    const std::int64_t span = std::llround(segment.exposure / (clock.step * static_cast<double>(unit)));
+    const std::int64_t count = std::min<std::int64_t>(segment.exposures, span);
+    for (std::int64_t k = count - 1; k > 0; --k) {
+        const double back = static_cast<double>(k) * static_cast<double>(span) / static_cast<double>(count);
+        steps.push_back(shot.step - unit * std::llround(back));
+    }
+    return steps;
+}
+
+std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock) {
+    constexpr std::int64_t a_period = 16;
+    std::vector<std::int64_t> steps;
+    const std::int64_t count = a_period * segment.average;
+    if (count == 0 || clock.steps_per_period == 0) return steps;
+    const double spacing = static_cast<double>(clock.steps_per_period) / a_period;
+    for (std::int64_t k = count; k >= 0; --k)
+        steps.push_back(shot.step - std::llround(static_cast<double>(k) * spacing));
+    return steps;
 }
 
 double poster_time(const Film& film, double duration) {

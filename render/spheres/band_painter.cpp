@@ -13,6 +13,11 @@ namespace {
 constexpr int kLongRun = 8;          // pixels: from here on a run fills a register well enough
 constexpr int kManyNeighbours = 40;  // from here on they are looked through for each few pixels
 
+// number: index + 1 of a grain, or 0 for none.
+bool paints(const PaintJob& job, std::uint32_t number) {
+    return number != 0 && (job.spheres.painted.empty() || job.spheres.painted[number - 1] != 0);
+}
+
 }  // namespace
 
 void BandPainter::paint(const PaintJob& job, int y0, int y1, Layer& layer) {
@@ -46,7 +51,7 @@ void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
             take_edge(job, x++, y);
             continue;
         }
-        const std::uint32_t number = row[x];
+        const std::uint32_t number = paints(job, row[x]) ? row[x] : 0;
         if (number && end - x >= kLongRun)
             paint_run(job, y, x, end, number - 1, out);
         else if (number)
@@ -110,6 +115,7 @@ void BandPainter::settle_edges(const PaintJob& job) {
         bool any = false;
         for (int c = 0; c < block_.candidates; ++c) {
             if (block_.candidate[c][i].radius < 0 || block_.share[c][i] <= 0) continue;
+            if (!paints(job, block_who_[c][i] + 1)) continue;
             any = true;
             parts_.push_back({block_who_[c][i], static_cast<std::uint32_t>(soft_.size()),
                               block_.x[i] + block_.mean_x[c][i], block_.y[i] + block_.mean_y[c][i],

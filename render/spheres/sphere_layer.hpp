@@ -14,11 +14,12 @@
 
 namespace grainreel {
 
-// What is drawn. One entry a grain; `poles` may be empty.
+// What is drawn. One entry a grain; `poles` and `painted` may be empty.
 struct Spheres {
     std::vector<ViewSphere> spheres;
     std::vector<std::array<float, 3>> albedo;  // linear
     std::vector<std::array<float, 3>> poles;   // unit: axes of two-tone grains, in view coordinates
+    std::vector<std::uint8_t> painted;         // 0: hides others and takes their light, but leaves no colour
 };
 
 class SphereLayer {

@@ -1,0 +1,33 @@
+// The earlier moments that a picture is exposed over, kept until it is taken.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/film/sampler.hpp"
+
+namespace grainreel {
+
+class ExposedMoments {
+  public:
+    ExposedMoments() = default;  // keeps nothing
+    // Steps before `first` are not to be had: pictures that begin there are exposed for less.
+    ExposedMoments(const std::vector<Shot>& shots, const Film& film, const Clock& clock, std::int64_t first);
+
+    // At which a frame has to be kept: strictly rising.
+    const std::vector<std::int64_t>& steps() const { return steps_; }
+    // Copies it, when it is one of those.
+    void keep(const Frame& frame);
+    // Sets Frame::exposed, and forgets what no later picture wants.
+    void fill(Frame& frame);
+
+  private:
+    std::map<std::int64_t, std::vector<std::int64_t>> wanted_;  // a picture's step: those it is exposed over
+    std::vector<std::int64_t> steps_;
+    std::map<std::int64_t, FramePtr> kept_;
+};
+
+}  // namespace grainreel
