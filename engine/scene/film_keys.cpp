@@ -156,8 +156,9 @@ void add_film(Keys& keys) {
                             "locked: \"90 deg\" or 0.25 turns; beyond one turn with a unit only."));
     keys.push_back(integer("film.segment[].average", 1, 1000, note("no mean"),
                            "Whole periods up to the picture, of which it shows the grains' mean places."));
-    keys.push_back(quantity("film.segment[].exposure", Dimension::time, positive, note("one moment"),
-                            "Time up to the picture for which the shutter is open: what moves leaves a streak."));
+    keys.push_back(
+        quantity("film.segment[].exposure", Dimension::time, positive, note("one moment"),
+                 "Time up to the picture for which the shutter is open: what moves leaves a streak."));
     keys.push_back(integer("film.segment[].exposures", 2, 1000, literal("16"),
                            "Moments in that time; locked: whole periods apart."));
     add_shows(keys);

@@ -62,13 +62,13 @@ void read_span(Document& document, const Scene& scene, const std::string& table,
     const std::string average = table + ".average", exposure = table + ".exposure";
     if (const auto periods = document.integer(average)) {
         if (!scene.drive.present)
-            document.fail(average, "counts periods of the drive, but nothing oscillates; add [drive] or leave it");
+            document.fail(average,
+                          "counts periods of the drive, but nothing oscillates; add [drive] or leave it");
         document.refuse(exposure, "a mean over periods has no shutter; keep one of the two");
         segment.average = static_cast<int>(*periods);
     }
     segment.exposure = document.quantity(exposure).value_or(segment.exposure);
-    if (segment.exposure == 0)
-        document.refuse(table + ".exposures", "they are moments of an 'exposure'");
+    if (segment.exposure == 0) document.refuse(table + ".exposures", "they are moments of an 'exposure'");
     segment.exposures = static_cast<int>(document.integer(table + ".exposures").value_or(segment.exposures));
 }
 

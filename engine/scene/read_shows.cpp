@@ -164,8 +164,9 @@ void read_shows(Document& document, Scene& scene) {
     look.ghosts = species_list(document, scene, "film.ghost");
     for (const std::size_t ghost : look.ghosts)
         if (std::find(look.hidden.begin(), look.hidden.end(), ghost) != look.hidden.end())
-            document.fail("film.ghost", fmt::format("names \"{}\", which film.hide takes away; keep one of them",
-                                                    scene.species[ghost].name));
+            document.fail("film.ghost",
+                          fmt::format("names \"{}\", which film.hide takes away; keep one of them",
+                                      scene.species[ghost].name));
     look.highlighted = ids_at(document, scene, "film.highlight");
     read_plots(document, scene);
     read_arrows(document, scene, look.arrows);

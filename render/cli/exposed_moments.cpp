@@ -27,7 +27,8 @@ void ExposedMoments::fill(Frame& frame) {
     const auto wanted = wanted_.find(frame.step);
     if (wanted != wanted_.end())
         for (const std::int64_t step : wanted->second)
-            if (const auto kept = kept_.find(step); kept != kept_.end()) frame.exposed.push_back(kept->second);
+            if (const auto kept = kept_.find(step); kept != kept_.end())
+                frame.exposed.push_back(kept->second);
     wanted_.erase(wanted_.begin(), wanted_.upper_bound(frame.step));
     // Later pictures begin later, but where a short exposure is followed by a long one.
     std::int64_t earliest = frame.step;

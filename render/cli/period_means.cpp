@@ -52,7 +52,8 @@ void PeriodMeans::fill(Frame& frame) {
     for (std::size_t k = 1; k < steps.size(); ++k) {
         const Moment* then = at(steps[k]);
         if (!then || then->position.size() != frame.size()) return;
-        for (std::size_t i = 0; i < ways.size(); ++i) ways[i] += way(now.position[i], then->position[i], depth_);
+        for (std::size_t i = 0; i < ways.size(); ++i)
+            ways[i] += way(now.position[i], then->position[i], depth_);
         wall += then->wall;
         floor += then->floor;
     }
@@ -62,8 +63,7 @@ void PeriodMeans::fill(Frame& frame) {
     const double span = static_cast<double>(frame.step - steps.front()) * step_time_;
     for (std::size_t i = 0; i < ways.size(); ++i) {
         frame.position[i] = now.position[i] + share * ways[i];
-        if (depth_ > 0)
-            frame.position[i].x() -= depth_ * std::round(frame.position[i].x() / depth_);
+        if (depth_ > 0) frame.position[i].x() -= depth_ * std::round(frame.position[i].x() / depth_);
         frame.velocity[i] = way(before->position[i], now.position[i], depth_) / span;
     }
     frame.wall_offset = share * wall;

@@ -15,9 +15,9 @@
 #include "render/cli/agenda.hpp"
 #include "render/cli/earlier_positions.hpp"
 #include "render/cli/exposed_moments.hpp"
-#include "render/cli/period_means.hpp"
 #include "render/cli/first_failure.hpp"
 #include "render/cli/pace.hpp"
+#include "render/cli/period_means.hpp"
 #include "render/cli/run_files.hpp"
 #include "render/cli/stage_times.hpp"
 

@@ -47,8 +47,8 @@ std::uint32_t pixel_of(const Row& row, int x) {
 void compose_row(const Row& row, int width) {
     int x = 0;
     for (; x + kSpan <= width; x += kSpan) {
-        const bool bare = nothing(row.grains + x) && nothing(row.before + x) &&
-                          (!row.ghosts || nothing(row.ghosts + x));
+        const bool bare =
+            nothing(row.grains + x) && nothing(row.before + x) && (!row.ghosts || nothing(row.ghosts + x));
         if (bare) {
             std::memcpy(row.out + x, row.behind + x, kSpan * sizeof *row.out);
             continue;

@@ -18,7 +18,8 @@ const std::array<std::uint32_t, 256>& linear_of_byte() {
     static const std::array<std::uint32_t, 256> table = [] {
         std::array<std::uint32_t, 256> made{};
         for (std::size_t i = 0; i < made.size(); ++i)
-            made[i] = static_cast<std::uint32_t>(std::lround(kMost * to_linear(static_cast<double>(i) / 255)));
+            made[i] =
+                static_cast<std::uint32_t>(std::lround(kMost * to_linear(static_cast<double>(i) / 255)));
         return made;
     }();
     return table;

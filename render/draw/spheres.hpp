@@ -12,8 +12,8 @@ namespace grainreel {
 
 class SpherePainter {
   public:
-    // width, height: pixels of the port. ghosts: paint those of the scene's ghost species alone, where nothing
-    // else stands before them; otherwise paint all grains that are taken.
+    // width, height: pixels of the port. ghosts: paint those of the scene's ghost species alone, where
+    // nothing else stands before them; otherwise paint all grains that are taken.
     SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts);
 
     // See Renderer.

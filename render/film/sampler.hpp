@@ -27,8 +27,9 @@ std::string playback_caption(const FilmSegment& segment, const Drive& drive, dou
 // segment is locked but the clock has no periods.
 std::vector<Shot> film_schedule(const Film& film, const Clock& clock, std::int64_t steps);
 
-// The earlier steps that the picture at `shot` is exposed over besides its own, rising; they may lie before the
-// run. In motion evenly over the exposure; locked ones lie whole periods apart. Empty without an exposure.
+// The earlier steps that the picture at `shot` is exposed over besides its own, rising; they may lie before
+// the run. In motion evenly over the exposure; locked ones lie whole periods apart. Empty without an
+// exposure.
 std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock);
 
 // The steps that the picture's mean is made of, rising: 16 a period, the last of them the shot's own, and

@@ -20,10 +20,10 @@ TEST(EarlierPositions, AreWantedOnePeriodBeforeEachPicture) {
     const EarlierPositions earlier({{0, 0}, {7, 0}, {12, 0}, {12, 1}, {30, 1}}, 10, 2, 0);
     EXPECT_THAT(earlier.steps(), testing::ElementsAre(2, 20));
     Agenda agenda({{12, 0}}, 0, 0, 2, 12, earlier.steps());
-    EXPECT_TRUE(agenda.next()->positions);  // step 2
+    EXPECT_TRUE(agenda.next()->moment);  // step 2
     const std::optional<Stop> picture = agenda.next();
     EXPECT_EQ(picture->step, 12);
-    EXPECT_FALSE(picture->positions);
+    EXPECT_FALSE(picture->moment);
 }
 
 TEST(EarlierPositions, GiveTheWayOfAPeriod) {

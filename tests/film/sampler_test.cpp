@@ -188,5 +188,33 @@ TEST(StrobeWarnings, AreSilentFromEightFramesAPeriodAndWithoutADrive) {
     EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), Drive{}), IsEmpty());
 }
 
+TEST(ExposedSteps, AreEvenInMotionAndWholePeriodsApartWhenLocked) {
+    const Clock clock = clock_of(10, 1000);
+    FilmSegment rule = motion({}, 0.1);
+    EXPECT_THAT(exposed_steps({5000, 0}, rule, clock), IsEmpty());
+    rule.exposure = 0.05;  // half a period, 500 steps
+    rule.exposures = 5;
+    EXPECT_THAT(exposed_steps({5000, 0}, rule, clock), ElementsAre(4600, 4700, 4800, 4900));
+    FilmSegment still = locked({}, 1, 0.25);
+    still.exposure = 0.6;  // six periods
+    still.exposures = 4;   // 4.5 and 1.5 periods back are rounded away from the picture
+    EXPECT_THAT(exposed_steps({10250, 0}, still, clock), ElementsAre(5250, 7250, 8250));
+    still.exposures = 100;
+    EXPECT_THAT(exposed_steps({10250, 0}, still, clock), ElementsAre(5250, 6250, 7250, 8250, 9250));
+    EXPECT_THAT(playback_caption(still, drive_of(10), 30), HasSubstr(", exposed for 0.6 s"));
+}
+
+TEST(AveragedSteps, DivideWholePeriodsEvenly) {
+    const Clock clock = clock_of(10, 1000);
+    FilmSegment rule = locked({}, 1, 0);
+    EXPECT_THAT(averaged_steps({5000, 0}, rule, clock), IsEmpty());
+    rule.average = 2;
+    const std::vector<std::int64_t> steps = averaged_steps({5000, 0}, rule, clock);
+    ASSERT_THAT(steps, SizeIs(33));
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        EXPECT_NEAR(static_cast<double>(steps[k]), 3000 + 62.5 * static_cast<double>(k), 0.51);
+    EXPECT_THAT(playback_caption(rule, drive_of(10), 30), HasSubstr(", mean of 2 periods"));
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -44,7 +44,7 @@ TEST(Keys, DocsTellWhatTheReaderKnows) {
 // Writing a documented default into a scene changes nothing.
 TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string locked = wedge_text + "[[film.segment]]\nkind = \"locked\"\n";
-    const std::string motion = wedge_text + "[[film.segment]]\nduration = 2\n";
+    const std::string motion = wedge_text + "[[film.segment]]\nduration = 2\nexposure = 0.01\n";
     std::string box = box_text;
     for (const char* line :
          {"gravity = 0\n", "normal_damping = 2634\n", "friction = 0.5\n", "duration = 0.1\n"})

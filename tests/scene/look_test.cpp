@@ -56,6 +56,11 @@ TEST(Look, MistakesAreSaid) {
     expect_complaint({"film.colour.by=coordination", "film.colour.unit=m"}, "pure number");
     expect_complaint({"film.hide=[\"large\"]"}, "\"large\", which is not there; there is \"small\", \"big\"");
     expect_complaint({"film.hide=\"big\""}, "must be a list of names");
+    expect_complaint({"film.ghost=[\"big\"]", "film.hide=[\"small\", \"big\"]"},
+                     "'ghost' names \"big\", which film.hide takes away; keep one of them");
+    expect_complaint({"film.segment=[{exposures=4}]"}, "they are moments of an 'exposure'");
+    expect_complaint({"film.segment=[{average=2, exposure=\"1 s\"}]"}, "a mean over periods has no shutter");
+    expect_complaint({"film.segment=[{average=0}]"}, "from 1 to 1000");
     expect_complaint({"film.highlight=[110]"}, "ids run from 0 to 109");
     expect_complaint({"film.highlight=[-1]"}, "whole numbers");
 }

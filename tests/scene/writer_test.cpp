@@ -100,6 +100,18 @@ TEST(Writer, WhatTheFilmShowsReadsBackBitByBit) {
         read_text(wedge_text, {"film.arrows.grid=5", "film.arrows.of=now", "film.arrows.speed=1 cm/s"}));
 }
 
+TEST(Writer, GhostsAndSpansReadBackBitByBit) {
+    expect_round_trip(read_text(
+        wedge_text, {"film.ghost=[\"big\"]",
+                     "film.segment=[{kind=\"locked\", average=3, duration=0.5}, {exposure=\"33.3 ms\"}]"}));
+    const Scene scene = read_text(
+        wedge_text, {"film.segment=[{kind=\"locked\", average=3, duration=0.5}, {exposure=\"40 ms\", "
+                     "exposures=7}]"});
+    EXPECT_EQ(scene.film.segments[0].average, 3);
+    EXPECT_EQ(scene.film.segments[1].exposure, 0.04);
+    EXPECT_EQ(scene.film.segments[1].exposures, 7);
+}
+
 TEST(Writer, ShippedScenesReadBackBitByBit) {
     for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
