@@ -7,6 +7,8 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +20,8 @@
 #include "engine/bench/settled_bed.hpp"
 #include "engine/scene/words.hpp"
 #include "render/cli/share_watcher.hpp"
+#include "render/draw/container_drawing.hpp"
+#include "render/draw/layout.hpp"
 #include "render/draw/renderer.hpp"
 #include "render/film/encoder.hpp"
 #include "render/film/png.hpp"
@@ -37,7 +41,7 @@ Species species(const char* name, double diameter, const Colour& colour) {
     return s;
 }
 
-// A box as high as the bed, so that the grains fill the picture's height.
+// A box as high as the bed.
 Scene scene_of(const SettledBed& bed, const BenchRenderRequest& request) {
     Scene scene;
     scene.name = "bench";
@@ -70,6 +74,22 @@ Frame frame_of(const SettledBed& bed) {
     return frame;
 }
 
+// Closer, until the grains fill the height of their part of the picture, or its width; then by the zoom asked
+// for.
+void fill_picture(Scene& scene, const Frame& frame) {
+    const double zoom = std::exchange(scene.film.camera.zoom, 1.0);
+    const View view = frame_container(scene, plan_layout(scene));
+    double widest = 1, highest = 1;  // pixels from the middle
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const Vec3 at = view.to_view(frame.position[i]);
+        const double scale = view.focal / (view.orthographic ? 1 : at.z());
+        widest = std::max(widest, (std::abs(at.x()) + frame.radius[i]) * scale);
+        highest = std::max(highest, (std::abs(at.y()) + frame.radius[i]) * scale);
+    }
+    scene.film.camera.zoom =
+        zoom * std::min(0.5 * view.port.height / highest, 0.5 * view.port.width / widest);
+}
+
 double milliseconds() {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -80,18 +100,18 @@ double median(std::vector<double> values) {
     return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-struct Stage {
+struct DrawStage {
     const char* name;
     double DrawTimes::*time;
 };
-constexpr std::array<Stage, 8> kStages = {{{"upload", &DrawTimes::upload},
-                                           {"spheres", &DrawTimes::spheres},
-                                           {"shading", &DrawTimes::shading},
-                                           {"occlusion", &DrawTimes::occlusion},
-                                           {"shadow", &DrawTimes::shadow},
-                                           {"walls", &DrawTimes::walls},
-                                           {"overlay", &DrawTimes::overlay},
-                                           {"readback", &DrawTimes::readback}}};
+constexpr std::array<DrawStage, 8> kStages = {{{"upload", &DrawTimes::upload},
+                                               {"spheres", &DrawTimes::spheres},
+                                               {"shading", &DrawTimes::shading},
+                                               {"occlusion", &DrawTimes::occlusion},
+                                               {"shadow", &DrawTimes::shadow},
+                                               {"walls", &DrawTimes::walls},
+                                               {"overlay", &DrawTimes::overlay},
+                                               {"readback", &DrawTimes::readback}}};
 
 // The share of the picture that shows grains: where it differs from one without them.
 double coverage(Renderer& renderer, const Frame& frame) {
@@ -102,6 +122,55 @@ double coverage(Renderer& renderer, const Frame& frame) {
         covered += !std::equal(&full.rgba[i], &full.rgba[i] + 3, &bare.rgba[i]);
     return static_cast<double>(covered) / (static_cast<double>(full.width) * full.height);
 }
+
+// Medians of the stages, as they are drawn: what shadows and occlusion cost is what a picture costs less
+// without them, since both are part of a grain's light.
+class StageTimes {
+  public:
+    StageTimes(const Scene& scene, int threads) {
+        Scene less = scene;
+        add(less, threads);
+        less.film.look.shadows = false;
+        add(less, threads);
+        less.film.look.occlusion = false;
+        add(less, threads);
+    }
+    Renderer& full() { return *renderers_.front().renderer; }
+
+    void measure(const Frame& frame) {
+        for (Variant& variant : renderers_) {
+            const DrawTimes times = variant.renderer->draw_timed(frame, "");
+            for (std::size_t s = 0; s < kStages.size(); ++s)
+                variant.times[s].push_back(times.*kStages[s].time);
+        }
+    }
+    DrawTimes medians() const {
+        const DrawTimes all = of(0), unshadowed = of(1), plain = of(2);
+        const auto light = [](const DrawTimes& t) { return t.occlusion + t.shading; };
+        DrawTimes times = all;
+        times.shading = light(plain);
+        times.occlusion = std::max(0.0, light(unshadowed) - light(plain));
+        times.shadow += std::max(0.0, light(all) - light(unshadowed));
+        return times;
+    }
+
+  private:
+    struct Variant {
+        std::unique_ptr<Renderer> renderer;
+        std::array<std::vector<double>, kStages.size()> times;
+    };
+    void add(const Scene& scene, int threads) {
+        renderers_.push_back({std::make_unique<Renderer>(scene, threads), {}});
+    }
+    DrawTimes of(std::size_t variant) const {
+        DrawTimes times;
+        for (std::size_t s = 0; s < kStages.size(); ++s)
+            times.*kStages[s].time = median(renderers_[variant].times[s]);
+        return times;
+    }
+
+    std::vector<Variant> renderers_;
+};
 
 double encode_time(const Picture& picture, const Film& film, int threads) {
     const std::filesystem::path path =
@@ -161,19 +230,19 @@ int bench_render(const Options& options, Reporter& reporter) {
         reporter.info("stopped; nothing was measured to its end");
         return kSignalBase + stop_signal();
     }
-    const Scene scene = scene_of(bed, request);
+    Scene scene = scene_of(bed, request);
     const Frame frame = frame_of(bed);
-    Renderer renderer(scene, threads);
+    fill_picture(scene, frame);
+    StageTimes stages(scene, threads);
+    Renderer& renderer = stages.full();
     const double covered = coverage(renderer, frame);
     std::vector<double> totals;
-    std::array<std::vector<double>, kStages.size()> stages;
     for (int r = 0; r < options.bench_request.repeats; ++r) {
         if (!watcher("drawing", 0.5 + 0.5 * r / options.bench_request.repeats)) break;
         const double begin = milliseconds();
         renderer.draw(frame, "");
         totals.push_back(milliseconds() - begin);
-        const DrawTimes times = renderer.draw_timed(frame, "");
-        for (std::size_t s = 0; s < kStages.size(); ++s) stages[s].push_back(times.*kStages[s].time);
+        stages.measure(frame);
     }
     reporter.clear();
     if (totals.empty()) return kSignalBase + stop_signal();
@@ -181,7 +250,8 @@ int bench_render(const Options& options, Reporter& reporter) {
     if (options.out) keep(*options.out, picture, frame, renderer.view());
     using Json = nlohmann::ordered_json;
     Json ms = {{"total", median(totals)}};
-    for (std::size_t s = 0; s < kStages.size(); ++s) ms[kStages[s].name] = median(stages[s]);
+    const DrawTimes medians = stages.medians();
+    for (const DrawStage& stage : kStages) ms[stage.name] = medians.*stage.time;
     ms["encode"] = encode_time(picture, scene.film, threads);
     const Json all = {{"grains", bed.grains.size()},
                       {"width", scene.film.width},

@@ -345,6 +345,10 @@ void add_bench(CLI::App& app, Options& options) {
     verb.add_flag_callback(
         "--orthographic", [&options] { options.bench_render.film.camera.field_of_view = 0; },
         "render: with an orthographic camera");
+    verb.add_option("--zoom", options.bench_render.film.camera.zoom,
+                    "render: closer than where the grains fill the picture's height or width [1]")
+        ->type_name("Z")
+        ->check(CLI::Range(0.01, 100.0));
     verb.add_flag("--quick", options.bench_request.quick, "A tenth of the steps");
     verb.add_flag("--json", options.json, "One JSON object in place of a table");
     add_reporting(verb, options);

@@ -176,7 +176,9 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     const Frame& opaque = ghost_painter ? solid.of(all) : all;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
     marks.draw(eye, marked ? *marked : all, shapes.before);
+    watch.lap(&DrawTimes::walls);
     if (ground) ground->update(opaque, eye);
+    watch.lap(&DrawTimes::shadow);
     behind.draw(shape_painter, shapes.behind, ground ? [&] { ground->paint(eye); } : std::function<void()>());
     before.draw(shape_painter, shapes.before, {});
     watch.lap(&DrawTimes::walls);

@@ -19,11 +19,14 @@ Scene straight_on() {
 }
 
 // Two layers: species 0 nearer to the camera, which looks along -x, species 1 behind and beside it.
-const std::vector<Ball> kBalls{{{0.02, 0.00, 0.08}, 0.010, 0},  {{0.02, 0.018, 0.085}, 0.008, 0},
-                               {{0.00, -0.01, 0.08}, 0.010, 1}, {{-0.01, 0.012, 0.09}, 0.009, 1},
+const std::vector<Ball> kBalls{{{0.02, 0.00, 0.08}, 0.010, 0},
+                               {{0.02, 0.018, 0.085}, 0.008, 0},
+                               {{0.00, -0.01, 0.08}, 0.010, 1},
+                               {{-0.01, 0.012, 0.09}, 0.009, 1},
                                {{0.025, -0.03, 0.08}, 0.008, 1}};
 
-// Index of the ball nearest to the camera on the pixel's line of sight, -1 for none, -2 too close to an outline.
+// Index of the ball nearest to the camera on the pixel's line of sight, -1 for none, -2 too close to an
+// outline.
 int ball_at(const View& view, double x, double y) {
     int nearest = -1;
     for (int i = 0; i < static_cast<int>(kBalls.size()); ++i) {
@@ -130,7 +133,8 @@ TEST(Exposure, ShowsEachMomentsGrainsAndTheLastOnesMarks) {
         const auto [qx, qy] = whole(view, 0.02);
         const std::uint8_t* grain = here.pixel(qx, qy);
         for (int c = 0; c < 3; ++c) {
-            const double third = to_srgb((to_linear(grain[c] / 255.0) + 2 * to_linear(empty.pixel(px, py)[c] / 255.0)) / 3);
+            const double third =
+                to_srgb((to_linear(grain[c] / 255.0) + 2 * to_linear(empty.pixel(px, py)[c] / 255.0)) / 3);
             EXPECT_NEAR(streak.pixel(px, py)[c], 255 * third, 3);
         }
     }
