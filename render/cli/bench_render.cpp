@@ -18,7 +18,6 @@
 #include "engine/base/text_file.hpp"
 #include "engine/bench/peers_bed.hpp"
 #include "engine/bench/settled_bed.hpp"
-#include "engine/scene/words.hpp"
 #include "render/cli/share_watcher.hpp"
 #include "render/draw/container_drawing.hpp"
 #include "render/draw/layout.hpp"
@@ -256,7 +255,7 @@ int bench_render(const Options& options, Reporter& reporter) {
     const Json all = {{"grains", bed.grains.size()},
                       {"width", scene.film.width},
                       {"height", scene.film.height},
-                      {"style", word_of(request.film.look.style, style_words)},
+                      {"style", request.style},
                       {"gl", renderer.gl_description()},
                       {"threads", threads},
                       {"coverage", covered},

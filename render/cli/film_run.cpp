@@ -95,6 +95,7 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     film.to_stdout = options_.to_stdout;
     film.raster_threads = threads_.raster;
     film.encoder_threads = threads_.encoder;
+    film.take_turns = threads_.take_turns;
     film.gl = options_.gl;
     film.pictures = pictures_planned_;
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))

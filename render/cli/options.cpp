@@ -287,7 +287,9 @@ void read_bench_size(const std::string& size, Film& film) {
             fmt::format("--size {}: must be width x height, each from 64 to 8192, as in 1920x1080", size));
 }
 
-void set_bench_style(const std::string& style, Film& film) {
+void set_bench_style(const std::string& style, BenchRenderRequest& request) {
+    request.style = style;
+    Film& film = request.film;
     const bool bare = style == "plain" || style == "flat";
     film.look.occlusion = film.look.shadows = film.look.ground = !bare;
     film.look.style = style == "flat"   ? FilmLook::Style::flat
@@ -338,7 +340,7 @@ void add_bench(CLI::App& app, Options& options) {
         ->type_name("DIR");
     verb.add_option_function<std::string>(
             "--style",
-            [&options](const std::string& style) { set_bench_style(style, options.bench_render.film); },
+            [&options](const std::string& style) { set_bench_style(style, options.bench_render); },
             "render: studio, flat, dark or plain (lit spheres alone) [studio]")
         ->check(CLI::IsMember({"studio", "flat", "dark", "plain"}))
         ->type_name("WHICH");

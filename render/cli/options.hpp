@@ -15,7 +15,8 @@ namespace grainreel {
 
 struct BenchRenderRequest {
     int grains = 10125;
-    Film film;
+    std::string style = "studio";  // a film's style, or "plain"
+    Film film;                     // as that style has it
 };
 
 // What `render` is to draw of a finished run. Times in s, of the run; whole numbers of frames.

@@ -9,10 +9,11 @@ constexpr std::int64_t grains_a_thread = 500;  // fewer, and the barriers cost m
 ThreadPlan plan_threads(int processors, bool film, std::int64_t grains) {
     const int useful = static_cast<int>(std::clamp<std::int64_t>(grains / grains_a_thread, 1, processors));
     if (!film) return {useful, 1, 1};
-    // On one or two processors the engine keeps its threads and the film's take turns with them; beyond, the
-    // film gets processors of its own.
+    // On one or two processors the engine and the film take turns with all of them; beyond, the film gets
+    // processors of its own.
+    if (processors <= 2) return {std::min(useful, processors), 1, 1, true};
     const int share = std::max(1, processors / 6);
-    return {std::min(useful, processors <= 2 ? processors : processors - processors / 3), share, share};
+    return {std::min(useful, processors - processors / 3), share, share};
 }
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 // Hands items from one thread to the next, in order, never more than `capacity` at a time.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -13,13 +14,17 @@ namespace grainreel {
 template <class Item>
 class BoundedQueue {
   public:
-    explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
+    // patience: 0, and both sides work at the same time. Otherwise they take turns, which is faster where they
+    // share processors: items come out once the queue is full, or no more has come for so long, and then go in
+    // once it is empty.
+    explicit BoundedQueue(std::size_t capacity, std::chrono::milliseconds patience = {})
+        : capacity_(capacity), patience_(patience) {}
 
     // Waits for a place. False, and the item is gone, when the queue is closed.
     bool push(Item item) {
         {
             std::unique_lock lock(mutex_);
-            place_.wait(lock, [&] { return closed_ || items_.size() < capacity_; });
+            place_.wait(lock, [&] { return closed_ || (items_.size() < capacity_ && !emptying_); });
             if (closed_) return false;
             items_.push_back(std::move(item));
         }
@@ -32,10 +37,11 @@ class BoundedQueue {
         std::optional<Item> item;
         {
             std::unique_lock lock(mutex_);
-            item_.wait(lock, [&] { return closed_ || !items_.empty(); });
+            wait_for_items(lock);
             if (items_.empty()) return item;
             item = std::move(items_.front());
             items_.pop_front();
+            emptying_ = patience_.count() > 0 && !items_.empty();
         }
         place_.notify_one();
         return item;
@@ -63,11 +69,22 @@ class BoundedQueue {
     }
 
   private:
+    void wait_for_items(std::unique_lock<std::mutex>& lock) {
+        if (emptying_) return;
+        std::size_t there = 0;
+        do {  // each new item renews the patience
+            item_.wait(lock, [&] { return closed_ || items_.size() > there; });
+            there = items_.size();
+        } while (patience_.count() > 0 && !closed_ && there < capacity_ &&
+                 item_.wait_for(lock, patience_, [&] { return closed_ || items_.size() > there; }));
+    }
+
     const std::size_t capacity_;
+    const std::chrono::milliseconds patience_;
     std::mutex mutex_;
     std::condition_variable place_, item_;
     std::deque<Item> items_;
-    bool closed_ = false;
+    bool closed_ = false, emptying_ = false;
 };
 
 }  // namespace grainreel

@@ -1,5 +1,6 @@
 #include "render/film/film_maker.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
@@ -21,6 +22,17 @@ double seconds_since(Watch::time_point start) {
 
 // Deep enough that an uneven engine or encoder rarely makes the others wait; a picture is 8 MB at 1080p.
 constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
+
+// Where engine and film take turns: as many frames as 64 MB hold, since each turn begins and ends with a stage
+// that has nothing to do; and a patience that an engine which needs longer for a frame does not try.
+constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn = 32;
+constexpr std::chrono::milliseconds turn_patience(250);
+
+std::size_t frames_that_wait(const Scene& scene, const FilmOptions& options) {
+    if (!options.take_turns) return waiting_frames;
+    const std::int64_t fit = turn_bytes / (bytes_a_grain * std::max<std::int64_t>(1, scene.grains()));
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(fit, waiting_frames, longest_turn));
+}
 // Those in the queue, the one being drawn, the one being encoded, and the last one, kept for the poster.
 constexpr std::size_t pictures_in_all = waiting_pictures + 3;
 
@@ -33,7 +45,10 @@ struct Order {
 
 struct FilmMaker::Impl {
     Impl(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer)
-        : files(scene, options), make(std::move(make_drawer)) {
+        : files(scene, options),
+          make(std::move(make_drawer)),
+          frames(frames_that_wait(scene, options),
+                 options.take_turns ? turn_patience : std::chrono::milliseconds(0)) {
         for (std::size_t i = 0; i < pictures_in_all; ++i) spare.push(Picture());
         drawing = std::thread([this] { guarded(&Impl::draw_all); });
         encoding = std::thread([this] { guarded(&Impl::encode_all); });
@@ -116,7 +131,7 @@ struct FilmMaker::Impl {
 
     PictureFiles files;  // the encoding thread's, once that runs
     DrawerMaker make;
-    BoundedQueue<Order> frames{waiting_frames};
+    BoundedQueue<Order> frames;
     BoundedQueue<DrawnFrame> pictures{waiting_pictures};
     BoundedQueue<Picture> spare{pictures_in_all};
     std::atomic<bool> complete = false;  // finish() was called: the film is to be closed, not abandoned

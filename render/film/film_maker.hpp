@@ -24,6 +24,7 @@ struct FilmOptions {
     bool to_stdout = false;        // the film goes to stdout in place of the folder: y4m only
     int raster_threads = 1;
     int encoder_threads = 1;
+    bool take_turns = false;  // with who calls take(), which then waits while queued pictures are made
     gl::Provider gl = gl::Provider::automatic;
     std::int64_t pictures = 0;  // planned; what an orbit that lasts all the film needs to know
 };

@@ -8,7 +8,7 @@ grainreel=$1 out=$2 rounds=${3:-3}
 shift $(($# < 3 ? $# : 3))
 mkdir -p "$out"
 
-"$grainreel" bench render --orthographic --json --repeat 5 --out "$out/ours" "$@" >"$out/ours.json"
+"$grainreel" bench render --quiet --orthographic --json --repeat 5 --out "$out/ours" "$@" >"$out/ours.json"
 read -r focal cx cy width height kx ky kz < <(tr -d '[:space:]{}"' <"$out/ours/camera.json" | sed 's/\[//g; s/\]//g; s/[a-z_]*://g' |
     tr , ' ' | awk '{print $2, $3, $4, $5, $6, $7, $8, $9}')
 
@@ -21,10 +21,11 @@ NR == 1 {
     printf "global_settings { assumed_gamma 1 }\nbackground { rgb 1 }\n" > pov
     printf "camera { orthographic location <%g,%g,-1> direction <0,0,1> right <%g,0,0> up <0,%g,0> }\n", mx, my, x1 - x0, y1 - y0 > pov
     printf "light_source { <%g,%g,%g> rgb 0.78 parallel point_at <0,0,0> }\n", 10 * kx, 10 * ky, 10 * kz > pov
-    printf "#default { finish { ambient 0 emission 0.45 diffuse 0.78 specular 0.12 } }\n" > pov
+    printf "light_source { <0,2,-10> rgb 0.3 parallel point_at <0,0,0> shadowless }\n" > pov
+    printf "#default { finish { ambient 0 emission 0.2 diffuse 0.8 specular 0.12 } }\n" > pov
     printf "BEGIN_SCENE\nRESOLUTION %d %d\nSHADER_MODE FULL\n", w, h > tac
-    printf "  AMBIENT_OCCLUSION\n    AMBIENT_COLOR 1 1 1\n    RESCALE_DIRECT 0.6\n    SAMPLES 12\n  END_AMBIENT_OCCLUSION\nEND_SHADER_MODE\n" > tac
-    printf "CAMERA\n  PROJECTION ORTHOGRAPHIC\n  ZOOM %g\n  ASPECTRATIO 1\n  ANTIALIASING 3\n  RAYDEPTH 4\n  CENTER %g %g -1\n  VIEWDIR 0 0 1\n  UPDIR 0 1 0\nEND_CAMERA\n", 2 / (y1 - y0), mx, my > tac
+    printf "  AMBIENT_OCCLUSION\n    AMBIENT_COLOR 1 1 1\n    RESCALE_DIRECT 0.6\n    SAMPLES 12\nEND_SHADER_MODE\n" > tac
+    printf "CAMERA\n  PROJECTION ORTHOGRAPHIC\n  ZOOM %g\n  ASPECTRATIO 1\n  ANTIALIASING 3\n  RAYDEPTH 4\n  CENTER %g %g -1\n  VIEWDIR 0 0 1\n  UPDIR 0 1 0\nEND_CAMERA\n", 1 / (y1 - y0), mx, my > tac
     printf "BACKGROUND 1 1 1\nDIRECTIONAL_LIGHT DIRECTION %g %g %g COLOR 0.8 0.8 0.8\n", -kx, -ky, -kz > tac
     split("0.337 0.706 0.914", small, " "); split("0.902 0.624 0.0", big, " ")
     for (c = 1; c <= 3; ++c) { lin[0, c] = small[c] ^ 2.2; lin[1, c] = big[c] ^ 2.2; srgb[0, c] = small[c]; srgb[1, c] = big[c] }
@@ -53,7 +54,7 @@ read_data $out/bed.data
 pair_style none
 neighbor 0 bin
 comm_modify cutoff 0.001
-dump pic all image 1 $out/lammps.*.ppm type diameter size $width $height view 0 0 up 0 1 0 zoom 1.0 box no 0 &
+dump pic all image 1 $out/lammps.*.ppm type diameter size $width $height view 0 0 up 0 1 0 zoom 2.0 box no 0 &
     ssao yes 4539 0.7 shiny 0.3
 dump_modify pic color small 0.337 0.706 0.914 color big 0.902 0.624 0.0 acolor 1 small acolor 2 big backcolor white
 run 0
@@ -72,7 +73,7 @@ timed() { # name, command...: appends seconds to OUT/name.s
 }
 rm -f "$out"/*.s
 for ((round = 0; round < rounds; ++round)); do
-    "$grainreel" bench render --orthographic --json --repeat 5 "$@" |
+    "$grainreel" bench render --quiet --orthographic --json --repeat 5 "$@" |
         awk '/"total"/ { gsub(/[^0-9.]/, ""); print $0 / 1000 }' >>"$out/grainreel.s"
     if command -v lmp >/dev/null; then timed lammps lmp -in "$out/bed.lammps" -log none; else echo "lmp is not installed: LAMMPS left out"; fi
     if command -v povray >/dev/null; then
@@ -87,3 +88,22 @@ echo "seconds a frame, of $rounds (whole processes but for grainreel, which sett
 for file in "$out"/*.s; do
     sort -g "$file" | awk -v name="$(basename "$file" .s)" '{ v[NR] = $1 } END { printf "%-10s median %.3f  (%.3f to %.3f)\n", name, v[int((NR + 1) / 2)], v[1], v[NR] }'
 done
+
+# Half as large, cut to the grains, side by side.
+command -v convert >/dev/null || { echo "imagemagick is not installed: no picture of all"; exit 0; }
+panels=()
+panel() { # name, file
+    [[ -s $2 && -s $out/$1.s ]] || return 0
+    local seconds width=$((height * 13 / 20)) from
+    seconds=$(sort -g "$out/$1.s" | awk '{ v[NR] = $1 } END { printf v[int((NR + 1) / 2)] < 0.1 ? "%.3f s" : "%.1f s", v[int((NR + 1) / 2)] }')
+    from=$(awk -v x="$cx" -v w="$width" 'BEGIN { printf "%d", x - w / 2 }')
+    convert "$2" -crop "${width}x$height+$from+0" +repage -resize 50% -gravity south -background white -splice 0x34 \
+        -font DejaVu-Sans -pointsize 20 -annotate +0+6 "$1, $seconds" "$out/panel-$1.png"
+    panels+=("$out/panel-$1.png")
+}
+panel grainreel "$out/ours/picture.png"
+panel lammps "$out/lammps.0.ppm"
+panel povray "$out/povray.png"
+panel tachyon "$out/tachyon.tga"
+convert "${panels[@]}" +append "$out/renderers.png"
+echo "wrote $out/renderers.png"

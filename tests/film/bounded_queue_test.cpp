@@ -54,5 +54,42 @@ TEST(BoundedQueue, CancelThrowsAwayWhatIsInsideAndWakesBothSides) {
     EXPECT_EQ(full.pop(), std::nullopt);
 }
 
+// Items come out in turns: each turn begins with a full queue, and nothing goes in until it is empty.
+TEST(BoundedQueue, TakesTurns) {
+    constexpr int count = 1000, capacity = 4;
+    BoundedQueue<int> queue(capacity, std::chrono::hours(1));
+    std::atomic<int> in = 0;
+    std::thread producer([&] {
+        for (int i = 0; i < count; ++i) {
+            ASSERT_TRUE(queue.push(i));
+            ++in;
+        }
+        queue.close();
+    });
+    for (int out = 0; out < count; ++out) {
+        ASSERT_EQ(queue.pop(), out);
+        // Within a turn all that ever went in are those of this turn.
+        if (out % capacity < capacity - 1) {
+            ASSERT_LE(in, out / capacity * capacity + capacity);
+        }
+    }
+    producer.join();
+    EXPECT_EQ(queue.pop(), std::nullopt);
+}
+
+TEST(BoundedQueue, ATurnDoesNotWaitForeverForAFullQueue) {
+    BoundedQueue<int> queue(100, std::chrono::milliseconds(1));
+    queue.push(1);
+    queue.push(2);
+    EXPECT_EQ(queue.pop(), 1);
+    EXPECT_EQ(queue.pop(), 2);
+    queue.push(3);
+    EXPECT_EQ(queue.pop(), 3);
+    queue.push(4);
+    queue.close();
+    EXPECT_EQ(queue.pop(), 4);
+    EXPECT_EQ(queue.pop(), std::nullopt);
+}
+
 }  // namespace
 }  // namespace grainreel
