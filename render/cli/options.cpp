@@ -339,8 +339,7 @@ void add_bench(CLI::App& app, Options& options) {
             "render: keep the picture, and the grains and camera for other renderers, in this folder")
         ->type_name("DIR");
     verb.add_option_function<std::string>(
-            "--style",
-            [&options](const std::string& style) { set_bench_style(style, options.bench_render); },
+            "--style", [&options](const std::string& style) { set_bench_style(style, options.bench_render); },
             "render: studio, flat, dark or plain (lit spheres alone) [studio]")
         ->check(CLI::IsMember({"studio", "flat", "dark", "plain"}))
         ->type_name("WHICH");

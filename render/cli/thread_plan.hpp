@@ -7,8 +7,8 @@ namespace grainreel {
 
 struct ThreadPlan {
     int engine = 1;
-    int raster = 1;   // of the software rasteriser, beside the drawing thread
-    int encoder = 1;  // of x264
+    int raster = 1;           // of the software rasteriser, beside the drawing thread
+    int encoder = 1;          // of x264
     bool take_turns = false;  // the engine rests while pictures are made: there are no processors for both
 };
 

@@ -14,9 +14,9 @@ namespace grainreel {
 template <class Item>
 class BoundedQueue {
   public:
-    // patience: 0, and both sides work at the same time. Otherwise they take turns, which is faster where they
-    // share processors: items come out once the queue is full, or no more has come for so long, and then go in
-    // once it is empty.
+    // patience: 0, and both sides work at the same time. Otherwise they take turns, which is faster where
+    // they share processors: items come out once the queue is full, or no more has come for so long, and then
+    // go in once it is empty.
     explicit BoundedQueue(std::size_t capacity, std::chrono::milliseconds patience = {})
         : capacity_(capacity), patience_(patience) {}
 

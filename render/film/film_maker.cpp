@@ -23,8 +23,8 @@ double seconds_since(Watch::time_point start) {
 // Deep enough that an uneven engine or encoder rarely makes the others wait; a picture is 8 MB at 1080p.
 constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
 
-// Where engine and film take turns: as many frames as 64 MB hold, since each turn begins and ends with a stage
-// that has nothing to do; and a patience that an engine which needs longer for a frame does not try.
+// Where engine and film take turns: as many frames as 64 MB hold, since each turn begins and ends with a
+// stage that has nothing to do; and a patience that an engine which needs longer for a frame does not try.
 constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn = 32;
 constexpr std::chrono::milliseconds turn_patience(250);
 

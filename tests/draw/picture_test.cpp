@@ -45,6 +45,40 @@ TEST(Pictures, TheSameFrameTwiceIsTheSamePicture) {
     EXPECT_EQ(renderer.draw(frame, "slow motion 1/10").rgba, first.rgba);
 }
 
+TEST(Pictures, AStillSceneIsThirtyTimesTheSamePicture) {
+    Scene scene = wedge();
+    scene.film.look.ground = true;
+    Renderer renderer(scene, 2);
+    Frame frame = scattered(800);
+    const Picture first = renderer.draw(frame, "");
+    for (int again = 0; again < 30; ++again) ASSERT_EQ(renderer.draw(frame, "").rgba, first.rgba) << again;
+}
+
+// Laid over a colour, a transparent picture is the one drawn on that colour.
+TEST(Pictures, TransparentOnesHaveTheRightAlphaAlongEveryEdge) {
+    Scene scene = wedge();
+    scene.container.shape = Container::Shape::none;
+    const Frame frame = scattered(300);
+    const PictureLayout layout = bare_layout(scene.film);
+    scene.film.transparent = true;
+    const Picture clear = Renderer(scene, layout, 1, gl::Provider::automatic).draw(frame, "");
+    scene.film.transparent = false;
+    int soft = 0;
+    for (const Colour& background : {Colour{1, 1, 1}, Colour{0, 0, 0}, Colour{0.8, 0.2, 0.4}}) {
+        scene.film.background = background;
+        const Picture drawn = Renderer(scene, layout, 1, gl::Provider::automatic).draw(frame, "");
+        for (std::size_t i = 0; i < drawn.rgba.size(); i += 4) {
+            const double alpha = clear.rgba[i + 3] / 255.0;
+            soft += alpha > 0.1 && alpha < 0.9;
+            const double below[3] = {background.red, background.green, background.blue};
+            for (std::size_t c = 0; c < 3; ++c)
+                ASSERT_NEAR(drawn.rgba[i + c], alpha * clear.rgba[i + c] + (1 - alpha) * 255 * below[c], 2)
+                    << i / 4;
+        }
+    }
+    EXPECT_GT(soft, 500);
+}
+
 // Mesa reads its number of threads once a process, so each number gets a process of its own: this test, run
 // again with a file to write the picture to.
 TEST(Pictures, RasterThreadsDoNotChangeThem) {
