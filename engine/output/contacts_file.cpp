@@ -2,6 +2,8 @@
 
 #include <netcdf.h>
 
+#include <algorithm>
+
 #include "engine/output/netcdf_file.hpp"
 
 namespace grainreel {
@@ -57,6 +59,40 @@ void ContactsWriter::write(std::int64_t frame, const std::vector<Simulation::Con
     impl_->put_column<float>(impl_->point, 3, n, [&](std::size_t i, int k) { return c[i].point[k]; });
     impl_->rows += n;
     impl_->file.sync(impl_->rows);
+}
+
+struct ContactsReader::Impl {
+    explicit Impl(const std::filesystem::path& path) : file(NetcdfFile::open(path)) {
+        first = file.find_variable("first");
+        second = file.find_variable("second");
+        normal = file.find_variable("normal");
+        const std::size_t rows = file.whole_records(file.length("row"));
+        frame_of.resize(rows);
+        if (rows > 0) file.get(file.find_variable("frame"), {0}, {rows}, frame_of.data());
+    }
+
+    NetcdfFile file;
+    int first = -1, second = -1, normal = -1;
+    std::vector<int> frame_of;  // of each row, rising
+};
+
+ContactsReader::ContactsReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+ContactsReader::~ContactsReader() = default;
+
+std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
+    const std::vector<int>& frames = impl_->frame_of;
+    const auto [low, high] = std::equal_range(frames.begin(), frames.end(), static_cast<int>(frame));
+    const auto begin = static_cast<std::size_t>(low - frames.begin()),
+               count = static_cast<std::size_t>(high - low);
+    if (count == 0) return {};
+    std::vector<int> first(count), second(count);
+    std::vector<double> normal(count);
+    impl_->file.get(impl_->first, {begin}, {count}, first.data());
+    impl_->file.get(impl_->second, {begin}, {count}, second.data());
+    impl_->file.get(impl_->normal, {begin}, {count}, normal.data());
+    std::vector<Touch> touches(count);
+    for (std::size_t i = 0; i < count; ++i) touches[i] = {first[i], second[i], normal[i]};
+    return touches;
 }
 
 }  // namespace grainreel

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/frame.hpp"
 #include "engine/run/simulation.hpp"
 
 namespace grainreel {
@@ -23,6 +24,21 @@ class ContactsWriter {
     // The rows are in the file when this returns. Throws RunError when they could not be written; those of
     // the frames before stay readable.
     void write(std::int64_t frame, const std::vector<Simulation::ContactRecord>& contacts);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// Forces between grains, frame by frame.
+class ContactsReader {
+  public:
+    // Throws UserError when the file is missing or no contacts.nc. What a killed run left is read.
+    explicit ContactsReader(const std::filesystem::path& path);
+    ~ContactsReader();
+
+    // Those of a frame of the trajectory, as they were written; none beyond the last frame.
+    std::vector<Touch> touches(std::size_t frame) const;
 
   private:
     struct Impl;

@@ -29,13 +29,12 @@ std::vector<std::string> usual_units(Dimension dimension) {
     }
 }
 
-// m/s: the drive's; without one that of the fastest listed grain, or half that of a fall through the
-// container.
+// m/s: the drive's; without one that of the fastest listed grain, or that of a fall through the container.
 double speed_scale(const Scene& scene) {
     if (scene.drive.present) return scene.drive.speed();
     double fastest = std::sqrt(2 * scene.gravity.norm() * scene.container.height);
     for (const ListedGrain& grain : scene.start.grains) fastest = std::max(fastest, grain.velocity.norm());
-    return 0.5 * fastest;
+    return fastest;
 }
 
 double smallest_diameter(const Scene& scene) {
@@ -72,9 +71,9 @@ std::array<double, 2> usual_range(GrainValue value, const Scene& scene) {
     const double mean_mass = total_mass(scene) / std::max(1.0, static_cast<double>(scene.grains()));
     switch (value) {
         case GrainValue::speed:
-            return {0, 2 * speed};
+            return {0, speed};
         case GrainValue::vertical_velocity:
-            return {-2 * speed, 2 * speed};
+            return {-speed, speed};
         case GrainValue::start_height:
             return {0, fill_height(scene, packing)};
         case GrainValue::displacement:
@@ -88,7 +87,7 @@ std::array<double, 2> usual_range(GrainValue value, const Scene& scene) {
         case GrainValue::coordination:
             return {0, 8};
         case GrainValue::contact_force:
-            return {0, 2 * force_scale(scene)};
+            return {0, 4 * force_scale(scene)};  // the bed comes down hard
         case GrainValue::species:
             break;
     }

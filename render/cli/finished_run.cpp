@@ -73,7 +73,8 @@ Scene scene_of(const fs::path& folder, const std::vector<std::string>& sets) {
     return scene;
 }
 
-constexpr const char* without_trajectory = "the run was told to keep none (output.trajectory)";
+constexpr const char* without_trajectory =
+    "the run kept none: it was told so (output.trajectory = false), or it ended before its first frame";
 
 }  // namespace
 
@@ -91,10 +92,9 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
                         species.size(), scene_.species.size()));
     for (std::size_t i = 0; i < trajectory_.frames(); ++i) moments_.push_back(trajectory_.read_moment(i));
     if (needs_touches(scene_.film.shows))
-        throw UserError(
-            fmt::format("{}: keeps no contacts to draw; let film.colour.by be something else and "
-                        "film.force_chains false",
-                        name));
+        contacts_.emplace(file_in(folder_, "contacts.nc",
+                                  "the run was not told to keep contacts (output.contacts = true); let "
+                                  "film.colour.by be something else and film.force_chains false"));
     if (!scene_.film.shows.plots.empty()) read_measures_of_run();
 }
 
@@ -122,6 +122,7 @@ Frame FinishedRun::frame(std::size_t index) const {
         frame.measure_rows = static_cast<std::size_t>(
             std::upper_bound(measured_.begin(), measured_.end(), end) - measured_.begin());
     }
+    if (contacts_) frame.touches = contacts_->touches(index);
     if (!needs_displacement(scene_.film.shows)) return frame;
     const double period = 1 / scene_.drive.frequency, wanted = frame.time - period;
     const std::size_t before = nearest(wanted);

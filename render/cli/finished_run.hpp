@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/measure/measure_table.hpp"
+#include "engine/output/contacts_file.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -26,8 +28,8 @@ class FinishedRun {
 
     // Every frame without its grains, in order of time.
     const std::vector<Frame>& moments() const { return moments_; }
-    // With what the film wants beside the grains: measures until then, and the displacements over a period
-    // when the trajectory has that moment.
+    // With what the film wants beside the grains: measures until then, contacts, and the displacements over a
+    // period when the trajectory has that moment.
     Frame frame(std::size_t index) const;
     // The frame nearest in time.
     std::size_t nearest(double time) const;
@@ -38,6 +40,7 @@ class FinishedRun {
     std::filesystem::path folder_;
     Scene scene_;
     TrajectoryReader trajectory_;
+    std::optional<ContactsReader> contacts_;  // of a film that wants them
     std::vector<Frame> moments_;
     std::shared_ptr<const MeasureTable> measures_;  // null unless the film plots some
     std::vector<double> measured_;                  // s, their times

@@ -29,11 +29,11 @@ double arrow_scale(const Scene& scene) {
 }
 
 double widest_force(const Scene& scene) {
-    return 0.5 * usual_range(GrainValue::contact_force, scene)[1];
+    return usual_range(GrainValue::contact_force, scene)[1];
 }
 
 double widest_line(int picture_height) {
-    return 0.012 * picture_height;
+    return 0.01 * picture_height;
 }
 
 Marks::Marks(const Scene& scene, const Palette& palette)

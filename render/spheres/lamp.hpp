@@ -14,7 +14,7 @@ struct Lamp {
     float rim = 0.72f;        // what is left at the silhouette, so that grains stay separable
     float rim_width = 0.45f;  // cosine between normal and line of sight where that ends
     float shine = 0.12f;      // of the highlight
-    float tone = 0.55f;       // of the darker half of a two-tone grain
+    float tone = 0.40f;       // of the darker half of a two-tone grain
     float cap = 0.80f;        // of what a cut face shows
     bool occlusion = true, shadows = true;
 };

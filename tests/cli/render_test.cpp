@@ -67,6 +67,18 @@ TEST_F(RenderProgram, DrawsTheFilmInMotionOfTheRunToTheByte) {
     EXPECT_FALSE(fs::exists(here / "again/movie.mp4"));
 }
 
+TEST_F(RenderProgram, KeptContactsDrawForceChainsAndTheirColours) {
+    run("[[film.segment]]\nkind = \"locked\"\n",
+        {"--frames", "--set", "output.contacts=true", "--set", "film.colour.by=coordination"});
+    ASSERT_EQ(program({"render", "run", "--frames", "--no-film", "--out", "again"}).status, 0);
+    expect_same_pictures(here / "run/frames", here / "again/frames");
+    EXPECT_EQ(program({"render", "run", "--at", "0.1", "--set", "film.force_chains=true"}).status, 0);
+    fs::remove(here / "run/contacts.nc");
+    const Ended refused = program({"render", "run", "--at", "0.1"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("has no contacts.nc; the run was not told to keep contacts"));
+}
+
 TEST_F(RenderProgram, FromToAndEveryChooseFrames) {
     short_run();
     const Ended ended =

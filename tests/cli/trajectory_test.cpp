@@ -317,5 +317,28 @@ TEST(ContactsFile, IsATableWithTheFrameOfEveryRow) {
     nc_close(file);
 }
 
+TEST(ContactsFile, IsReadFrameByFrame) {
+    const TemporaryFolder here;
+    {
+        ContactsWriter writer(here / "c.nc", "A test", "1.2.3");
+        for (const int frame : {0, 2})  // the one between them has no contact
+            writer.write(frame,
+                         {{frame, 7, 0.25 * frame, vector_of(0), vector_of(0)}, {frame, -3, 8, {}, {}}});
+    }
+    const ContactsReader reader(here / "c.nc");
+    for (const int frame : {0, 2}) {
+        const std::vector<Touch> touches = reader.touches(static_cast<std::size_t>(frame));
+        ASSERT_EQ(touches.size(), 2u);
+        EXPECT_EQ(touches[0].first, frame);
+        EXPECT_EQ(touches[0].second, 7);
+        EXPECT_EQ(touches[0].force, 0.25 * frame);
+        EXPECT_EQ(touches[1].second, -3);
+        EXPECT_EQ(touches[1].force, 8);
+    }
+    EXPECT_TRUE(reader.touches(1).empty());
+    EXPECT_TRUE(reader.touches(3).empty());
+    EXPECT_THROW(ContactsReader(here / "none.nc"), UserError);
+}
+
 }  // namespace
 }  // namespace grainreel

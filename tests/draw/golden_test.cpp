@@ -76,8 +76,8 @@ void expect_golden(const std::string& name, const Picture& picture) {
     if (std::getenv("GRAINREEL_WRITE_GOLDEN")) return write(path_of(name), picture);
     const Picture golden = read(path_of(name));
     const Apart apart = compare(picture, golden);
-    EXPECT_TRUE(apart.alike()) << name << ": " << 100 * apart.share << " % of the pixels differ by more than 3, mean "
-                               << apart.mean;
+    EXPECT_TRUE(apart.alike()) << name << ": " << 100 * apart.share
+                               << " % of the pixels differ by more than 3, mean " << apart.mean;
     if (!apart.alike()) {
         const auto seen = std::filesystem::temp_directory_path() / (name + "-drawn.png");
         write(seen.string(), picture);
@@ -97,7 +97,8 @@ Frame bed() {
         const double wide = 0.075 - std::max(0.0, 0.1 - z) * std::tan(20 * pi / 180) - radius;
         for (double y = -wide; y <= wide; y += pitch)
             for (double x = -0.02 + radius; x <= 0.02 - radius; x += pitch)
-                balls.push_back({{x + 0.0004 * some(), y + 0.0004 * some(), z + 0.0004 * some()}, radius, big ? 1 : 0});
+                balls.push_back(
+                    {{x + 0.0004 * some(), y + 0.0004 * some(), z + 0.0004 * some()}, radius, big ? 1 : 0});
     }
     Frame frame = frame_of(balls);
     frame.time = 0.8125;
@@ -170,23 +171,44 @@ const Feature kFeatures[] = {
     {"studio", [](Film&) {}},
     {"flat", [](Film& f) { style(f, FilmLook::Style::flat); }},
     {"dark", [](Film& f) { style(f, FilmLook::Style::dark); }},
-    {"cut", [](Film& f) { f.look.cut = {true, {1, 0, 0}, 0.003, 0}; }},
-    {"slab", [](Film& f) { f.look.cut = {true, Vec3(1, 1, 0).normalized(), 0.005, 0.008}; }},
+    {"cut",
+     [](Film& f) {
+         f.look.cut = {true, {1, 0, 0}, 0.003, 0};
+     }},
+    {"slab",
+     [](Film& f) {
+         f.look.cut = {true, Vec3(1, 1, 0).normalized(), 0.005, 0.008};
+     }},
     {"rotation", [](Film& f) { f.look.rotation = true; }},
     {"hidden", [](Film& f) { f.shows.hidden = {0}; }},
     {"ghost", [](Film& f) { f.shows.ghosts = {0}; }},
-    {"highlight", [](Film& f) { f.shows.highlighted = {7, 300, 900}; }},
+    {"highlight",
+     [](Film& f) {
+         f.shows.highlighted = {7, 300, 900};
+     }},
     {"speed", [](Film& f) { colour(f, GrainValue::speed, ColourMap::viridis, 0, 0.3, "cm/s"); }},
-    {"vertical_velocity", [](Film& f) { colour(f, GrainValue::vertical_velocity, ColourMap::vik, -0.3, 0.3, "cm/s"); }},
+    {"vertical_velocity",
+     [](Film& f) { colour(f, GrainValue::vertical_velocity, ColourMap::vik, -0.3, 0.3, "cm/s"); }},
     {"start_height", [](Film& f) { colour(f, GrainValue::start_height, ColourMap::viridis, 0, 0.1, "mm"); }},
-    {"displacement", [](Film& f) { colour(f, GrainValue::displacement, ColourMap::cividis, 0, 0.003, "mm"); }},
+    {"displacement",
+     [](Film& f) { colour(f, GrainValue::displacement, ColourMap::cividis, 0, 0.003, "mm"); }},
     {"spin", [](Film& f) { colour(f, GrainValue::spin, ColourMap::viridis, 0, 2, "rad/s"); }},
     {"coordination", [](Film& f) { colour(f, GrainValue::coordination, ColourMap::viridis, 0, 8, ""); }},
-    {"contact_force", [](Film& f) { colour(f, GrainValue::contact_force, ColourMap::viridis, 0, 0.1, "mN"); }},
-    {"arrows", [](Film& f) { f.shows.arrows = {10, 0.1, true}; }},
-    {"trails", [](Film& f) { f.shows.trails = {{1}, {}, 0.1}; }},
+    {"contact_force",
+     [](Film& f) { colour(f, GrainValue::contact_force, ColourMap::viridis, 0, 0.1, "mN"); }},
+    {"arrows",
+     [](Film& f) {
+         f.shows.arrows = {10, 0.1, true};
+     }},
+    {"trails",
+     [](Film& f) {
+         f.shows.trails = {{1}, {}, 0.1};
+     }},
     {"force_chains", [](Film& f) { f.shows.force_chains = true; }},
-    {"plot", [](Film& f) { f.shows.plots = {{"lacey", "mixing", std::array<double, 2>{0, 1}}}; }},
+    {"plot",
+     [](Film& f) {
+         f.shows.plots = {{"lacey", "mixing", std::array<double, 2>{0, 1}}};
+     }},
     {"wall_ghost", [](Film& f) { f.wall_ghost = true, f.exaggerate = 5; }},
     {"axes_from_above", [](Film& f) { f.axes = true, f.camera.azimuth = -40, f.camera.elevation = 50; }},
     {"orthographic_close", [](Film& f) { f.camera.field_of_view = 0, f.camera.zoom = 3; }},
@@ -197,13 +219,15 @@ INSTANTIATE_TEST_SUITE_P(Feature, Golden, testing::ValuesIn(kFeatures),
                          [](const auto& feature) { return std::string(feature.param.name); });
 
 TEST(GoldenContainers, BoxAndCylinder) {
-    for (const auto& [name, shape] : {std::pair{"box", Container::Shape::box}, {"cylinder", Container::Shape::cylinder}}) {
+    for (const auto& [name, shape] :
+         {std::pair{"box", Container::Shape::box}, {"cylinder", Container::Shape::cylinder}}) {
         Scene scene = scene_for([](Film&) {});
         scene.container.shape = shape;
         scene.container.half_width = 0.05;
         scene.container.height = 0.1;
         scene.container.depth = 0.06;
-        const Frame frame = frame_of({{{0, 0, 0.03}, 0.03, 1}, {{0, 0.035, 0.01}, 0.01, 0}, {{0.02, -0.03, 0.02}, 0.008, 0}});
+        const Frame frame =
+            frame_of({{{0, 0, 0.03}, 0.03, 1}, {{0, 0.035, 0.01}, 0.01, 0}, {{0.02, -0.03, 0.02}, 0.008, 0}});
         expect_golden(name, Renderer(scene, 1).draw(frame, ""));
     }
 }

@@ -27,11 +27,11 @@ void expect_complaint(const std::vector<std::string>& set, const std::string& wo
 TEST(Look, UsualRangesComeFromTheDrive) {
     const Scene scene = read_text(wedge_text);
     const double omega = 2 * std::numbers::pi * 20, speed = 3 * 10.0 / omega;  // a w = Gamma g / w
-    EXPECT_NEAR(colour_of({"film.colour.by=speed"}).range[1], 2 * speed, 1e-12);
+    EXPECT_NEAR(colour_of({"film.colour.by=speed"}).range[1], speed, 1e-12);
     const GrainColouring upward = colour_of({"film.colour.by=vertical-velocity"});
     EXPECT_EQ(upward.map, ColourMap::vik);
-    EXPECT_NEAR(upward.range[0], -2 * speed, 1e-12);
-    EXPECT_NEAR(upward.range[1], 2 * speed, 1e-12);
+    EXPECT_NEAR(upward.range[0], -speed, 1e-12);
+    EXPECT_NEAR(upward.range[1], speed, 1e-12);
     EXPECT_EQ(colour_of({"film.colour.by=displacement"}).range[1], 0.005);
 }
 

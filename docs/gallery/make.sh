@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Draws the pictures of docs/gallery.md: one run of the default scene, drawn again and again.
+#   docs/gallery/make.sh [GRAINREEL] [FOLDER FOR RUNS]
+# Takes about two minutes. Each picture's command is printed before it runs.
+set -euo pipefail
+root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
+grainreel=${1:-$root/build/release/grainreel} work=${2:-$root/output/gallery}
+here=$root/docs/gallery
+mkdir -p "$work"
+
+run() { echo "grainreel $*"; "$grainreel" "$@" --quiet --force > /dev/null; }
+# NAME then options of `render`, at 5 s of the run.
+picture() {
+    local name=$1
+    shift
+    run render "$work/wedge" --at 5 --size 640x480 --out "$here/$name.png" "$@"
+}
+
+run movie "$root/scenes/wedge_segregation.toml" --no-film --duration 6 --set output.contacts=true \
+    --set film.rotation=true --out "$work/wedge"
+still=(--set film.rotation=false)
+
+picture studio "${still[@]}"
+picture flat "${still[@]}" --set film.style=flat
+picture dark "${still[@]}" --set film.style=dark
+picture cut "${still[@]}" --set film.cut.at=0 --set film.camera.azimuth=40
+picture slab "${still[@]}" --set film.cut.at='5 mm' --set film.cut.thickness='10 mm'
+picture rotation
+picture ghost "${still[@]}" --set 'film.ghost=["small"]'
+picture hide "${still[@]}" --set 'film.hide=["small"]'
+picture highlight "${still[@]}" --set 'film.highlight=[1500, 1510, 1520]'
+picture above "${still[@]}" --set film.camera.elevation=50 --set film.camera.azimuth=-35 --set film.axes=true
+picture wall_ghost "${still[@]}" --set film.wall_ghost=true --set film.exaggerate=4
+for by in speed vertical-velocity start-height displacement rise spin kinetic-energy coordination contact-force; do
+    picture "$by" "${still[@]}" --set film.colour.by=$by
+done
+picture arrows "${still[@]}" --set film.arrows.grid=10
+picture force_chains "${still[@]}" --set film.force_chains=true --set 'film.ghost=["small", "big"]'
+picture plots "${still[@]}" --set 'film.plot=[{y="height_difference"}, {y="lacey"}]'
+
+# What wants more than one frame.
+run render "$work/wedge" --from 4 --to 5 --no-film --frames --size 640x480 "${still[@]}" \
+    --set 'film.trails={species=["big"], duration="1 s"}' --out "$work/trails"
+cp "$(find "$work/trails/frames" -name '*.png' | sort | tail -1)" "$here/trails.png"
