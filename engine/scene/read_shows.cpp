@@ -139,7 +139,7 @@ void read_arrows(Document& document, const Scene& scene, FilmArrows& arrows) {
     // A grain's diameter in five periods is a fast circulation.
     const double usual =
         arrows.period ? 0.1 * usual_range(GrainValue::displacement, scene)[1] * 2 * scene.drive.frequency
-                      : 0.5 * usual_range(GrainValue::speed, scene)[1];
+                      : usual_range(GrainValue::speed, scene)[1];
     arrows.speed = document.quantity("film.arrows.speed").value_or(usual);
     if (arrows.speed <= 0) document.fail("film.arrows", "need a 'speed': this scene gives no scale for it");
 }

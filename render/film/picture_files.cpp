@@ -36,7 +36,8 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
       frames_wanted_(options.frames || (options.film && scene.film.format == FilmFormat::png)),
       transparent_(scene.film.transparent),
       poster_time_(poster_time(scene.film, scene.run.duration)),
-      poster_done_(!options.film) {
+      poster_done_(!options.film),
+      flashes_(scene.film.rate) {
     if (frames_wanted_) {
         std::error_code error;
         std::filesystem::create_directories(folder_ / "frames", error);
@@ -53,6 +54,7 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
 Picture PictureFiles::add(DrawnFrame drawn) {
     if (count_ == 0) first_time_ = drawn.frame->time;
     if (film_) film_->add(drawn.picture);
+    flashes_.add(drawn.picture);
     if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", count_), drawn);
     if (sheet_) sheet_->add(drawn.picture, drawn.frame->time);
     ++count_;
@@ -67,6 +69,16 @@ void PictureFiles::consider_poster(const DrawnFrame& drawn) {
     } else if (poster_in_passing(count_)) {
         write(folder_ / "poster.png", drawn);
     }
+}
+
+std::vector<std::string> PictureFiles::notes() const {
+    std::vector<std::string> notes = film_ ? film_->notes() : std::vector<std::string>{};
+    if (film_ && flashes_.too_much_at())
+        notes.push_back(
+            fmt::format("the film flashes more than three times a second, first at {:.3g} s of it, which can "
+                        "set off seizures; slow it down (film.segment playback) or lock it to a phase",
+                        *flashes_.too_much_at()));
+    return notes;
 }
 
 void PictureFiles::close_poster() {

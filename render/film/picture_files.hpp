@@ -12,6 +12,7 @@
 #include "render/draw/picture.hpp"
 #include "render/film/film_maker.hpp"
 #include "render/film/film_writer.hpp"
+#include "render/film/flash_watch.hpp"
 #include "render/film/png.hpp"
 
 namespace grainreel {
@@ -43,7 +44,7 @@ class PictureFiles {
     bool has_frames() const { return frames_wanted_; }
     bool has_sheet() const { return sheet_ != nullptr && count_ > 0; }
     std::string encoder() const { return film_ ? film_->description() : ""; }
-    std::vector<std::string> notes() const { return film_ ? film_->notes() : std::vector<std::string>{}; }
+    std::vector<std::string> notes() const;
 
   private:
     void consider_poster(const DrawnFrame& drawn);
@@ -56,6 +57,7 @@ class PictureFiles {
     double first_time_ = 0;
     std::int64_t count_ = 0;
     bool poster_done_;
+    FlashWatch flashes_;
     DrawnFrame last_;  // kept because it is the poster when the next one comes too late
     std::unique_ptr<FilmWriter> film_;
     std::string film_file_;

@@ -65,6 +65,19 @@ TEST_F(FilmMakerTest, EveryFrameIsInTheFilmInOrderFirstAndLastAsDrawn) {
     EXPECT_EQ(played.metadata.at("comment"), "grainreel, scene teaching, seed 1");
 }
 
+TEST_F(FilmMakerTest, AFilmThatFlashesSaysSo) {
+    for (const int every : {3, 8}) {  // frames, at 25 a second: 4.2 and 1.6 flashes
+        FilmMaker maker(small_scene(96, 64), options(), painting([every](const Frame& frame) {
+                            const int grey = frame.step / every % 2 ? 60 : 200;
+                            return flat(96, 64, grey, grey, grey);
+                        }));
+        for (int i = 0; i < 60; ++i) maker.take(frame_at(i), "");
+        const std::string notes = fmt::format("{}", fmt::join(maker.finish().notes, "\n"));
+        EXPECT_EQ(notes.find("flashes more than three times a second") != std::string::npos, every == 3)
+            << notes;
+    }
+}
+
 TEST_F(FilmMakerTest, ASlowDrawerMakesTheEngineWaitAndLosesNothing) {
     constexpr int count = 60;
     std::atomic<int> alive = 0;

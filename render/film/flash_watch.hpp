@@ -1,0 +1,40 @@
+// Whether a film flashes more often than three times a second, which can set off seizures: the general flash
+// threshold of WCAG 2.2, success criterion 2.3.1. A flash is a pair of opposing changes of the relative
+// luminance by 0.1 or more, the darker side being below 0.8. It counts where a quarter of a window of a third
+// of the picture each way (10 degrees of the visual field) does so. Here every place may flash at a moment of
+// its own, so more films are warned of than have to be.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+
+#include "render/draw/picture.hpp"
+
+namespace grainreel {
+
+class FlashWatch {
+  public:
+    explicit FlashWatch(double rate) : rate_(rate) {}  // of the film, frames a second
+
+    void add(const Picture& picture);
+    // s of film, when it was first too much; empty when it never was.
+    std::optional<double> too_much_at() const { return at_; }
+
+  private:
+    static constexpr int kAcross = 24, kDown = 18;  // places in the picture
+    struct Place {
+        double low = 0, high = 0;   // of the luminance since the last change
+        int direction = 0;          // of that change: up, down, none yet
+        std::deque<double> turns;   // s, the changes of the last second
+    };
+    void take(Place& place, double luminance, double now) const;
+    bool too_much() const;
+
+    const double rate_;
+    long frames_ = 0;
+    std::array<Place, kAcross * kDown> places_;
+    std::optional<double> at_;
+};
+
+}  // namespace grainreel
