@@ -96,11 +96,13 @@ FilmSegment read_segment(Document& document, const Scene& scene, const std::stri
 }
 
 // Without segments in the scene: slow motion at both ends, 4 s of film each but a tenth of the run at most,
-// and one frame a period between. Slow enough for 8 frames a period, or ten times slower if that is slower.
+// and one frame a period between. Slow enough for 8 frames a period and for no more than three periods a
+// second of film, which would flash; or ten times slower if that is slower.
 std::vector<FilmSegment> default_segments(const Scene& scene) {
     FilmSegment motion;
     if (!scene.drive.present) return {motion};
-    motion.playback = std::min(0.1, scene.film.rate / (8 * scene.drive.frequency));
+    motion.playback =
+        std::min({0.1, scene.film.rate / (8 * scene.drive.frequency), 3 / scene.drive.frequency});
     motion.duration = std::min(4 * motion.playback, 0.1 * scene.run.duration);
     FilmSegment between;
     between.kind = FilmSegment::Kind::locked;

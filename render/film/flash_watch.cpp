@@ -11,6 +11,7 @@ namespace {
 constexpr double kChange = 0.1, kBright = 0.8;  // of relative luminance
 constexpr std::size_t kMostTurns = 7;           // three pairs, and half of one
 constexpr int kEvery = 4;                       // pixels: a mean wants no more
+constexpr double kTogether = 0.05;              // s, within which changes are one
 
 double luminance(const std::uint8_t* pixel) {
     static const std::array<double, 256> linear = [] {
@@ -28,13 +29,37 @@ void FlashWatch::add(const Picture& picture) {
     std::array<double, kAcross * kDown> sum{}, count{};
     for (int y = 0; y < picture.height; y += kEvery)
         for (int x = 0; x < picture.width; x += kEvery) {
-            const auto place = static_cast<std::size_t>(y * kDown / picture.height * kAcross + x * kAcross / picture.width);
+            const auto place =
+                static_cast<std::size_t>(y * kDown / picture.height * kAcross + x * kAcross / picture.width);
             sum[place] += luminance(picture.pixel(x, y));
             count[place] += 1;
         }
     for (std::size_t i = 0; i < places_.size(); ++i)
         if (count[i] > 0) take(places_[i], sum[i] / count[i], now);
-    if (!at_ && too_much()) at_ = now;
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column) {
+            Window& window = windows_[static_cast<std::size_t>(row * kColumns + column)];
+            const int direction = turning(column, row, now);
+            if (direction != 0 && direction != window.direction) {
+                window.direction = direction;
+                window.turns.push_back(now);
+            }
+            while (!window.turns.empty() && window.turns.front() <= now - 1 + 1e-9) window.turns.pop_front();
+            if (!at_ && window.turns.size() > kMostTurns) at_ = now;
+        }
+}
+
+// 1 or -1 where a quarter of the window has just become brighter or darker.
+int FlashWatch::turning(int column, int row, double now) const {
+    int up = 0, down = 0;
+    for (int y = row; y < row + kHigh; ++y)
+        for (int x = column; x < column + kWide; ++x) {
+            const Place& place = places_[static_cast<std::size_t>(y * kAcross + x)];
+            if (place.direction == 0 || place.turned < now - kTogether) continue;
+            ++(place.direction > 0 ? up : down);
+        }
+    const bool enough = 4 * std::max(up, down) >= kWide * kHigh;
+    return !enough ? 0 : up > down ? 1 : -1;
 }
 
 // A change is noted once it is large enough, and extends as long as it goes on in its direction.
@@ -42,7 +67,7 @@ void FlashWatch::take(Place& place, double luminance, double now) const {
     if (frames_ == 1) place.low = place.high = luminance;
     const auto turned = [&](int direction) {
         place.direction = direction;
-        place.turns.push_back(now);
+        place.turned = now;
         place.low = place.high = luminance;
     };
     if (place.direction <= 0 && luminance - place.low >= kChange && place.low < kBright)
@@ -51,20 +76,6 @@ void FlashWatch::take(Place& place, double luminance, double now) const {
         turned(-1);
     place.low = std::min(place.low, luminance);
     place.high = std::max(place.high, luminance);
-    while (!place.turns.empty() && place.turns.front() <= now - 1 + 1e-9) place.turns.pop_front();
-}
-
-bool FlashWatch::too_much() const {
-    constexpr int kWide = kAcross / 3, kHigh = kDown / 3;
-    for (int top = 0; top + kHigh <= kDown; ++top)
-        for (int left = 0; left + kWide <= kAcross; ++left) {
-            int flashing = 0;
-            for (int y = top; y < top + kHigh; ++y)
-                for (int x = left; x < left + kWide; ++x)
-                    flashing += places_[static_cast<std::size_t>(y * kAcross + x)].turns.size() > kMostTurns;
-            if (4 * flashing >= kWide * kHigh) return true;
-        }
-    return false;
 }
 
 }  // namespace grainreel

@@ -1,8 +1,7 @@
 // Whether a film flashes more often than three times a second, which can set off seizures: the general flash
 // threshold of WCAG 2.2, success criterion 2.3.1. A flash is a pair of opposing changes of the relative
 // luminance by 0.1 or more, the darker side being below 0.8. It counts where a quarter of a window of a third
-// of the picture each way (10 degrees of the visual field) does so. Here every place may flash at a moment of
-// its own, so more films are warned of than have to be.
+// of the picture each way (10 degrees of the visual field) changes in one direction at the same time.
 #pragma once
 
 #include <array>
@@ -22,18 +21,26 @@ class FlashWatch {
     std::optional<double> too_much_at() const { return at_; }
 
   private:
-    static constexpr int kAcross = 24, kDown = 18;  // places in the picture
+    static constexpr int kAcross = 24, kDown = 18;                                   // places in the picture
+    static constexpr int kWide = kAcross / 3, kHigh = kDown / 3;                     // of a window
+    static constexpr int kColumns = kAcross - kWide + 1, kRows = kDown - kHigh + 1;  // of windows
+
     struct Place {
-        double low = 0, high = 0;   // of the luminance since the last change
-        int direction = 0;          // of that change: up, down, none yet
-        std::deque<double> turns;   // s, the changes of the last second
+        double low = 0, high = 0;  // of the luminance since the last change
+        int direction = 0;         // of that change: 1 up, -1 down, 0 none yet
+        double turned = -1;        // s, when it came
+    };
+    struct Window {
+        int direction = 0;
+        std::deque<double> turns;  // s, the changes of the last second
     };
     void take(Place& place, double luminance, double now) const;
-    bool too_much() const;
+    int turning(int column, int row, double now) const;
 
     const double rate_;
     long frames_ = 0;
     std::array<Place, kAcross * kDown> places_;
+    std::array<Window, kColumns * kRows> windows_;
     std::optional<double> at_;
 };
 
