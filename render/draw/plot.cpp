@@ -122,7 +122,9 @@ void Plot::draw_axes() {
     const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
     draw_text(on.get(), 0, 0, title, {type_.main, false}, palette_.ink, frame_.width, 1);
 
-    const std::vector<double> values = round_ticks(limits_[0] / size, limits_[1] / size, most_ticks);
+    // As many as stand above each other.
+    const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);
+    const std::vector<double> values = round_ticks(limits_[0] / size, limits_[1] / size, fit);
     for (const double value : values) {
         const double y = y_of(value * size);
         cairo_set_line_width(on.get(), 0.7 * pen);

@@ -163,7 +163,10 @@ TEST(Reader, DefaultFilmIsSlowAtBothEndsAndLockedBetween) {
     EXPECT_EQ(scene.film.segments[2], scene.film.segments[0]);
     // a tenth of a short run; 8 frames a period of a fast drive; real time without a drive
     EXPECT_DOUBLE_EQ(*read_text(wedge_text).film.segments[0].duration, 0.2);
-    EXPECT_DOUBLE_EQ(read_text(wedge_text, {"drive.frequency=100"}).film.segments[0].playback, 30.0 / 800);
+    // Three periods a second of film, or 8 frames a period.
+    EXPECT_EQ(read_text(wedge_text, {"drive.frequency=100"}).film.segments[0].playback, 3.0 / 100);
+    EXPECT_EQ(read_text(wedge_text, {"drive.frequency=100", "film.rate=16"}).film.segments[0].playback,
+              16.0 / 800);
     const Film still = read_text(box_text).film;
     ASSERT_EQ(still.segments.size(), 1u);
     EXPECT_EQ(still.segments[0], FilmSegment{});
