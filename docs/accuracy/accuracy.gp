@@ -1,22 +1,26 @@
-# Draws contacts.csv, convergence.csv and bed.csv: gnuplot accuracy.gp
+# Draws contacts.csv, convergence.csv and bed.csv, and the other engines of peers.csv (made by
+# tests/peers/impacts.sh) where that lies beside them: gnuplot accuracy.gp
 set datafile separator ','
 set style data linespoints
 set grid
-set key outside right top
+set key outside right top maxcols 1 width -4 font ',12'
 set logscale xy
 set format y "10^{%L}"
 methods = "'velocity Verlet' 'with corrections' 'mixed precision' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
 pick(method, error, e) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" && $3==%s {print $4\",\"$5\",\"$6}' contacts.csv", method, error, e)
-draw_restitution(e) = sprintf("plot for [m in methods] pick(m, 'restitution', '%s') using 2:3 title m lw 2, 0.005 lc 'gray' dt 2 title 'standard: 0.005'", e)
+peer(e) = sprintf("< awk -F, '$1==\"LAMMPS\" && $3==%s {print $4\",\"$5\",\"$6}' peers.csv 2>/dev/null", e)
+draw_restitution(e) = sprintf("plot for [m in methods] pick(m, 'restitution', '%s') using 2:3 title m lw 2, peer('%s') using 2:3 with points pt 6 ps 1.2 lc 'black' title 'LAMMPS, spring-dashpot', 0.005 lc 'gray' dt 2 title 'standard: 0.005'", e, e)
 
 do for [form in "svg png"] {
     if (form eq "svg") { set terminal svg size 900,640 font 'DejaVu Sans,14' background 'white' } else { set terminal pngcairo size 1350,960 font 'DejaVu Sans,18' }
     set output 'restitution.'.form
     set multiplot layout 2,1
+    set xrange [60:6000]
     set xlabel 'cost of a contact, ns of one thread'
     set ylabel 'largest error of e'
     do for [e in "0.9 0.3"] { set title 'Restitution, e = '.e; eval draw_restitution(e) }
     unset multiplot
+    set xrange [*:*]
     set output 'oblique.'.form
     set multiplot layout 2,1
     set ylabel 'largest error / speed'
@@ -63,7 +67,7 @@ do for [form in "svg png"] {
     set xtics font ',14'
     set ylabel
     set format x '%g'
-    set key outside right top
+    set key outside right top maxcols 1 width -4 font ',12'
     set logscale xy
     set format y "10^{%L}"
 }

@@ -168,7 +168,7 @@ std::string accuracy_drawing() {
 set datafile separator ','
 set style data linespoints
 set grid
-set key outside right top
+set key outside right top maxcols 1 width -4 font ',12'
 set logscale xy
 set format y "10^{%L}"
 methods = "'velocity Verlet' 'with corrections' 'mixed precision' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
@@ -180,10 +180,12 @@ do for [form in "svg png"] {
     if (form eq "svg") { set terminal svg size 900,640 font 'DejaVu Sans,14' background 'white' } else { set terminal pngcairo size 1350,960 font 'DejaVu Sans,18' }
     set output 'restitution.'.form
     set multiplot layout 2,1
+    set xrange [60:6000]
     set xlabel 'cost of a contact, ns of one thread'
     set ylabel 'largest error of e'
     do for [e in "0.9 0.3"] { set title 'Restitution, e = '.e; eval draw_restitution(e) }
     unset multiplot
+    set xrange [*:*]
     set output 'oblique.'.form
     set multiplot layout 2,1
     set ylabel 'largest error / speed'
@@ -215,7 +217,7 @@ do for [form in "svg png"] {
     set xtics font ',14'
     set ylabel
     set format x '%g'
-    set key outside right top
+    set key outside right top maxcols 1 width -4 font ',12'
     set logscale xy
     set format y "10^{%L}"
 }

@@ -58,6 +58,7 @@ void free_codec(AVCodecContext* codec) {
     const bool waits = avcodec_is_open(codec) && av_codec_is_encoder(codec->codec) &&
                        codec->codec_id == AV_CODEC_ID_AV1 && codec->frame_number == 0;
     if (waits) encode_nothing(*codec);
+    av_freep(&codec->stats_in);  // ours, of a second pass
     avcodec_free_context(&codec);
 }
 
