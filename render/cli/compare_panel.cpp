@@ -41,7 +41,7 @@ bool LivePanel::pack(const SceneRun::GoOn& go_on) {
 
 void LivePanel::start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) {
     done_ = 0;
-    run_.start(shots_at(instants, segments, run_.plan().clock, run_.plan().steps));
+    run_.start(shots_at(instants, segments, run_.plan().clock, run_.plan().steps), segments);
 }
 
 FramePtr LivePanel::next(const SceneRun::GoOn& go_on) {

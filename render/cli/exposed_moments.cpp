@@ -4,11 +4,11 @@
 
 namespace grainreel {
 
-ExposedMoments::ExposedMoments(const std::vector<Shot>& shots, const Film& film, const Clock& clock,
-                               std::int64_t first) {
+ExposedMoments::ExposedMoments(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments,
+                               const Clock& clock, std::int64_t first) {
     for (const Shot& shot : shots) {
         std::vector<std::int64_t> over =
-            exposed_steps(shot, film.segments.at(static_cast<std::size_t>(shot.segment)), clock);
+            exposed_steps(shot, segments.at(static_cast<std::size_t>(shot.segment)), clock);
         std::erase_if(over, [&](std::int64_t step) { return step < first; });
         if (over.empty()) continue;
         steps_.insert(steps_.end(), over.begin(), over.end());

@@ -15,7 +15,8 @@ class ExposedMoments {
   public:
     ExposedMoments() = default;  // keeps nothing
     // Steps before `first` are not to be had: pictures that begin there are exposed for less.
-    ExposedMoments(const std::vector<Shot>& shots, const Film& film, const Clock& clock, std::int64_t first);
+    ExposedMoments(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments,
+                   const Clock& clock, std::int64_t first);
 
     // At which a frame has to be kept: strictly rising.
     const std::vector<std::int64_t>& steps() const { return steps_; }

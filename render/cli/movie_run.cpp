@@ -41,7 +41,7 @@ bool MovieRun::work() {
     describe();
     if (!pack()) return false;
     begun_ = true;
-    run_.start(std::move(shots_));
+    run_.start(std::move(shots_), run_.scene().film.segments);
     pictures_planned_ = run_.shots();
     open_film(run_.scene());
     vibrating_.emplace();

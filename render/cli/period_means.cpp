@@ -15,12 +15,12 @@ Vec3 way(const Vec3& from, const Vec3& to, double depth) {
 
 }  // namespace
 
-PeriodMeans::PeriodMeans(const std::vector<Shot>& shots, const Film& film, const Clock& clock,
-                         std::int64_t first, double depth)
+PeriodMeans::PeriodMeans(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments,
+                         const Clock& clock, std::int64_t first, double depth)
     : first_(first), depth_(depth), step_time_(clock.step) {
     for (const Shot& shot : shots) {
         std::vector<std::int64_t> of =
-            averaged_steps(shot, film.segments.at(static_cast<std::size_t>(shot.segment)), clock);
+            averaged_steps(shot, segments.at(static_cast<std::size_t>(shot.segment)), clock);
         if (of.empty()) continue;
         for (const std::int64_t step : of) steps_.push_back(std::max(step, first));
         wanted_[shot.step] = std::move(of);

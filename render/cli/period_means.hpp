@@ -16,8 +16,8 @@ class PeriodMeans {
     PeriodMeans() = default;  // keeps nothing
     // first: the run's first step; before it the grains are taken to have been where they are then.
     // depth: m, along x, after which a periodic container repeats; 0 for none.
-    PeriodMeans(const std::vector<Shot>& shots, const Film& film, const Clock& clock, std::int64_t first,
-                double depth);
+    PeriodMeans(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments, const Clock& clock,
+                std::int64_t first, double depth);
 
     // At which positions have to be kept: strictly rising.
     const std::vector<std::int64_t>& steps() const { return steps_; }

@@ -52,13 +52,13 @@ std::optional<std::string> SceneRun::packing_warning() const {
         scene_.where("start.settle_limit"), packing_.settle_time, packing_.kinetic_per_grain);
 }
 
-void SceneRun::start(std::vector<Shot> shots) {
+void SceneRun::start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments) {
     files_.emplace(folder_, scene_, plan_, simulation_.grains());
     const double depth = scene_.container.periodic_depth ? scene_.container.depth : 0;
     if (needs_displacement(scene_.film.shows))
         earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, first_step_, depth);
-    exposed_ = ExposedMoments(shots, scene_.film, plan_.clock, first_step_);
-    means_ = PeriodMeans(shots, scene_.film, plan_.clock, first_step_, depth);
+    exposed_ = ExposedMoments(shots, segments, plan_.clock, first_step_);
+    means_ = PeriodMeans(shots, segments, plan_.clock, first_step_, depth);
     std::vector<std::int64_t> moments;
     for (const auto* steps : {&earlier_.steps(), &exposed_.steps(), &means_.steps()})
         moments.insert(moments.end(), steps->begin(), steps->end());

@@ -40,8 +40,9 @@ class SceneRun {
     // False when the watcher stopped it. Throws UserError when the run would end before it begins.
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
-    // After packing: opens the files. Shots: what next() is to stop for.
-    void start(std::vector<Shot> shots);
+    // After packing: opens the files. shots: what next() is to stop for; segments: of the film that they
+    // make.
+    void start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments);
     // To the next shot, keeping on the way what is to be kept. None at the end, or when told to stop.
     std::optional<Taken> next(const GoOn& go_on);
     // Of a run that was packed, in whatever state: last row of measures, end state, checkpoint.

@@ -68,6 +68,19 @@ TEST_F(CompareProgram, FilmsScenesInStepAndKeepsTheirRuns) {
     }
 }
 
+// The film's segments are those of one scene; the others may have fewer, and all show the same stretch of
+// time.
+TEST_F(CompareProgram, SegmentsOfOneSceneHoldForAll) {
+    std::string text = text_of(here / "weak.toml");
+    text.replace(text.find("[[film.segment]]"), std::string::npos,
+                 "[[film.segment]]\nkind = \"locked\"\nduration = 0.1\naverage = 1\n"
+                 "[[film.segment]]\nplayback = 0.5\nexposure = \"10 ms\"\n");
+    write_text(here / "weak.toml", text);
+    const Ended ended = program({"compare", "weak.toml", "strong.toml", "--out", "all"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(decoded_pictures(here / "all/movie.mp4"), 2 + 7);  // periods of 0.05 s, then every 1/60 s
+}
+
 TEST_F(CompareProgram, TakesFinishedRunsToo) {
     for (const std::string name : {"weak", "strong"})
         ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);

@@ -24,7 +24,7 @@ TEST(ExposedMoments, AreKeptUntilTheirPicture) {
     film.segments[0].exposure = 0.04;
     film.segments[0].exposures = 4;
     const Clock clock{1e-3, 0, 0};
-    ExposedMoments exposed({{5, 0}, {40, 0}, {50, 0}, {60, 1}}, film, clock, 2);
+    ExposedMoments exposed({{5, 0}, {40, 0}, {50, 0}, {60, 1}}, film.segments, clock, 2);
     // Of the first picture only what the run has; the second and the third share two moments.
     EXPECT_THAT(exposed.steps(), testing::ElementsAre(10, 20, 30, 40));
     for (const std::int64_t step : {10, 15, 20, 30}) exposed.keep(frame_at(step));

@@ -43,6 +43,20 @@ class MovieProgram : public testing::Test {
     fs::path scene = write_small_scene(here.path());
 };
 
+// Means and exposures want moments of their own; the run and what is written of it stay what they are.
+TEST_F(MovieProgram, MeansAndExposuresLeaveTheRunAlone) {
+    ASSERT_EQ(movie({"--no-film", "--out", "plain"}).status, 0);
+    const std::string segments =
+        "film.segment=[{kind=\"locked\", average=2, duration=\"0.1 s\"}, {exposure=\"40 ms\", exposures=5}]";
+    ASSERT_EQ(movie({"--set", segments, "--frames", "--out", "spans"}).status, 0);
+    EXPECT_EQ(record_of(here / "spans")["engine"]["state_hash"],
+              record_of(here / "plain")["engine"]["state_hash"]);
+    for (const char* file : {"trajectory.nc", "measures.csv", "final.csv"})
+        EXPECT_TRUE(text_of(here / "spans" / file) == text_of(here / "plain" / file)) << file;
+    EXPECT_THAT(text_of(here / "spans/frames/000001.png"), HasSubstr("mean of 2 periods"));
+    EXPECT_THAT(text_of(here / "spans/frames/000004.png"), HasSubstr("exposed for 0.04 s"));
+}
+
 TEST_F(MovieProgram, WritesTheFilmAndTheNumbers) {
     const Ended ended = movie({"--frames"});
     EXPECT_EQ(ended.status, 0) << ended.err;

@@ -38,7 +38,7 @@ Vec3 shaken(std::int64_t step, const Vec3& drift) {
 TEST(PeriodMeans, LeaveTheDriftAlone) {
     const Vec3 drift(0, 0.02, -0.01);
     constexpr std::int64_t kShot = 4300;
-    PeriodMeans means({{kShot, 0}}, mean_film(3), kClock, 0, 0);
+    PeriodMeans means({{kShot, 0}}, mean_film(3).segments, kClock, 0, 0);
     EXPECT_THAT(means.steps(), testing::SizeIs(3 * 16 + 1));
     for (const std::int64_t step : means.steps())
         means.keep(frame_at(step, shaken(step, drift), shaken(step, Vec3::Zero())));
@@ -60,7 +60,7 @@ TEST(PeriodMeans, GoTheShortWayRoundAPeriodicContainer) {
         at.x() -= kDepth * std::round(at.x() / kDepth);
         return at;
     };
-    PeriodMeans means({{1600, 0}}, mean_film(1), kClock, 0, kDepth);
+    PeriodMeans means({{1600, 0}}, mean_film(1).segments, kClock, 0, kDepth);
     for (const std::int64_t step : means.steps()) means.keep(frame_at(step, wrapped(step)));
     Frame now = frame_at(1600, wrapped(1600));
     means.fill(now);
@@ -71,7 +71,7 @@ TEST(PeriodMeans, GoTheShortWayRoundAPeriodicContainer) {
 }
 
 TEST(PeriodMeans, TakeTheBedToHaveRestedBeforeTheRun) {
-    PeriodMeans means({{400, 0}}, mean_film(1), kClock, 0, 0);
+    PeriodMeans means({{400, 0}}, mean_film(1).segments, kClock, 0, 0);
     EXPECT_EQ(means.steps().front(), 0);
     for (const std::int64_t step : means.steps())
         means.keep(frame_at(step, Vec3(0, 0, 1e-5 * static_cast<double>(step))));
@@ -85,7 +85,7 @@ TEST(PeriodMeans, TakeTheBedToHaveRestedBeforeTheRun) {
 TEST(PeriodMeans, LeaveOtherPicturesAsTheyAre) {
     Film film = mean_film(1);
     film.segments.emplace_back();
-    PeriodMeans means({{800, 0}, {1000, 1}}, film, kClock, 0, 0);
+    PeriodMeans means({{800, 0}, {1000, 1}}, film.segments, kClock, 0, 0);
     Frame now = frame_at(1000, Vec3(1, 2, 3));
     means.fill(now);
     EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
