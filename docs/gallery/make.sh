@@ -36,6 +36,7 @@ for by in speed vertical-velocity start-height displacement rise spin kinetic-en
 done
 picture arrows "${still[@]}" --set film.arrows.grid=10
 picture force_chains "${still[@]}" --set film.force_chains=true --set 'film.ghost=["small", "big"]'
+picture text "${still[@]}" --set 'film.text="mixing {lacey}\nkinetic energy {kinetic:mJ}"'
 picture plots "${still[@]}" --set 'film.plot=[{y="height_difference"}, {y="lacey"}]'
 
 # What wants more than one frame.

@@ -60,6 +60,8 @@ void add_shows(Keys& keys) {
     keys.push_back(entry("film.colour.unit", KeyKind::text, note("one that fits the range"),
                          "Of the colour bar, for example \"cm/s\"."));
     keys.push_back(integer("film.colour.layers", 2, 12, literal("5"), "Bands of start-height."));
+    keys.push_back(entry("film.text", KeyKind::text, note("none"),
+                         "Words beside the grains; {lacey} or {kinetic:mJ} are values of measures.csv."));
     keys.push_back(entry("film.plot[].y", KeyKind::text, required(),
                          "A column of measures.csv, drawn against time: height_difference, lacey, kinetic."));
     keys.push_back(entry("film.plot[].label", KeyKind::text, note("by the column"), "Above the plot."));

@@ -1,12 +1,15 @@
 // What the film says with colours and marks, beyond which species a grain is. Plain values in SI units.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "engine/scene/live_text.hpp"
 
 namespace grainreel {
 
@@ -66,6 +69,8 @@ struct FilmShows {
     std::vector<std::size_t> hidden;        // species that are not drawn
     std::vector<std::size_t> ghosts;        // species that are seen through
     std::vector<std::int32_t> highlighted;  // ids
+    std::string text;                       // beside the grains, as it was written
+    std::vector<LiveWords> live_words;      // what it says
     std::vector<FilmPlot> plots;
     FilmArrows arrows;
     FilmTrails trails;
@@ -73,11 +78,17 @@ struct FilmShows {
     bool operator==(const FilmShows&) const = default;
 };
 
-// What the film needs of a frame beyond the grains' state: Frame::displacement, Frame::touches.
+// What the film needs of a frame beyond the grains' state: Frame::displacement, ...
 inline bool needs_displacement(const FilmShows& look) {
     return look.colour.by == GrainValue::displacement || look.colour.by == GrainValue::rise ||
            (look.arrows.across > 0 && look.arrows.period);
 }
+// ... Frame::measures, ...
+inline bool needs_measures(const FilmShows& look) {
+    return !look.plots.empty() || std::any_of(look.live_words.begin(), look.live_words.end(),
+                                              [](const LiveWords& part) { return !part.column.empty(); });
+}
+// ... Frame::touches.
 inline bool needs_touches(const FilmShows& look) {
     return look.force_chains || look.colour.by == GrainValue::coordination ||
            look.colour.by == GrainValue::contact_force;

@@ -5,6 +5,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/grain_values.hpp"
+#include "engine/scene/live_text.hpp"
 #include "engine/scene/measure_columns.hpp"
 #include "engine/scene/reader_parts.hpp"
 
@@ -84,27 +85,13 @@ void read_colour(Document& document, const Scene& scene, GrainColouring& colour)
 
 constexpr std::size_t most_plots = 3;  // beside the grains
 
-// The column that a scene means, with or without its unit ("kinetic_J", "kinetic"). The first four count
-// steps and time, which is the plot's other axis.
-const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name) {
-    for (std::size_t i = 4; i < columns.size(); ++i) {
-        const std::string& full = columns[i].name;
-        const bool has_unit = columns[i].dimension != Dimension::number;
-        if (full == name || (has_unit && full.substr(0, full.rfind('_')) == name)) return &columns[i];
-    }
-    return nullptr;
-}
-
 FilmPlot read_plot(Document& document, const std::vector<MeasureColumn>& columns, const std::string& table) {
     const std::string name = document.required_text(table + ".y");
     const MeasureColumn* column = find_column(columns, name);
-    if (column == nullptr) {
-        std::string known;
-        for (std::size_t i = 4; i < columns.size(); ++i) known += (i > 4 ? ", " : "") + columns[i].name;
-        document.fail(
-            table + ".y",
-            fmt::format("must be a column of measures.csv, but is \"{}\"; there are {}", name, known));
-    }
+    if (column == nullptr)
+        document.fail(table + ".y",
+                      fmt::format("must be a column of measures.csv, but is \"{}\"; there are {}", name,
+                                  column_names(columns)));
     FilmPlot plot;
     plot.column = column->name;
     plot.label = document.text(table + ".label").value_or(column->label);
@@ -114,10 +101,23 @@ FilmPlot read_plot(Document& document, const std::vector<MeasureColumn>& columns
     return plot;
 }
 
-void read_plots(Document& document, Scene& scene) {
+std::vector<MeasureColumn> columns_of(const Scene& scene) {
     std::vector<std::string> names;
     for (const Species& species : scene.species) names.push_back(species.name);
-    const std::vector<MeasureColumn> columns = measure_columns(names);
+    return measure_columns(names);
+}
+
+void read_text(Document& document, const Scene& scene, FilmShows& look) {
+    look.text = document.text("film.text").value_or("");
+    try {
+        look.live_words = parse_live_text(look.text, columns_of(scene));
+    } catch (const UserError& error) {
+        document.fail("film.text", error.what());
+    }
+}
+
+void read_plots(Document& document, Scene& scene) {
+    const std::vector<MeasureColumn> columns = columns_of(scene);
     const std::size_t count = document.size("film.plot");
     if (count > most_plots)
         document.fail("film.plot", fmt::format("are {}, but only {} fit beside the grains; remove some",
@@ -168,6 +168,7 @@ void read_shows(Document& document, Scene& scene) {
                           fmt::format("names \"{}\", which film.hide takes away; keep one of them",
                                       scene.species[ghost].name));
     look.highlighted = ids_at(document, scene, "film.highlight");
+    read_text(document, scene, look);
     read_plots(document, scene);
     read_arrows(document, scene, look.arrows);
     read_trails(document, scene, look.trails);

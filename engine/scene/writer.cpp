@@ -315,6 +315,7 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
     out.put("size", fmt::format("[{}, {}]", film.width, film.height));
     out.put("rate", film.rate);
     out.words("title", film.title);
+    if (!film.shows.text.empty()) out.words("text", film.shows.text);
     out.whole("quality", film.quality);
     out.words("preset", film.preset);
     if (!film.purpose.empty()) out.words("for", film.purpose);

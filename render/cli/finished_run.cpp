@@ -95,7 +95,7 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
         contacts_.emplace(file_in(folder_, "contacts.nc",
                                   "the run was not told to keep contacts (output.contacts = true); let "
                                   "film.colour.by be something else and film.force_chains false"));
-    if (!scene_.film.shows.plots.empty()) read_measures_of_run();
+    if (needs_measures(scene_.film.shows)) read_measures_of_run();
 }
 
 void FinishedRun::read_measures_of_run() {
@@ -110,7 +110,9 @@ void FinishedRun::read_measures_of_run() {
     };
     bool all = known("time_s");
     for (const FilmPlot& plot : scene_.film.shows.plots) all = all && known(plot.column);
-    if (!all) throw UserError(fmt::format("{}: lacks a column that the film plots", measures().string()));
+    for (const LiveWords& part : scene_.film.shows.live_words)
+        all = all && (part.column.empty() || known(part.column));
+    if (!all) throw UserError(fmt::format("{}: lacks a column that the film shows", measures().string()));
     measured_ = measures_->values(static_cast<std::size_t>(column("time_s")), 0, measures_->rows());
 }
 

@@ -31,7 +31,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains) {
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                    std::size_t grains)
     : measures_(folder / "measures.csv", species_names(scene)) {
-    if (!scene.film.shows.plots.empty()) table_ = std::make_shared<MeasureTable>(measures_.columns());
+    if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (plan.trajectory_every == 0) return;
     trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, grains));
     if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, build_info::version);

@@ -127,7 +127,7 @@ void SceneRun::add_what_the_film_needs(Frame& frame) {
     if (needs_touches(look))
         for (const Simulation::ContactRecord& contact : simulation_.contacts())
             frame.touches.push_back({contact.first, contact.second, contact.normal});
-    if (look.plots.empty()) return;
+    if (!needs_measures(look)) return;
     frame.measures = files_->measures();
     frame.measure_rows = frame.measures->rows();
 }

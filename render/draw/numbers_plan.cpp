@@ -15,6 +15,13 @@ Rectangle whole(double x, double y, double width, double height) {
     return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};
 }
 
+double note_height(const Writer& measure, const Scene& scene, double inner) {
+    if (scene.film.shows.text.empty()) return 0;
+    const std::string longest =
+        live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
+    return note_block(measure, longest, 0, 0, inner).height + measure.type.gap;
+}
+
 // Clock, dial, drive and caption below each other, plots at the lower end.
 void plan_column(const Writer& measure, const Scene& scene, double height, NumbersPlan& plan) {
     const TypeScale& type = measure.type;
@@ -32,12 +39,13 @@ void plan_column(const Writer& measure, const Scene& scene, double height, Numbe
     plan.caption = y;
     plan.caption_lines = 4;
     const double line = measure.write(0, 0, "0", measure.minor(), {}).height;
-    plan.caption_end = y + 4 * line;
-    plan.height = plan.caption_end;
+    plan.caption_end = plan.note = y + 4 * line;
+    plan.note_end = plan.note + note_height(measure, scene, plan.inner);
+    plan.height = plan.note_end;
     const auto count = static_cast<double>(scene.film.shows.plots.size());
     if (count == 0) return;
     plan.width = std::max(plan.width, plot_width * scene.film.width);
-    const double room = (height - type.margin - plan.caption_end) / count - type.gap;
+    const double room = (height - type.margin - plan.note_end) / count - type.gap;
     const double each = std::clamp(room, least_plot * scene.film.height, most_plot * scene.film.height);
     for (double k = 0; k < count; ++k)
         plan.plots.push_back(whole(plan.x, height - type.margin - (count - k) * (each + type.gap) + type.gap,
@@ -51,7 +59,8 @@ void plan_rows(const Writer& measure, const Scene& scene, double height, Numbers
     // Two lines are kept for the caption, whatever it says, so that nothing moves.
     plan.caption_lines = 2;
     double y = plan.caption + 2.6 * type.minor + type.gap;
-    plan.caption_end = y;
+    plan.caption_end = plan.note = y;
+    plan.note_end = y += note_height(measure, scene, plan.inner);
     if (scene.drive.present) {
         plan.dial = plan.drive = y;
         const TextSize disc = dial_block(measure, scene.drive, nullptr, plan.radius, 0, 0);

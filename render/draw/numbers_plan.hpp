@@ -14,7 +14,8 @@ struct NumbersPlan {
     double clock = 0, caption = 0, dial = 0;  // upper ends
     int caption_lines = 1;
     double drive_x = 0, drive = 0;
-    double arrows_x = 0;  // portrait only: gravity and drive, beside the drive's numbers
+    double note = 0, note_end = 0;  // the scene's own words, under the caption
+    double arrows_x = 0;            // portrait only: gravity and drive, beside the drive's numbers
     // Where what changes is cut off from what follows below.
     double clock_end = 0, caption_end = 0, dial_end = 0;
     std::vector<Rectangle> plots;

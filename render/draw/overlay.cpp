@@ -1,11 +1,13 @@
 #include "render/draw/overlay.hpp"
 
-#include "engine/scene/bed.hpp"
-#include "engine/scene/measure_columns.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "engine/base/error.hpp"
+#include "engine/measure/measure_table.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/scene/measure_columns.hpp"
 #include "render/draw/captions.hpp"
 
 namespace grainreel {
@@ -141,6 +143,11 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
                 writer.write(plan_.x, plan_.caption, caption, writer.minor(), palette_.faint_ink, plan_.inner,
                              plan_.caption_lines);
         });
+    const std::string note = note_of(frame);
+    if (plan_.note_end > plan_.note && (!written_ || note != note_))
+        renew(picture, strip(plan_.note, plan_.note_end), [&](cairo_t* on) {
+            note_block({on, type_, palette_}, note, plan_.x, plan_.note + 0.5 * type_.gap, plan_.inner);
+        });
     // The hand is drawn where the drive is; before the drive there is none.
     const double angle = frame.time < 0 ? -1 : frame.phase;
     const double stroke = frame.floor_offset.dot(scene_.drive.direction);
@@ -152,8 +159,23 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
     written_ = true;
     clock_ = clock;
     caption_ = caption;
+    note_ = note;
     angle_ = angle;
     stroke_ = stroke;
+}
+
+// With the values of the last row of measures until the frame.
+std::string Overlay::note_of(const Frame& frame) const {
+    return live_text(scene_.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
+        if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
+        const std::vector<std::string>& columns = frame.measures->columns();
+        const auto found = std::find(columns.begin(), columns.end(), name);
+        GRAINREEL_CHECK(found != columns.end());
+        return frame.measures
+            ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
+                     frame.measure_rows)
+            .front();
+    });
 }
 
 void Overlay::renew_plots(Picture& picture, const Frame& frame) {

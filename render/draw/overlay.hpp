@@ -37,6 +37,7 @@ class Overlay {
     template <class Draw>
     void renew(Picture& picture, const Rectangle& part, const Draw& draw);
     void renew_plots(Picture& picture, const Frame& frame);
+    std::string note_of(const Frame& frame) const;
 
     const Scene& scene_;
     const Palette palette_;
@@ -48,7 +49,7 @@ class Overlay {
     View drawn_for_;
     bool written_ = false;
     // What is in the picture now.
-    std::string clock_, caption_;
+    std::string clock_, caption_, note_;
     double angle_ = 0, stroke_ = 0;
 };
 

@@ -275,4 +275,18 @@ TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& fram
     return size;
 }
 
+TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap) {
+    TextSize size;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t to = std::min(text.find('\n', from), text.size());
+        const std::string line = to > from ? text.substr(from, to - from) : " ";
+        const TextSize one =
+            writer.write(x, y + size.height, line, writer.main(), writer.palette.ink, wrap, 2);
+        size.width = std::max(size.width, one.width);
+        size.height += one.height;
+        from = to + 1;
+    }
+    return size;
+}
+
 }  // namespace grainreel

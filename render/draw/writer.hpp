@@ -55,6 +55,8 @@ TextSize exaggeration_block(const Writer& writer, const Film& film, double x, do
 // still part.
 TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
                     double y);
+// Lines of the scene's own words, each in up to two lines of the gutter.
+TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap);
 // All that clock_block would write.
 std::string clock_words(const Scene& scene, const Frame& frame);
 // Time and, with a drive, the cycle.

@@ -48,7 +48,9 @@ TEST_F(MovieProgram, MeansAndExposuresLeaveTheRunAlone) {
     ASSERT_EQ(movie({"--no-film", "--out", "plain"}).status, 0);
     const std::string segments =
         "film.segment=[{kind=\"locked\", average=2, duration=\"0.1 s\"}, {exposure=\"40 ms\", exposures=5}]";
-    ASSERT_EQ(movie({"--set", segments, "--frames", "--out", "spans"}).status, 0);
+    ASSERT_EQ(movie({"--set", segments, "--set", "film.text=\"{kinetic:mJ}\"", "--frames", "--out", "spans"})
+                  .status,
+              0);
     EXPECT_EQ(record_of(here / "spans")["engine"]["state_hash"],
               record_of(here / "plain")["engine"]["state_hash"]);
     for (const char* file : {"trajectory.nc", "measures.csv", "final.csv"})

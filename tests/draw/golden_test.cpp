@@ -209,6 +209,11 @@ const Feature kFeatures[] = {
      [](Film& f) {
          f.shows.plots = {{"lacey", "mixing", std::array<double, 2>{0, 1}}};
      }},
+    {"text",
+     [](Film& f) {
+         f.shows.text = "mixing {lacey}\nby Lacey";
+         f.shows.live_words = {{"mixing ", "lacey", "", 1}, {"\nby Lacey", "", "", 1}};
+     }},
     {"wall_ghost", [](Film& f) { f.wall_ghost = true, f.exaggerate = 5; }},
     {"axes_from_above", [](Film& f) { f.axes = true, f.camera.azimuth = -40, f.camera.elevation = 50; }},
     {"orthographic_close", [](Film& f) { f.camera.field_of_view = 0, f.camera.zoom = 3; }},

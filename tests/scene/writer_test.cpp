@@ -102,7 +102,7 @@ TEST(Writer, WhatTheFilmShowsReadsBackBitByBit) {
 
 TEST(Writer, GhostsAndSpansReadBackBitByBit) {
     expect_round_trip(read_text(
-        wedge_text, {"film.ghost=[\"big\"]",
+        wedge_text, {"film.ghost=[\"big\"]", "film.text=\"{lacey}\\n{kinetic:mJ} \\\"so\\\"\"",
                      "film.segment=[{kind=\"locked\", average=3, duration=0.5}, {exposure=\"33.3 ms\"}]"}));
     const Scene scene = read_text(
         wedge_text, {"film.segment=[{kind=\"locked\", average=3, duration=0.5}, {exposure=\"40 ms\", "

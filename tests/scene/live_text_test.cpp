@@ -1,0 +1,43 @@
+#include "engine/scene/live_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+namespace {
+
+const std::vector<MeasureColumn> kColumns = measure_columns({"small", "big"});
+
+std::string shown(const std::string& text, std::optional<double> value) {
+    return live_text(parse_live_text(text, kColumns), [&](const std::string&) { return value; });
+}
+
+TEST(LiveText, ShowsValuesInTheirUnits) {
+    EXPECT_EQ(shown("no values", 1), "no values");
+    EXPECT_EQ(shown("mixing {lacey} of 1", 0.81234), "mixing 0.812 of 1");
+    EXPECT_EQ(shown("{kinetic_J}\n{kinetic:mJ}", 0.0123), "0.0123 J\n12.3 mJ");
+    EXPECT_EQ(shown("{height_difference}", -0.25), "−0.25");
+    EXPECT_EQ(shown("{{lacey} {lacey}", 0.5), "{lacey} 0.5");
+    EXPECT_EQ(shown("{kinetic}", std::nullopt), "– J");
+}
+
+TEST(LiveText, SaysWhatIsWrong) {
+    const auto complaint = [](const std::string& text) -> std::string {
+        try {
+            parse_live_text(text, kColumns);
+            return "accepted";
+        } catch (const UserError& error) {
+            return error.what();
+        }
+    };
+    EXPECT_THAT(complaint("{gone}"), testing::HasSubstr("{gone}, which is no column of measures.csv; there are"));
+    EXPECT_THAT(complaint("{lacey"), testing::HasSubstr("a { without its }"));
+    EXPECT_THAT(complaint("{lacey:m}"), testing::HasSubstr("pure number"));
+    EXPECT_THAT(complaint("{kinetic:mm}"), testing::HasSubstr("energy"));
+    EXPECT_THAT(complaint("{step}"), testing::HasSubstr("no column"));
+}
+
+}  // namespace
+}  // namespace grainreel
