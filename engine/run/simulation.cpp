@@ -244,6 +244,10 @@ std::vector<Simulation::ContactRecord> Simulation::contacts() const {
         const std::int32_t second = c.second >= 0 ? impl_->grains.id[c.second] : c.second;
         records.push_back({impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point});
     });
+    // Each thread shows its own, which is no order to go by.
+    std::sort(records.begin(), records.end(), [](const ContactRecord& a, const ContactRecord& b) {
+        return a.first != b.first ? a.first < b.first : a.second < b.second;
+    });
     return records;
 }
 

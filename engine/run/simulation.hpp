@@ -56,12 +56,13 @@ class Simulation {
     Measures measures() const;
     std::uint64_t state_hash() const;  // of every bit that decides the future
 
-    // Contacts that carry force now, for contacts.nc.
+    // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.
     struct ContactRecord {
         std::int32_t first, second;  // ids; second is -1 - face for a wall
         double normal;               // N, >= 0
         Vec3 tangential;             // N, on `second`
         Vec3 point;                  // m
+        bool operator==(const ContactRecord&) const = default;
     };
     std::vector<ContactRecord> contacts() const;
 

@@ -193,11 +193,14 @@ TEST(Determinism, SameBitsOnAnyNumberOfThreads) {
         const Scene scene = scene_of({std::string("contact.law=\"") + law + "\""});
         const Plan plan = make_plan(scene);
         std::uint64_t first = 0;
+        std::vector<Simulation::ContactRecord> contacts;
         for (const int threads : {1, 2, 3}) {
             Simulation simulation = packed(scene, plan, threads);
             simulation.advance(2 * plan.clock.steps_per_period);
-            if (threads == 1) first = simulation.state_hash();
+            if (threads == 1) first = simulation.state_hash(), contacts = simulation.contacts();
             EXPECT_EQ(simulation.state_hash(), first) << law << " on " << threads << " threads";
+            ASSERT_GT(contacts.size(), 100u);
+            EXPECT_EQ(simulation.contacts(), contacts) << law << " on " << threads << " threads";
         }
     }
 }
