@@ -15,9 +15,9 @@ namespace grainreel {
 // Words, and then a value; the last ones have none.
 struct LiveWords {
     std::string words;
-    std::string column;     // of measures.csv; empty for none
-    std::string unit;       // shown after the value; empty for a pure number
-    double unit_size = 1;   // SI
+    std::string column;    // of measures.csv; empty for none
+    std::string unit;      // shown after the value; empty for a pure number
+    double unit_size = 1;  // SI
     bool operator==(const LiveWords&) const = default;
 };
 

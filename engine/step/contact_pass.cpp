@@ -289,14 +289,14 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
 }
 
 void ContactPass::show(const ContactGroup& group, const LawInput& in, const void* history, const Chunk& chunk,
-                       const Seen& seen) const {
+                       int late, const Seen& seen) const {
     EnergyChunk energy;
     group.law->observe(in, history, force_, energy);
     if (group.rolling)
         group.rolling->observe(for_rolling(group, in), behind_law(group, history), force_, energy);
     for (int k = 0; k < chunk.count; ++k) {
         if ((touch_.touching >> k & 1) && chunk.first[k] >= begin_)
-            seen(chunk.first[k], chunk.second[k], k, touch_, force_, energy);
+            seen(chunk.first[k], chunk.second[k], k >= late, k, touch_, force_, energy);
     }
 }
 
@@ -307,7 +307,8 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
     for (std::int32_t c = 0; c < table.size(); c += kChunk) {
         const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, table.size() - c)};
         const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false);
-        show(group, in, table.histories().of_block(c), chunk, seen);
+        show(group, in, table.histories().of_block(c), chunk, std::clamp(table.sorted() - c, 0, kChunk),
+             seen);
     }
     // Where positions have moved on since the forces, some touch that had none yet.
     Histories none;
@@ -320,7 +321,7 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
             std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
             const Chunk chunk{first, second, 1};
             show(group, prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false), none.of_block(0),
-                 chunk, seen);
+                 chunk, 0, seen);
         }
     });
 }

@@ -64,10 +64,11 @@ class ContactPass {
     void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Times& times,
                  CostClock& clock);
 
-    // Shows every contact of a group under an own grain that touches: its bodies, and where to find it in the
-    // chunks.
-    using Seen = std::function<void(std::int32_t first, std::int32_t second, int at, const TouchChunk&,
-                                    const ForceChunk&, const EnergyChunk&)>;
+    // Shows every contact of a group under an own grain that touches: its bodies, where to find it in the
+    // chunks, and whether it is late: the others come by rising first and second body, and which are late
+    // does not depend on the threads.
+    using Seen = std::function<void(std::int32_t first, std::int32_t second, bool late, int at,
+                                    const TouchChunk&, const ForceChunk&, const EnergyChunk&)>;
     void observe(const ContactRules& rules, std::size_t group, const Grains& grains, const WallState& state,
                  const Seen& seen) const;
 
@@ -102,8 +103,9 @@ class ContactPass {
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                      const WallState& state, const Times& times, const Chunk& chunk, bool rounded) const;
     void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, CostClock& clock);
+    // The chunk's contacts from `late` on are late.
     void show(const ContactGroup& group, const LawInput& in, const void* history, const Chunk& chunk,
-              const Seen& seen) const;
+              int late, const Seen& seen) const;
 
     std::vector<ContactTable> tables_;  // one a group
     std::int32_t begin_ = 0, end_ = 0;  // the own grains

@@ -32,6 +32,7 @@ class ContactTable {
 
     // The contacts from 0 to size(), and some more to fill a block, so that whole registers can be read.
     std::int32_t size() const { return size_; }
+    std::int32_t sorted() const { return sorted_; }  // so many, since the last sort(), are in order
     const std::int32_t* first() const { return first_.data(); }
     const std::int32_t* second() const { return second_.data(); }
     Histories& histories() { return histories_; }

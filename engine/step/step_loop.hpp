@@ -63,6 +63,7 @@ class StepLoop {
     // drag: 1/s, slows every grain's velocity and spin; 0 for none (settling and growing only).
     void run(std::int64_t from, std::int64_t count, double step, double drag);
 
+    // In the same order on any number of threads.
     void visit_contacts(std::int64_t at_step, const std::function<void(const ContactView&)>& visit) const;
 
     // Lists and histories, bit by bit, for checkpoints and hashes. Grains are saved by their owner.

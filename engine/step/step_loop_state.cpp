@@ -13,15 +13,25 @@ void StepLoop::visit_contacts(std::int64_t at_step,
     WallState walls;
     const Pose pose = around_.motion.at(at_step);
     walls.set(around_.faces, pose, pose, 0);
+    std::vector<ContactView> late;
     for (std::size_t g = 0; g < rules_.groups.size(); ++g) {
         const bool of_pairs = rules_.groups[g].of_pairs, rubs = rules_.groups[g].law->rubs;
+        late.clear();
         for (const Member& m : members_) {
-            m.contacts.observe(rules_, g, grains_, walls,
-                               [&](std::int32_t i, std::int32_t j, int at, const TouchChunk& touch,
-                                   const ForceChunk& force, const EnergyChunk& energy) {
-                                   visit(view(rubs, i, of_pairs ? j : -1 - j, at, touch, force, energy));
-                               });
+            m.contacts.observe(
+                rules_, g, grains_, walls,
+                [&](std::int32_t i, std::int32_t j, bool is_late, int at, const TouchChunk& touch,
+                    const ForceChunk& force, const EnergyChunk& energy) {
+                    const std::int32_t second = of_pairs ? j : -1 - j;
+                    const ContactView seen = view(rubs, i, second, at, touch, force, energy);
+                    is_late ? late.push_back(seen) : visit(seen);
+                });
         }
+        // Threads own stretches of the grains, so those in order are in order on any number of them.
+        std::sort(late.begin(), late.end(), [](const ContactView& a, const ContactView& b) {
+            return a.first != b.first ? a.first < b.first : a.second > b.second;
+        });
+        for (const ContactView& seen : late) visit(seen);
     }
 }
 

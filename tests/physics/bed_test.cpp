@@ -194,6 +194,7 @@ TEST(Determinism, SameBitsOnAnyNumberOfThreads) {
         const Plan plan = make_plan(scene);
         std::uint64_t first = 0;
         std::vector<Simulation::ContactRecord> contacts;
+        std::pair<double, double> energies;
         for (const int threads : {1, 2, 3}) {
             Simulation simulation = packed(scene, plan, threads);
             simulation.advance(2 * plan.clock.steps_per_period);
@@ -201,6 +202,10 @@ TEST(Determinism, SameBitsOnAnyNumberOfThreads) {
             EXPECT_EQ(simulation.state_hash(), first) << law << " on " << threads << " threads";
             ASSERT_GT(contacts.size(), 100u);
             EXPECT_EQ(simulation.contacts(), contacts) << law << " on " << threads << " threads";
+            const Measures measures = simulation.measures();
+            if (threads == 1) energies = {measures.elastic, measures.lost};
+            EXPECT_EQ(std::pair(measures.elastic, measures.lost), energies)
+                << law << " on " << threads << " threads";
         }
     }
 }

@@ -32,7 +32,8 @@ TEST(LiveText, SaysWhatIsWrong) {
             return error.what();
         }
     };
-    EXPECT_THAT(complaint("{gone}"), testing::HasSubstr("{gone}, which is no column of measures.csv; there are"));
+    EXPECT_THAT(complaint("{gone}"),
+                testing::HasSubstr("{gone}, which is no column of measures.csv; there are"));
     EXPECT_THAT(complaint("{lacey"), testing::HasSubstr("a { without its }"));
     EXPECT_THAT(complaint("{lacey:m}"), testing::HasSubstr("pure number"));
     EXPECT_THAT(complaint("{kinetic:mm}"), testing::HasSubstr("energy"));
