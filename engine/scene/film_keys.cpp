@@ -132,6 +132,9 @@ void add_film(Keys& keys) {
     keys.push_back(entry("film.ghost", KeyKind::name_list, note("none"),
                          "Species that the others are seen through, as if of glass."));
     keys.push_back(ids("film.highlight", "Ids of grains that are ringed."));
+    keys.push_back(
+        entry("film.highlight_if", KeyKind::text, note("none"),
+              "Rings around grains of which this holds: \"speed > 20 cm/s\", \"coordination < 2\"."));
     keys.push_back(entry("film.force_chains", KeyKind::flag, literal("false"),
                          "Lines between grains that touch, as wide as they push."));
     add_film_cut(keys);

@@ -64,11 +64,22 @@ struct FilmTrails {
     bool operator==(const FilmTrails&) const = default;
 };
 
+// Grains of which a quantity lies above or below a limit.
+struct GrainCondition {
+    GrainValue of = GrainValue::species;  // of no meaning: there is no condition
+    bool above = true;
+    double limit = 0;  // SI
+    std::string text;  // "speed > 20 cm/s", as it was written
+    bool wanted() const { return of != GrainValue::species; }
+    bool operator==(const GrainCondition&) const = default;
+};
+
 struct FilmShows {
     GrainColouring colour;
     std::vector<std::size_t> hidden;        // species that are not drawn
     std::vector<std::size_t> ghosts;        // species that are seen through
     std::vector<std::int32_t> highlighted;  // ids
+    GrainCondition highlight_if;            // and those
     std::string text;                       // beside the grains, as it was written
     std::vector<LiveWords> live_words;      // what it says
     std::vector<FilmPlot> plots;
@@ -79,8 +90,11 @@ struct FilmShows {
 };
 
 // What the film needs of a frame beyond the grains' state: Frame::displacement, ...
+inline bool shows_value(const FilmShows& look, GrainValue value) {
+    return look.colour.by == value || look.highlight_if.of == value;
+}
 inline bool needs_displacement(const FilmShows& look) {
-    return look.colour.by == GrainValue::displacement || look.colour.by == GrainValue::rise ||
+    return shows_value(look, GrainValue::displacement) || shows_value(look, GrainValue::rise) ||
            (look.arrows.across > 0 && look.arrows.period);
 }
 // ... Frame::measures, ...
@@ -90,8 +104,8 @@ inline bool needs_measures(const FilmShows& look) {
 }
 // ... Frame::touches.
 inline bool needs_touches(const FilmShows& look) {
-    return look.force_chains || look.colour.by == GrainValue::coordination ||
-           look.colour.by == GrainValue::contact_force;
+    return look.force_chains || shows_value(look, GrainValue::coordination) ||
+           shows_value(look, GrainValue::contact_force);
 }
 
 }  // namespace grainreel

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "engine/base/error.hpp"
 #include "engine/scene/grain_values.hpp"
@@ -144,6 +145,41 @@ void read_arrows(Document& document, const Scene& scene, FilmArrows& arrows) {
     if (arrows.speed <= 0) document.fail("film.arrows", "need a 'speed': this scene gives no scale for it");
 }
 
+// "speed > 20 cm/s": a quantity that can colour grains, < or >, a value of it.
+void read_condition(Document& document, const Scene& scene, GrainCondition& condition) {
+    const char* const path = "film.highlight_if";
+    const auto text = document.text(path);
+    if (!text) return;
+    const std::size_t sign = text->find_first_of("<>");
+    const std::string name = text->substr(0, text->find_last_not_of(' ', sign == 0 ? 0 : sign - 1) + 1);
+    const auto known = std::find_if(grain_value_words.begin() + 1, grain_value_words.end(),
+                                    [&](const auto& word) { return word.first == name; });
+    if (sign == std::string::npos || known == grain_value_words.end())
+        document.fail(path,
+                      fmt::format("must be a quantity of film.colour.by, < or >, and a value, but is \"{}\"; "
+                                  "write for example \"speed > 20 cm/s\"",
+                                  *text));
+    condition = {known->second, (*text)[sign] == '>', 0, *text};
+    const std::size_t at = text->find_first_not_of(' ', sign + 1);
+    const std::string value = at == std::string::npos ? "" : text->substr(at);
+    const Dimension dimension = dimension_of(condition.of);
+    if (dimension == Dimension::number) {
+        const char* const end = value.data() + value.size();
+        const auto read = std::from_chars(value.data(), end, condition.limit);
+        if (read.ec != std::errc() || read.ptr != end)
+            document.fail(path, fmt::format("wants a plain number after its sign, but has \"{}\"", value));
+        return;
+    }
+    try {
+        condition.limit = parse_quantity(value, dimension);
+    } catch (const UserError& error) {
+        document.fail(path, error.what());
+    }
+    if (!scene.drive.present &&
+        (condition.of == GrainValue::displacement || condition.of == GrainValue::rise))
+        document.fail(path, "counts from one period of the drive to the next, but nothing oscillates");
+}
+
 void read_trails(Document& document, const Scene& scene, FilmTrails& trails) {
     if (!document.is_table("film.trails")) return;
     trails.species = species_list(document, scene, "film.trails.species");
@@ -168,6 +204,7 @@ void read_shows(Document& document, Scene& scene) {
                           fmt::format("names \"{}\", which film.hide takes away; keep one of them",
                                       scene.species[ghost].name));
     look.highlighted = ids_at(document, scene, "film.highlight");
+    read_condition(document, scene, look.highlight_if);
     read_text(document, scene, look);
     read_plots(document, scene);
     read_arrows(document, scene, look.arrows);

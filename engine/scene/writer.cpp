@@ -333,6 +333,7 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
     if (!film.shows.hidden.empty()) out.put("hide", names(film.shows.hidden, species));
     if (!film.shows.ghosts.empty()) out.put("ghost", names(film.shows.ghosts, species));
     if (!film.shows.highlighted.empty()) out.put("highlight", ids(film.shows.highlighted));
+    if (film.shows.highlight_if.wanted()) out.words("highlight_if", film.shows.highlight_if.text);
     out.flag("force_chains", film.shows.force_chains);
     write_colour(out, film.shows.colour);
     write_marks(out, film.shows, species);

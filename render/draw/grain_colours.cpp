@@ -20,7 +20,8 @@ Albedo linear(const Colour& colour) {
 }  // namespace
 
 GrainColours::GrainColours(const Scene& scene)
-    : quantities_(scene), by_species_(scene.film.shows.colour.by == GrainValue::species) {
+    : quantities_(scene, scene.film.shows.colour.by),
+      by_species_(scene.film.shows.colour.by == GrainValue::species) {
     if (by_species_) {
         for (const Species& species : scene.species) steps_.push_back(linear(species.colour));
         return;

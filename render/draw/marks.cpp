@@ -37,7 +37,15 @@ double widest_line(int picture_height) {
 }
 
 Marks::Marks(const Scene& scene, const Palette& palette)
-    : scene_(scene), palette_(palette), pen_(std::max(1.0, scene.film.height / 540.0)), trails_(scene) {}
+    : scene_(scene),
+      palette_(palette),
+      pen_(std::max(1.0, scene.film.height / 540.0)),
+      trails_(scene),
+      condition_(scene, scene.film.shows.highlight_if.of) {}
+
+void Marks::start_from(const Frame& frame) {
+    condition_.start_from(frame);
+}
 
 void Marks::draw(const View& view, const Frame& frame, Shapes& on) {
     const FilmShows& look = scene_.film.shows;
@@ -47,7 +55,7 @@ void Marks::draw(const View& view, const Frame& frame, Shapes& on) {
         draw_trails(view, on);
     }
     if (look.arrows.across > 0) draw_arrows(view, frame, on);
-    if (!look.highlighted.empty()) draw_rings(view, frame, on);
+    if (!look.highlighted.empty() || look.highlight_if.wanted()) draw_rings(view, frame, on);
 }
 
 void Marks::outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
@@ -104,21 +112,30 @@ void Marks::draw_arrows(const View& view, const Frame& frame, Shapes& on) const 
     }
 }
 
-void Marks::draw_rings(const View& view, const Frame& frame, Shapes& on) const {
-    constexpr int corners = 48;
-    for (const std::int32_t id : scene_.film.shows.highlighted) {
-        const auto grain = find_grain(frame, id);
-        if (!grain) continue;
-        const Vec3& at = frame.position[*grain];
-        const Pixel middle = view.project(at);
-        const double radius = frame.radius[*grain] * view.pixels_per_metre(at) + 2.5 * pen_;
-        std::vector<Pixel> ring;
-        for (int k = 0; k < corners; ++k) {
-            const double angle = 2 * std::numbers::pi * k / corners;
-            ring.push_back(middle + radius * Pixel(std::cos(angle), std::sin(angle)));
-        }
-        outlined(on, ring, true, 2 * pen_, palette_.accent);
+void Marks::draw_rings(const View& view, const Frame& frame, Shapes& on) {
+    const FilmShows& look = scene_.film.shows;
+    for (const std::int32_t id : look.highlighted)
+        if (const auto grain = find_grain(frame, id))
+            draw_ring(view, frame.position[*grain], frame.radius[*grain], on);
+    if (!look.highlight_if.wanted()) return;
+    const std::vector<double>& values = condition_.of(frame);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const double over = values[i] - look.highlight_if.limit;
+        if (look.highlight_if.above ? over > 0 : over < 0)
+            draw_ring(view, frame.position[i], frame.radius[i], on);
     }
+}
+
+void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, Shapes& on) const {
+    constexpr int corners = 48;
+    const Pixel middle = view.project(at);
+    const double radius = grain_radius * view.pixels_per_metre(at) + 2.5 * pen_;
+    std::vector<Pixel> ring;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2 * std::numbers::pi * k / corners;
+        ring.push_back(middle + radius * Pixel(std::cos(angle), std::sin(angle)));
+    }
+    outlined(on, ring, true, 2 * pen_, palette_.accent);
 }
 
 }  // namespace grainreel

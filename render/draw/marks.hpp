@@ -5,6 +5,7 @@
 #include "engine/scene/scene.hpp"
 #include "render/draw/canvas.hpp"
 #include "render/draw/palette.hpp"
+#include "render/draw/quantities.hpp"
 #include "render/draw/trails.hpp"
 #include "render/draw/view.hpp"
 
@@ -20,6 +21,8 @@ class Marks {
   public:
     Marks(const Scene& scene, const Palette& palette);
 
+    // See Renderer.
+    void start_from(const Frame& frame);
     // Adds them to what is to be painted after the grains. Frames come in the order of time.
     void draw(const View& view, const Frame& frame, Shapes& on);
 
@@ -27,7 +30,8 @@ class Marks {
     void draw_chains(const View& view, const Frame& frame, Shapes& on) const;
     void draw_trails(const View& view, Shapes& on) const;
     void draw_arrows(const View& view, const Frame& frame, Shapes& on) const;
-    void draw_rings(const View& view, const Frame& frame, Shapes& on) const;
+    void draw_rings(const View& view, const Frame& frame, Shapes& on);
+    void draw_ring(const View& view, const Vec3& at, double radius, Shapes& on) const;
     // A line on a wider one of the background's colour, so that it reads on any grain.
     void outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
                   const Colour& colour) const;
@@ -36,6 +40,7 @@ class Marks {
     const Palette palette_;
     const double pen_;  // pixels
     Trails trails_;
+    Quantities condition_;  // of which some grains are ringed
 };
 
 }  // namespace grainreel

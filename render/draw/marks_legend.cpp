@@ -75,16 +75,18 @@ TextSize marks_block(const Writer& writer, const Scene& scene, double scale, dou
                   colour(writer.palette.accent);
                   line(icon, widest_line(scene.film.height), middle);
               });
+    std::string ringed;
     if (!look.highlighted.empty())
-        entry(icon,
-              fmt::format("{} {}", look.highlighted.size() > 1 ? "grains" : "grain",
-                          fmt::join(look.highlighted, ", ")),
-              [&](double middle) {
-                  colour(writer.palette.accent);
-                  cairo_set_line_width(writer.on, 1.4 * pen);
-                  cairo_arc(writer.on, x + 0.5 * icon, middle, 0.5 * type.main, 0, 2 * std::numbers::pi);
-                  cairo_stroke(writer.on);
-              });
+        ringed = fmt::format("{} {}", look.highlighted.size() > 1 ? "grains" : "grain",
+                             fmt::join(look.highlighted, ", "));
+    if (look.highlight_if.wanted()) ringed += (ringed.empty() ? "" : ", ") + look.highlight_if.text;
+    if (!ringed.empty())
+        entry(icon, ringed, [&](double middle) {
+            colour(writer.palette.accent);
+            cairo_set_line_width(writer.on, 1.4 * pen);
+            cairo_arc(writer.on, x + 0.5 * icon, middle, 0.5 * type.main, 0, 2 * std::numbers::pi);
+            cairo_stroke(writer.on);
+        });
     if (size.height > 0) size.height += 0.6 * type.gap;
     return size;
 }

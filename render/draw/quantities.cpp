@@ -19,7 +19,7 @@ double kinetic_energy(const Frame& frame, std::size_t i, double density) {
 
 }  // namespace
 
-Quantities::Quantities(const Scene& scene) : by_(scene.film.shows.colour.by) {
+Quantities::Quantities(const Scene& scene, GrainValue by) : by_(by) {
     for (const Species& species : scene.species) density_.push_back(species.density);
 }
 

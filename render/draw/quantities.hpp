@@ -10,7 +10,7 @@ namespace grainreel {
 
 class Quantities {
   public:
-    explicit Quantities(const Scene& scene);
+    Quantities(const Scene& scene, GrainValue by);
 
     // Start heights are counted from this frame; without a call, from the first one that of() sees.
     void start_from(const Frame& frame);

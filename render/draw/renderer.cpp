@@ -226,6 +226,7 @@ const View& Renderer::view() const {
 void Renderer::start_from(const Frame& frame) {
     const Frame& start = impl_->exaggeration.shown(frame);
     impl_->sphere_painter.start_from(start);
+    impl_->marks.start_from(start);
     if (impl_->ghost_painter) impl_->ghost_painter->start_from(start);
 }
 

@@ -33,7 +33,8 @@ std::size_t frames_that_wait(const Scene& scene, const FilmOptions& options) {
     std::int64_t moments = 1;  // that a picture is exposed over
     for (const FilmSegment& segment : scene.film.segments)
         if (segment.exposure > 0) moments = std::max<std::int64_t>(moments, segment.exposures);
-    const std::int64_t fit = turn_bytes / (bytes_a_grain * moments * std::max<std::int64_t>(1, scene.grains()));
+    const std::int64_t fit =
+        turn_bytes / (bytes_a_grain * moments * std::max<std::int64_t>(1, scene.grains()));
     return static_cast<std::size_t>(std::clamp<std::int64_t>(fit, waiting_frames, longest_turn));
 }
 // Those in the queue, the one being drawn, the one being encoded, and the last one, kept for the poster.

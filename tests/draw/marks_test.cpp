@@ -212,6 +212,23 @@ TEST(Rings, GoAroundTheirGrain) {
     EXPECT_LT(ring.right - ring.left, 2 * 0.004 * view.focal + 16);
 }
 
+TEST(Rings, GoAroundThoseThatMeetTheCondition) {
+    Scene scene = wedge(960, 540);
+    Frame frame =
+        frame_of({{{0, -0.02, 0.08}, 0.008, 0}, {{0, 0.02, 0.1}, 0.004, 1}, {{0, 0, 0.12}, 0.005, 1}});
+    frame.velocity = {{0, 0, 0.1}, {0, 0.3, 0}, {0, 0, -0.19}};
+    for (const auto& [above, ids] : {std::pair{true, std::vector<std::int32_t>{1}}, {false, {0, 2}}}) {
+        scene.film.shows.highlighted = ids;
+        scene.film.shows.highlight_if = {};
+        const Picture by_id =
+            Renderer(scene, bare_layout(scene.film), 1, gl::Provider::automatic).draw(frame, "");
+        scene.film.shows.highlighted = {};
+        scene.film.shows.highlight_if = {GrainValue::speed, above, 0.2, "speed"};
+        EXPECT_EQ(Renderer(scene, bare_layout(scene.film), 1, gl::Provider::automatic).draw(frame, "").rgba,
+                  by_id.rgba);
+    }
+}
+
 TEST(TrailsOfGrains, AreThePositionsOfTheLastFrames) {
     Scene scene = wedge();
     scene.film.shows.trails = {{}, {1}, 0.25};

@@ -35,6 +35,18 @@ TEST(Look, UsualRangesComeFromTheDrive) {
     EXPECT_EQ(colour_of({"film.colour.by=displacement"}).range[1], 0.005);
 }
 
+TEST(Look, AConditionIsAQuantityAndALimit) {
+    const GrainCondition fast =
+        read_text(wedge_text, {"film.highlight_if=\"speed > 20 cm/s\""}).film.shows.highlight_if;
+    EXPECT_EQ(fast.of, GrainValue::speed);
+    EXPECT_TRUE(fast.above);
+    EXPECT_EQ(fast.limit, 0.2);
+    const FilmShows loose = read_text(wedge_text, {"film.highlight_if=\"coordination<2\""}).film.shows;
+    EXPECT_FALSE(loose.highlight_if.above);
+    EXPECT_EQ(loose.highlight_if.limit, 2);
+    EXPECT_TRUE(needs_touches(loose));
+}
+
 TEST(Look, RangesAndUnitsAreQuantities) {
     const GrainColouring colour =
         colour_of({"film.colour.by=speed", "film.colour.range=[0, \"20 cm/s\"]", "film.colour.unit=cm/s"});
@@ -58,6 +70,11 @@ TEST(Look, MistakesAreSaid) {
     expect_complaint({"film.hide=\"big\""}, "must be a list of names");
     expect_complaint({"film.ghost=[\"big\"]", "film.hide=[\"small\", \"big\"]"},
                      "'ghost' names \"big\", which film.hide takes away; keep one of them");
+    expect_complaint({"film.highlight_if=\"fast > 1\""}, "must be a quantity of film.colour.by, < or >");
+    expect_complaint({"film.highlight_if=\"speed = 1\""}, "must be a quantity of film.colour.by, < or >");
+    expect_complaint({"film.highlight_if=\"> 1\""}, "must be a quantity of film.colour.by, < or >");
+    expect_complaint({"film.highlight_if=\"speed > 1 kg\""}, "must be a speed");
+    expect_complaint({"film.highlight_if=\"coordination > two\""}, "wants a plain number");
     expect_complaint({"film.segment=[{exposures=4}]"}, "they are moments of an 'exposure'");
     expect_complaint({"film.segment=[{average=2, exposure=\"1 s\"}]"}, "a mean over periods has no shutter");
     expect_complaint({"film.segment=[{average=0}]"}, "from 1 to 1000");

@@ -87,10 +87,10 @@ TEST(Writer, WhatTheFilmShowsReadsBackBitByBit) {
     for (const char* by : {"speed", "vertical-velocity", "start-height", "displacement", "rise", "spin",
                            "kinetic-energy", "coordination", "contact-force"})
         expect_round_trip(read_text(wedge_text, {std::string("film.colour.by=") + by}));
-    expect_round_trip(read_text(
-        wedge_text,
-        {"film.colour.by=speed", "film.colour.range=[\"1 cm/s\", \"31.7 cm/s\"]", "film.colour.unit=mm/s",
-         "film.colour.map=cividis", "film.hide=[\"big\"]", "film.highlight=[3, 14]"}));
+    expect_round_trip(
+        read_text(wedge_text, {"film.colour.by=speed", "film.colour.range=[\"1 cm/s\", \"31.7 cm/s\"]",
+                               "film.colour.unit=mm/s", "film.colour.map=cividis", "film.hide=[\"big\"]",
+                               "film.highlight=[3, 14]", "film.highlight_if=\"spin > 3 rad/s\""}));
     expect_round_trip(read_text(wedge_text +
                                     "[[film.plot]]\ny = \"lacey\"\nlabel = \"mixing\"\nrange = [0, 1]\n"
                                     "[[film.plot]]\ny = \"kinetic\"\n[film.arrows]\ngrid = 9\n[film.trails]\n"
