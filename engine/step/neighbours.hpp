@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/nearest_image.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/cells.hpp"
@@ -31,15 +32,6 @@ struct NeighbourLists {
     NeighbourList pairs;
     std::vector<WallNeighbour> walls;  // by rising grain, then face
 };
-
-// x shortened to the nearest image when the depth is periodic; period in m, 0 for none.
-inline double nearest_image(double x, double period) {
-    if (period > 0) {
-        if (x > 0.5 * period) return x - period;
-        if (x < -0.5 * period) return x + period;
-    }
-    return x;
-}
 
 // Wraps positions into the period, puts the grains in spatial order and lays the cells over them.
 // index[old] = new.

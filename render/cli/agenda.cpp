@@ -17,7 +17,7 @@ std::int64_t next_multiple(std::int64_t every, std::int64_t step) {
 }  // namespace
 
 Agenda::Agenda(std::vector<Shot> shots, std::int64_t trajectory_every, std::int64_t measures_every,
-               std::int64_t first, std::int64_t last, std::vector<std::int64_t> moments)
+               std::int64_t first, std::int64_t last, std::set<std::int64_t> moments)
     : shots_(std::move(shots)),
       moments_(std::move(moments)),
       trajectory_every_(trajectory_every),
@@ -34,12 +34,12 @@ std::optional<Stop> Agenda::next() {
     const std::int64_t trajectory = next_multiple(trajectory_every_, at_);
     const std::int64_t measures = at_ == first_ ? first_ : next_multiple(measures_every_, at_);
 
-    const std::int64_t moment = moment_ < moments_.size() ? moments_[moment_] : never;
+    const std::int64_t moment = moments_.empty() ? never : *moments_.begin();
 
     Stop stop;
     stop.step = std::min({shot, trajectory, measures, moment, last_});
     stop.moment = moment == stop.step;
-    if (stop.moment) ++moment_;
+    if (stop.moment) moments_.erase(moments_.begin());
     while (shot_ < shots_.size() && shots_[shot_].step == stop.step)
         stop.segments.push_back(shots_[shot_++].segment);
     stop.trajectory = trajectory == stop.step;

@@ -1,7 +1,6 @@
 #include "render/cli/earlier_positions.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "engine/base/nearest_image.hpp"
 
 namespace grainreel {
 
@@ -10,7 +9,7 @@ void set_displacement(Frame& now, const std::vector<Vec3>& before, double depth)
     now.displacement.resize(now.size());
     for (std::size_t i = 0; i < now.size(); ++i) {
         Vec3 way = now.position[i] - before[i];
-        if (depth > 0) way.x() -= depth * std::round(way.x() / depth);
+        way.x() = nearest_image(way.x(), depth);
         now.displacement[i] = way;
     }
 }
@@ -18,21 +17,18 @@ void set_displacement(Frame& now, const std::vector<Vec3>& before, double depth)
 EarlierPositions::EarlierPositions(const std::vector<Shot>& shots, std::int64_t steps_per_period,
                                    std::int64_t first, double depth)
     : period_(steps_per_period), depth_(depth) {
-    for (const Shot& shot : shots) {
-        const std::int64_t before = shot.step - period_;
-        if (before >= first && (steps_.empty() || before > steps_.back())) steps_.push_back(before);
-    }
+    for (const Shot& shot : shots)
+        if (shot.step - period_ >= first) moments_.want(shot.step, {shot.step - period_});
 }
 
 void EarlierPositions::keep(const Frame& frame) {
-    if (std::binary_search(steps_.begin(), steps_.end(), frame.step)) kept_[frame.step] = frame.position;
+    if (moments_.wants(frame.step)) moments_.keep(frame.step, frame.position);
 }
 
 void EarlierPositions::fill(Frame& frame) {
-    if (period_ == 0) return;
-    kept_.erase(kept_.begin(), kept_.lower_bound(frame.step - period_));
-    const auto before = kept_.find(frame.step - period_);
-    if (before != kept_.end()) set_displacement(frame, before->second, depth_);
+    for (const std::int64_t step : moments_.of(frame.step))
+        if (const auto* before = moments_.at(step)) set_displacement(frame, *before, depth_);
+    moments_.done_with(frame.step);
 }
 
 }  // namespace grainreel

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <set>
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "render/cli/kept_moments.hpp"
 #include "render/film/sampler.hpp"
 
 namespace grainreel {
@@ -22,8 +23,8 @@ class EarlierPositions {
     EarlierPositions(const std::vector<Shot>& shots, std::int64_t steps_per_period, std::int64_t first,
                      double depth);
 
-    // At which a frame has to be kept: strictly rising.
-    const std::vector<std::int64_t>& steps() const { return steps_; }
+    // At which a frame has to be kept.
+    const std::set<std::int64_t>& steps() const { return moments_.steps(); }
     // Copies the positions, when the step is one of those.
     void keep(const Frame& frame);
     // Gives the frame its displacements, when that of one period before was kept, and forgets older ones.
@@ -32,8 +33,7 @@ class EarlierPositions {
   private:
     std::int64_t period_ = 0;
     double depth_ = 0;
-    std::vector<std::int64_t> steps_;
-    std::map<std::int64_t, std::vector<Vec3>> kept_;
+    KeptMoments<std::vector<Vec3>> moments_;
 };
 
 }  // namespace grainreel

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <set>
 #include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/cli/kept_moments.hpp"
 #include "render/film/sampler.hpp"
 
 namespace grainreel {
@@ -18,17 +19,15 @@ class ExposedMoments {
     ExposedMoments(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments,
                    const Clock& clock, std::int64_t first);
 
-    // At which a frame has to be kept: strictly rising.
-    const std::vector<std::int64_t>& steps() const { return steps_; }
+    // At which a frame has to be kept.
+    const std::set<std::int64_t>& steps() const { return moments_.steps(); }
     // Copies it, when it is one of those.
     void keep(const Frame& frame);
     // Sets Frame::exposed, and forgets what no later picture wants.
     void fill(Frame& frame);
 
   private:
-    std::map<std::int64_t, std::vector<std::int64_t>> wanted_;  // a picture's step: those it is exposed over
-    std::vector<std::int64_t> steps_;
-    std::map<std::int64_t, FramePtr> kept_;
+    KeptMoments<FramePtr> moments_;
 };
 
 }  // namespace grainreel

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/cli/kept_moments.hpp"
 #include "render/film/sampler.hpp"
 
 namespace grainreel {
@@ -19,8 +21,8 @@ class PeriodMeans {
     PeriodMeans(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments, const Clock& clock,
                 std::int64_t first, double depth);
 
-    // At which positions have to be kept: strictly rising.
-    const std::vector<std::int64_t>& steps() const { return steps_; }
+    // At which positions have to be kept.
+    const std::set<std::int64_t>& steps() const { return moments_.steps(); }
     // Copies them, when the step is one of those.
     void keep(const Frame& frame);
     // Positions become means over the periods up to the frame, velocities how far that time has moved things,
@@ -32,13 +34,11 @@ class PeriodMeans {
         std::vector<Vec3> position;
         Vec3 wall{0, 0, 0}, floor{0, 0, 0};
     };
-    const Moment* at(std::int64_t step) const;  // null when grains have come or gone since
+    void average(Frame& frame, const std::vector<std::int64_t>& steps) const;
 
-    std::int64_t first_ = 0;
-    double depth_ = 0, step_time_ = 0;
-    std::map<std::int64_t, std::vector<std::int64_t>> wanted_;  // a picture's step: those it is a mean of
-    std::vector<std::int64_t> steps_;
-    std::map<std::int64_t, Moment> kept_;
+    double depth_ = 0;
+    std::map<std::int64_t, double> span_;  // s, of the mean at a step
+    KeptMoments<Moment> moments_;
 };
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 #include "render/cli/scene_run.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -59,11 +60,9 @@ void SceneRun::start(std::vector<Shot> shots, const std::vector<FilmSegment>& se
         earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, first_step_, depth);
     exposed_ = ExposedMoments(shots, segments, plan_.clock, first_step_);
     means_ = PeriodMeans(shots, segments, plan_.clock, first_step_, depth);
-    std::vector<std::int64_t> moments;
+    std::set<std::int64_t> moments;
     for (const auto* steps : {&earlier_.steps(), &exposed_.steps(), &means_.steps()})
-        moments.insert(moments.end(), steps->begin(), steps->end());
-    std::sort(moments.begin(), moments.end());
-    moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
+        moments.insert(steps->begin(), steps->end());
     agenda_.emplace(std::move(shots), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
                     std::move(moments));
     shots_ = agenda_->shots();

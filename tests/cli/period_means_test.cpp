@@ -72,7 +72,7 @@ TEST(PeriodMeans, GoTheShortWayRoundAPeriodicContainer) {
 
 TEST(PeriodMeans, TakeTheBedToHaveRestedBeforeTheRun) {
     PeriodMeans means({{400, 0}}, mean_film(1).segments, kClock, 0, 0);
-    EXPECT_EQ(means.steps().front(), 0);
+    EXPECT_EQ(*means.steps().begin(), 0);
     for (const std::int64_t step : means.steps())
         means.keep(frame_at(step, Vec3(0, 0, 1e-5 * static_cast<double>(step))));
     Frame now = frame_at(400, Vec3(0, 0, 4e-3));

@@ -9,17 +9,22 @@
 namespace grainreel {
 namespace {
 
-TEST(BoundedQueue, KeepsOrderAndNeverHoldsMoreThanItsCapacity) {
-    constexpr int count = 20'000, capacity = 3;
-    BoundedQueue<int> queue(capacity);
-    std::atomic<int> in = 0;
-    std::thread producer([&] {
+// Pushes 0 to count - 1 and counts what is in.
+std::thread producer_of(BoundedQueue<int>& queue, int count, std::atomic<int>& in) {
+    return std::thread([&queue, count, &in] {
         for (int i = 0; i < count; ++i) {
             ASSERT_TRUE(queue.push(i));
             ++in;
         }
         queue.close();
     });
+}
+
+TEST(BoundedQueue, KeepsOrderAndNeverHoldsMoreThanItsCapacity) {
+    constexpr int count = 20'000, capacity = 3;
+    BoundedQueue<int> queue(capacity);
+    std::atomic<int> in = 0;
+    std::thread producer = producer_of(queue, count, in);
     int out = 0, most = 0;
     while (const std::optional<int> item = queue.pop()) {
         ASSERT_EQ(*item, out++);
@@ -59,13 +64,7 @@ TEST(BoundedQueue, TakesTurns) {
     constexpr int count = 1000, capacity = 4;
     BoundedQueue<int> queue(capacity, std::chrono::hours(1));
     std::atomic<int> in = 0;
-    std::thread producer([&] {
-        for (int i = 0; i < count; ++i) {
-            ASSERT_TRUE(queue.push(i));
-            ++in;
-        }
-        queue.close();
-    });
+    std::thread producer = producer_of(queue, count, in);
     for (int out = 0; out < count; ++out) {
         ASSERT_EQ(queue.pop(), out);
         // Within a turn all that ever went in are those of this turn.
