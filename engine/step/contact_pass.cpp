@@ -145,23 +145,22 @@ void ContactPass::keep(std::vector<KeptContacts>& kept) const {
     for (std::size_t g = 0; g < tables_.size(); ++g) {
         const ContactTable& table = tables_[g];
         kept[g].clear();
-        for (std::int32_t c = 0; c < table.size(); ++c) {
-            if (table.first()[c] >= begin_) table.keep(c, table.age(c), kept[g]);
-        }
+        table.each_stretch([&](std::int32_t begin, std::int32_t end) {
+            for (std::int32_t c = begin; c < end; ++c) {
+                if (table.first()[c] >= begin_) table.keep(c, table.age(c), kept[g]);
+            }
+        });
     }
 }
 
 void ContactPass::restore(const ContactRules& rules, const std::vector<KeptContacts>& kept,
                           std::int32_t steps) {
-    std::vector<std::int32_t> ages;
     for (std::size_t g = 0; g < tables_.size(); ++g) {
-        ages.clear();
         for (std::size_t k = 0; k < kept[g].size(); ++k) {
-            if (!owns(kept[g].first[k]) && !(rules.groups[g].of_pairs && owns(kept[g].second[k]))) continue;
-            tables_[g].take(kept[g], k);
-            ages.push_back(kept[g].tag[k]);
+            if (owns(kept[g].first[k]) || (rules.groups[g].of_pairs && owns(kept[g].second[k])))
+                tables_[g].restore(kept[g], k);
         }
-        tables_[g].restore(ages, steps);
+        tables_[g].end_restore(steps);
     }
 }
 
@@ -231,15 +230,29 @@ void ContactPass::each_touching_candidate(const ContactRules& rules, const Conta
 }
 
 void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state,
-                          const Times& times, CostClock& clock) {
-    for (std::size_t g = 0; g < tables_.size(); ++g) {
+                          const Times& times, GoOn& go_on, CostClock& clock) {
+    for (std::size_t g = tables_.size(); g-- > 0;) {
         ContactTable& table = tables_[g];
         const Step in{rules, rules.groups[g], grains, state, times};
         table.begin_step();
         each_touching_candidate(rules, in.group, table, grains, state,
                                 [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
         table.end_step();
-        for (std::int32_t c = 0; c < table.size(); c += kChunk) compute_chunk(in, table, c, clock);
+        compute_stretch(in, table, table.late(), table.size(), nullptr, clock);
+        compute_stretch(in, table, 0, table.sorted(), g == 0 ? &go_on : nullptr, clock);
+    }
+    grainreel::go_on(grains, go_on, end_);
+    clock.lap(Cost::integrate);
+}
+
+void ContactPass::compute_stretch(const Step& in, ContactTable& table, std::int32_t begin, std::int32_t end,
+                                  GoOn* then, CostClock& clock) {
+    for (std::int32_t c = begin; c < end; c += kChunk) {
+        const int count = std::min(kChunk, end - c);
+        compute_chunk(in, table, c, count, clock);
+        if (!then || c + count == end) continue;
+        go_on(in.grains, *then, table.first()[c + count]);
+        clock.lap(Cost::integrate);
     }
 }
 
@@ -248,7 +261,7 @@ namespace {
 // Beds larger than the caches wait for the second bodies, which lie far from the first. A fifth of their
 // time.
 void fetch_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t begin) {
-    const std::int32_t end = std::min(table.size(), begin + kChunk);
+    const std::int32_t end = std::min(table.sorted(), begin + kChunk);
     for (std::int32_t c = begin; c < end; ++c) {
         const std::int32_t j = table.second()[c];
         __builtin_prefetch(&grains.place[j]);
@@ -264,9 +277,10 @@ void fetch_ahead(const Grains& grains, bool rounded, const ContactTable& table, 
 
 }  // namespace
 
-void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_t c, CostClock& clock) {
+void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_t c, int count,
+                                CostClock& clock) {
     const ContactGroup& group = in.group;
-    const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, table.size() - c)};
+    const Chunk chunk{table.first() + c, table.second() + c, count};
     const bool rounded = group.number_size() == sizeof(float);
     if (group.of_pairs) fetch_ahead(in.grains, rounded, table, c + kChunk);
     const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, rounded);
@@ -289,14 +303,14 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
 }
 
 void ContactPass::show(const ContactGroup& group, const LawInput& in, const void* history, const Chunk& chunk,
-                       int late, const Seen& seen) const {
+                       bool late, const Seen& seen) const {
     EnergyChunk energy;
     group.law->observe(in, history, force_, energy);
     if (group.rolling)
         group.rolling->observe(for_rolling(group, in), behind_law(group, history), force_, energy);
     for (int k = 0; k < chunk.count; ++k) {
         if ((touch_.touching >> k & 1) && chunk.first[k] >= begin_)
-            seen(chunk.first[k], chunk.second[k], k >= late, k, touch_, force_, energy);
+            seen(chunk.first[k], chunk.second[k], late, k, touch_, force_, energy);
     }
 }
 
@@ -304,12 +318,13 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
                           const WallState& state, const Seen& seen) const {
     const ContactGroup& group = rules.groups[g];
     const ContactTable& table = tables_[g];
-    for (std::int32_t c = 0; c < table.size(); c += kChunk) {
-        const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, table.size() - c)};
-        const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false);
-        show(group, in, table.histories().of_block(c), chunk, std::clamp(table.sorted() - c, 0, kChunk),
-             seen);
-    }
+    table.each_stretch([&](std::int32_t begin, std::int32_t end) {
+        for (std::int32_t c = begin; c < end; c += kChunk) {
+            const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, end - c)};
+            const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false);
+            show(group, in, table.histories().of_block(c), chunk, begin > 0, seen);
+        }
+    });
     // Where positions have moved on since the forces, some touch that had none yet.
     Histories none;
     none.shape(group.history_size(), group.number_size());
@@ -321,7 +336,7 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
             std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
             const Chunk chunk{first, second, 1};
             show(group, prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false), none.of_block(0),
-                 chunk, 0, seen);
+                 chunk, true, seen);
         }
     });
 }

@@ -12,6 +12,7 @@
 #include "engine/step/contact_rules.hpp"
 #include "engine/step/contact_table.hpp"
 #include "engine/step/cost_clock.hpp"
+#include "engine/step/integrate.hpp"
 #include "engine/step/loads.hpp"
 #include "engine/step/neighbours.hpp"
 
@@ -53,8 +54,8 @@ class ContactPass {
     void list_candidates(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                          const std::vector<Face>& faces, const Pose& pose, double skin);
 
-    // One step of all laws: adds the forces of pairs, then of walls, to the loads of the own grains, and the
-    // moving walls' work to them.
+    // One step of all laws: adds the forces, of walls before those of pairs, to the loads of the own grains,
+    // and the moving walls' work to them. Grains go on as soon as their loads are complete.
     struct Times {
         double since;  // s, since the last forces
         double ahead;  // steps, from the velocity between the two to that of now
@@ -62,7 +63,7 @@ class ContactPass {
         double turns;  // s: `since`, or 0 where positions and velocities are of one time
     };
     void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Times& times,
-                 CostClock& clock);
+                 GoOn& go_on, CostClock& clock);
 
     // Shows every contact of a group under an own grain that touches: its bodies, where to find it in the
     // chunks, and whether it is late: the others come by rising first and second body, and which are late
@@ -102,10 +103,11 @@ class ContactPass {
                                         const WallState& state, const Work& work);
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                      const WallState& state, const Times& times, const Chunk& chunk, bool rounded) const;
-    void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, CostClock& clock);
-    // The chunk's contacts from `late` on are late.
+    void compute_stretch(const Step& in, ContactTable& table, std::int32_t begin, std::int32_t end,
+                         GoOn* then, CostClock& clock);
+    void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, int count, CostClock& clock);
     void show(const ContactGroup& group, const LawInput& in, const void* history, const Chunk& chunk,
-              int late, const Seen& seen) const;
+              bool late, const Seen& seen) const;
 
     std::vector<ContactTable> tables_;  // one a group
     std::int32_t begin_ = 0, end_ = 0;  // the own grains

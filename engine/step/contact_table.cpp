@@ -21,6 +21,10 @@ void ContactTable::shape(int history_size, std::size_t number_size) {
 
 // A contact without a history that is taken to touch.
 void ContactTable::add(std::int32_t i, std::int32_t j) {
+    if (size_ == sorted_) {
+        fill_up();
+        size_ = late();
+    }
     const std::size_t room = (size_ + kBlock) / kBlock * kBlock;
     if (first_.size() < room) {
         reserve(room);
@@ -181,15 +185,17 @@ std::int32_t ContactTable::age(std::int32_t c) const {
     return touches(c) ? began : ~began;
 }
 
-void ContactTable::restore(const std::vector<std::int32_t>& ages, std::int32_t step) {
-    for (std::int32_t c = 0; c < size_; ++c) {
-        const std::int32_t step_of_c = began(ages[c]);
-        if (step_of_c == 0)
-            ++sorted_;
-        else if (batches_.empty() || batches_.back().step != step_of_c)
-            batches_.push_back({c, step_of_c});
-        if (ages[c] < 0) drop(c);
-    }
+void ContactTable::restore(const KeptContacts& kept, std::size_t k) {
+    const std::int32_t age = kept.tag[k], step = began(age);
+    if (step != 0 && batches_.empty()) sorted_ = size_;
+    take(kept, k);
+    if (step != 0 && (batches_.empty() || batches_.back().step != step))
+        batches_.push_back({size_ - 1, step});
+    if (age < 0) drop(size_ - 1);
+}
+
+void ContactTable::end_restore(std::int32_t step) {
+    if (batches_.empty()) sorted_ = size_;
     fill_up();
     step_ = step;
 }

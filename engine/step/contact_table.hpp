@@ -1,7 +1,7 @@
-// The contacts of one law under one thread, in the order in which they are computed: first by rising first
-// and second body, then, behind these, those that began since the last sort(). A contact that has parted
-// keeps its place, without a force or a history, until then. Beside them the candidates: pairs so close that
-// they may touch before the next refresh. The same table serves grains at walls.
+// The contacts of one law under one thread: by rising first and second body, then, behind these and some
+// empty places, the late ones, which began since the last sort(). A contact that has parted keeps its place,
+// without a force or a history, until then. Beside them the candidates: pairs so close that they may touch
+// before the next refresh. The same table serves grains at walls.
 //
 // Why not one list of all near pairs, whose histories stay where they are: a law wants what touches side by
 // side, and packing that anew each step cost a third of the contact pass (docs/performance.md).
@@ -30,9 +30,11 @@ class ContactTable {
     // No contacts; histories of so many numbers.
     void shape(int history_size, std::size_t number_size);
 
-    // The contacts from 0 to size(), and some more to fill a block, so that whole registers can be read.
+    // The contacts in order are [0, sorted()), the late ones [late(), size()); behind both stands more to fill
+    // a block, so that whole registers can be read. Empty places do not touch.
+    std::int32_t sorted() const { return sorted_; }
+    std::int32_t late() const { return (sorted_ + 63) / 64 * 64; }
     std::int32_t size() const { return size_; }
-    std::int32_t sorted() const { return sorted_; }  // so many, since the last sort(), are in order
     const std::int32_t* first() const { return first_.data(); }
     const std::int32_t* second() const { return second_.data(); }
     Histories& histories() { return histories_; }
@@ -74,12 +76,20 @@ class ContactTable {
     // Appends contact c to `kept`, or takes contact k of it.
     void keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const;
     void take(const KeptContacts& kept, std::size_t k);
-    // For checkpoints: at which step since the last sort() contact c began, ~ that if it has parted. After
-    // all were taken, in the order of that, first and second: what they are to be told.
+    // For checkpoints: at which step since the last sort() contact c began, ~ that if it has parted.
     std::int32_t age(std::int32_t c) const;
     static std::int32_t began(std::int32_t age) { return age < 0 ? ~age : age; }
-    void restore(const std::vector<std::int32_t>& ages, std::int32_t step);
+    // Takes back contact k of those kept with their age as tag: all, in the order of it, first and second.
+    void restore(const KeptContacts& kept, std::size_t k);
+    void end_restore(std::int32_t step);
     std::int32_t step() const { return step_; }
+
+    // work(begin, end): the stretches of contacts without empty places, the late ones first.
+    template <class Work>
+    void each_stretch(const Work& work) const {
+        work(late(), size_);
+        work(0, sorted_);
+    }
 
   private:
     void add(std::int32_t i, std::int32_t j);

@@ -131,6 +131,13 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
     return fastest;
 }
 
+void go_on(Grains& grains, GoOn& stretch, std::int32_t complete) {
+    const std::int32_t end = std::min(complete, stretch.end);
+    if (end <= stretch.next) return;
+    stretch.fastest = stretch.fastest.cwiseMax(kick_and_go_on(grains, stretch.kicks, stretch.next, end));
+    stretch.next = end;
+}
+
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i)
         grains.place[i].position += in.drift * grains.motion[i].velocity;

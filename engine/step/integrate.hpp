@@ -8,8 +8,8 @@
 namespace grainreel {
 
 struct KickInput {
-    Vec3 gravity;           // m/s2
-    bool rubs;              // spins follow torques
+    Vec3 gravity{0, 0, 0};  // m/s2
+    bool rubs = false;      // spins follow torques
     double keep = 1;        // share of velocity and spin that drag leaves after an ending kick
     Vec3 frame{0, 0, 0};    // m/s, velocity against which speeds are measured and motion is rounded
     double end_kick = 0;    // s, by the forces of now
@@ -26,6 +26,18 @@ void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t 
 
 // An end and a beginning at once, the same bits as one after the other.
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// A stretch of grains that begin their next step while others still wait for forces: while they are in the
+// cache, which saves a second way through memory. Nobody may need them as they were: no contact that is yet
+// to be computed, and no other thread.
+struct GoOn {
+    std::int32_t begin = 0, end = 0;  // empty: none
+    KickInput kicks;
+    std::int32_t next = 0;  // [begin, next) have gone on
+    Vec3 fastest{0, 0, 0};  // m/s, of these
+};
+// All of them below `complete`.
+void go_on(Grains& grains, GoOn& stretch, std::int32_t complete);
 
 // A drift alone. Loads stay.
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);

@@ -91,15 +91,16 @@ struct ByContact<FloatLanes, rubs> {
 template <class L, bool rubs, class First, class Second>
 HWY_INLINE void add_each(const ChunkOfContacts& chunk, const First& first, const Second& second) {
     constexpr int size = rubs ? 8 : 4;
+    const std::int32_t *const firsts = chunk.first, *const seconds = chunk.second;
     for (int c = 0; c < chunk.count; c += L::count) {
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
         ByContact<L, rubs> lost, gained;
         lost.set(p.force, p.first_loses);
         gained.set(p.force, p.second_gains);
         const auto one = [&](int k) HWY_ATTR {
-            double* from = numbers(first(chunk.first[c + k]));
+            double* from = numbers(first(firsts[c + k]));
             put(record_at<size>(from) - lost[k], from);
-            double* to = numbers(second(chunk.second[c + k]));
+            double* to = numbers(second(seconds[c + k]));
             put(record_at<size>(to) + gained[k], to);
         };
         if (c + L::count <= chunk.count) {
@@ -123,9 +124,11 @@ bool all_between(const ChunkOfContacts& chunk, std::int32_t begin, std::int32_t 
 template <class L, bool rubs>
 void pairs_of(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
               Grains& grains) {
-    const auto any = [&](std::int32_t i) HWY_ATTR -> Load& { return grains.load[i]; };
-    const auto own = [&](std::int32_t i) HWY_ATTR -> Load& {
-        return i >= begin && i < end ? grains.load[i] : scratch.of_others;
+    Load* const loads = grains.load.data();
+    Load* const of_others = &scratch.of_others;
+    const auto any = [loads](std::int32_t i) HWY_ATTR -> Load& { return loads[i]; };
+    const auto own = [loads, of_others, begin, end](std::int32_t i) HWY_ATTR -> Load& {
+        return i >= begin && i < end ? loads[i] : *of_others;
     };
     const bool alone = begin == 0 && end == static_cast<std::int32_t>(grains.size());
     alone || all_between(chunk, begin, end) ? add_each<L, rubs>(chunk, any, any)

@@ -30,12 +30,13 @@ void StepLoop::restart() {
     }
     team_.run([&](int member) {
         members_[member].walls.set(around_.faces, rest, rest, 0);
-        rebuild(member, rest, kLastsWell);
+        rebuild(member, rest, 0, kLastsWell);
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         round_motion(grains_, {}, share_[member], share_[member + 1]);
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
         team_.barrier(member);
-        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, idle);
+        GoOn none;
+        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, none, idle);
     });
     rebuilds_ = refreshes_ = 0;
     fresh_ = true;
@@ -61,18 +62,26 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
 // positions and velocities between the two barriers of a step, while nobody writes them.
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
     const FlushDenormals flush;
-    members_[member].clock.start();
-    for (std::int64_t n = from; n < to; ++n) {
-        for (std::size_t stage = 0; stage < scheme_.stages.size(); ++stage) {
-            const Evaluation at = evaluation(n, stage, step);
-            const double last = at.time - at.since / step;
-            kicks.frame = (drift_since_listing(at.time, step) - drift_since_listing(last, step)) / at.since;
-            move(member, n == from && stage == 0, stage, step, kicks);
-            evaluate(member, at, step, kicks);
+    Member& mine = members_[member];
+    mine.clock.start();
+    std::int64_t n = from;
+    std::size_t stage = 0;
+    Evaluation at = evaluation(n, stage, step);
+    kicks = kicks_before(at, stage, true, step, kicks);
+    for (bool first = true; n < to; first = false) {
+        move(member, first, kicks);
+        begin_evaluation(member, at, step, kicks);
+        const Evaluation now = at;
+        if (++stage == scheme_.stages.size()) stage = 0, ++n;
+        if (n < to) {
+            at = evaluation(n, stage, step);
+            kicks = kicks_before(at, stage, false, step, kicks);
         }
+        send_ahead(member, n < to, kicks);
+        evaluate(member, now);
     }
     end_run(member, step, kicks);
-    members_[member].clock.lap(Cost::integrate);
+    mine.clock.lap(Cost::integrate);
 }
 
 StepLoop::Evaluation StepLoop::evaluation(std::int64_t n, std::size_t stage, double step) const {
@@ -106,25 +115,48 @@ std::array<double, kCosts> StepLoop::cost_shares() const {
     return shares;
 }
 
-// From the last forces to where the next are wanted. What the last run left done is not done again.
-void StepLoop::move(int member, bool first, std::size_t stage, double step, KickInput& kicks) {
-    Member& mine = members_[member];
-    const std::int32_t begin = share_[member], end = share_[member + 1];
-    const std::size_t last = stage == 0 ? scheme_.stages.size() - 1 : stage - 1;
-    kicks.end_kick = step * scheme_.stages[last].kick;
+// From the last forces to where the next are wanted, at `at`. What the last run left done is not done again.
+KickInput StepLoop::kicks_before(const Evaluation& at, std::size_t stage, bool first, double step,
+                                 KickInput kicks) const {
+    const double last = at.time - at.since / step;
+    const std::size_t stage_before = stage == 0 ? scheme_.stages.size() - 1 : stage - 1;
+    kicks.frame = (drift_since_listing(at.time, step) - drift_since_listing(last, step)) / at.since;
+    kicks.end_kick = step * scheme_.stages[stage_before].kick;
     kicks.begin_kick = stage == 0 ? step * scheme_.opening_kick : 0;
     kicks.drift = step * scheme_.stages[stage].drift;
+    if (stage == 0 && !first && !scheme_.corrects) kicks.drift += step * scheme_.closing_drift;
+    return kicks;
+}
+
+void StepLoop::move(int member, bool first, const KickInput& kicks) {
+    Member& mine = members_[member];
+    const std::int32_t begin = share_[member], end = share_[member + 1];
     if (scheme_.corrects) {
         if (!first) correct(grains_, kicks, begin, end);
         mine.fastest = predict(grains_, kicks, begin, end);
-        return;
+    } else if (first) {
+        mine.fastest = kick_and_drift(grains_, kicks, begin, end);
+    } else {
+        const Vec3 before = kick_and_go_on(grains_, kicks, begin, mine.ahead.begin);
+        const Vec3 behind = kick_and_go_on(grains_, kicks, mine.ahead.next, end);
+        mine.fastest = mine.ahead.fastest.cwiseMax(before).cwiseMax(behind);
     }
-    if (stage == 0 && !first) kicks.drift += step * scheme_.closing_drift;
-    mine.fastest =
-        first ? kick_and_drift(grains_, kicks, begin, end) : kick_and_go_on(grains_, kicks, begin, end);
 }
 
-void StepLoop::evaluate(int member, const Evaluation& at, double step, const KickInput& kicks) {
+// Which grains go on with the next step as soon as their loads are complete: those that no other thread reads,
+// as partners of its own.
+void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
+    const std::int32_t reach = lists_.pairs.farthest_partner;
+    const std::int32_t begin = share_[member] + (member > 0 ? reach : 0);
+    const std::int32_t end = share_[member + 1] - (member + 1 < team_.size() ? reach : 0);
+    GoOn& ahead = members_[member].ahead;
+    const bool some = goes_on && !scheme_.corrects && begin < end;
+    ahead = {some ? begin : share_[member], some ? end : share_[member], kicks};
+    ahead.next = ahead.begin;
+}
+
+// Where all grains are now, and what may touch.
+void StepLoop::begin_evaluation(int member, const Evaluation& at, double step, const KickInput& kicks) {
     Member& mine = members_[member];
     mine.clock.lap(Cost::integrate);
     mine.walls.set(around_.faces, at.before, at.now, at.since);
@@ -132,13 +164,18 @@ void StepLoop::evaluate(int member, const Evaluation& at, double step, const Kic
     mine.clock.lap(Cost::other);
     renew_contacts(member, at, step, kicks);
     mine.clock.lap(Cost::neighbours);
+}
+
+void StepLoop::evaluate(int member, const Evaluation& at) {
+    Member& mine = members_[member];
     mine.contacts.compute(rules_, grains_, mine.walls,
-                          {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since}, mine.clock);
+                          {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since}, mine.ahead,
+                          mine.clock);
     team_.barrier(member);
     mine.clock.lap(Cost::other);
 }
 
-void StepLoop::end_run(int member, double step, KickInput& kicks) {
+void StepLoop::end_run(int member, double step, KickInput kicks) {
     const std::int32_t begin = share_[member], end = share_[member + 1];
     kicks.drift = step;
     if (scheme_.corrects) return correct(grains_, kicks, begin, end);
@@ -157,8 +194,7 @@ void StepLoop::renew_contacts(int member, const Evaluation& at, double step, con
     mine.farthest = farthest_of(share_[member], share_[member + 1], drift);
     team_.barrier(member);
     if (lists_expired(mine, at.now, drift)) {
-        rebuild(member, at.now, at.time - listed_step_);
-        if (member == 0) listed_step_ = at.time;
+        rebuild(member, at.now, at.time, at.time - listed_step_);
         mine.reach.drift.setZero();
     } else {
         mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);

@@ -97,6 +97,7 @@ class StepLoop {
         NeighbourList pairs;                // its part of the search, where there are several threads
         std::vector<WallNeighbour> walls_near;
         Reach reach;
+        GoOn ahead;  // its grains that go on before the others
         CostClock clock;
         Vec3 fastest{0, 0, 0};   // m/s, largest components of its grains against the bed's free flight
         double farthest = 0;     // m, from where they were listed
@@ -114,9 +115,13 @@ class StepLoop {
     };
     Evaluation evaluation(std::int64_t n, std::size_t stage, double step) const;
     void run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks);
-    void move(int member, bool first, std::size_t stage, double step, KickInput& kicks);
-    void evaluate(int member, const Evaluation& at, double step, const KickInput& kicks);
-    void end_run(int member, double step, KickInput& kicks);
+    KickInput kicks_before(const Evaluation& at, std::size_t stage, bool first, double step,
+                           KickInput kicks) const;
+    void move(int member, bool first, const KickInput& kicks);
+    void begin_evaluation(int member, const Evaluation& at, double step, const KickInput& kicks);
+    void send_ahead(int member, bool goes_on, const KickInput& kicks);
+    void evaluate(int member, const Evaluation& at);
+    void end_run(int member, double step, KickInput kicks);
     void renew_contacts(int member, const Evaluation& at, double step, const KickInput& kicks);
 
     Vec3 drift_since_listing(double time, double step) const;
@@ -124,11 +129,11 @@ class StepLoop {
     bool lists_expired(const Member& mine, const Pose& now, const Vec3& drift) const;
     double farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const;
     void set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame, double step) const;
-    void rebuild(int member, const Pose& pose, double lasted);
+    void rebuild(int member, const Pose& pose, double time, double lasted);
     static constexpr double kLastsWell = 1000;  // steps, of lists whose skin is right
     double skin_after(double lasted) const;
     void join_lists();
-    void note_listing(const Pose& pose);
+    void note_listing(const Pose& pose, double time);
     void note_speeds();
     void share_out();
     ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,

@@ -6,7 +6,7 @@
 namespace grainreel {
 
 // New order, new neighbour lists, new contacts, histories carried over: called by all members.
-void StepLoop::rebuild(int member, const Pose& pose, double lasted) {
+void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted) {
     Member& mine = members_[member];
     if (member == 0) {
         note_speeds();
@@ -24,7 +24,7 @@ void StepLoop::rebuild(int member, const Pose& pose, double lasted) {
     if (member == 0) {
         if (!alone) join_lists();
         skin_ = next_skin_;
-        note_listing(pose);
+        note_listing(pose, time);
         share_out();
         ++rebuilds_;
     }
@@ -56,7 +56,7 @@ void StepLoop::join_lists() {
     }
 }
 
-void StepLoop::note_listing(const Pose& pose) {
+void StepLoop::note_listing(const Pose& pose, double time) {
     listed_at_.resize(grains_.size());
     listed_velocity_.setZero();
     for (std::size_t i = 0; i < grains_.size(); ++i) {
@@ -65,6 +65,7 @@ void StepLoop::note_listing(const Pose& pose) {
     }
     listed_velocity_ /= static_cast<double>(grains_.size());
     listed_pose_ = pose;
+    listed_step_ = time;
 }
 
 // How fast the threads have worked since the lists were made last, against each other: processors that others
