@@ -32,7 +32,6 @@ BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k) {
             whole.grains.place.push_back(grains.place[i]);
             whole.grains.place.back().position += shift;
             whole.grains.motion.push_back(grains.motion[i]);
-            whole.grains.spin.push_back(grains.spin[i]);
             whole.grains.load.push_back({});
             whole.grains.wall_work.push_back(0);
         }

@@ -93,7 +93,7 @@ struct Bench {
     }
     Vec3& position(std::int32_t id) { return grains.place[at(id)].position; }
     Vec3& velocity(std::int32_t id) { return grains.motion[at(id)].velocity; }
-    Vec3& spin(std::int32_t id) { return grains.spin[at(id)].rate; }
+    Vec3& spin(std::int32_t id) { return grains.motion[at(id)].spin; }
     double kinetic() const {  // J
         const Kinetic k = kinetic_energy(grains);
         return k.translation + k.rotation;

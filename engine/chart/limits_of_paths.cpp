@@ -173,7 +173,7 @@ double slip_a_cycle(LeverArms arms, bool swing, int steps) {
     for (int k = 0; k < cycles * steps; ++k) {
         const double turn = swings * (std::sin(2 * pi * (k + 1) / steps) - std::sin(2 * pi * k / steps));
         bench.velocity(1) = (place(k + 1) - bench.position(1)) / bench.plan.clock.step;
-        for (Spin& spin : bench.grains.spin) spin.rate = Vec3(0, 0, turn / bench.plan.clock.step);
+        for (Motion& m : bench.grains.motion) m.spin = Vec3(0, 0, turn / bench.plan.clock.step);
         bench.run(1);
     }
     double sheared = 0;

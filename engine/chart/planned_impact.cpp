@@ -40,7 +40,7 @@ Vec3 angular_momentum_of(const Bench& bench) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < bench.grains.size(); ++i) {
         sum += bench.grains.mass(i) * bench.grains.place[i].position.cross(bench.grains.motion[i].velocity);
-        sum += bench.grains.inertia(i) * bench.grains.spin[i].rate;
+        sum += bench.grains.inertia(i) * bench.grains.motion[i].spin;
     }
     return sum;
 }

@@ -63,7 +63,7 @@ Rebound rebound(const ImpactLaw& law, double degrees, Target target) {
         const double side = bench.grains.id[i] == 0 ? 1 : -1;
         after.normal += side * v.z() / speed;
         after.tangential += side * v.x() / speed;
-        after.spin += radius * bench.grains.spin[i].rate.y() / speed;
+        after.spin += radius * bench.grains.motion[i].spin.y() / speed;
     }
     return after;
 }

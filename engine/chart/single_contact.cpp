@@ -104,7 +104,7 @@ Rebound oblique(const Method& method, double restitution, double steps, double a
     bench.start();
     // A grazing impact of a Hertz contact lasts longer, by the fifth root of its slowness.
     bench.run(static_cast<std::int64_t>(std::ceil(4 * steps)) + 5);
-    return {bench.grains.motion[0].velocity.x() / speed, radius * bench.grains.spin[0].rate.y() / speed};
+    return {bench.grains.motion[0].velocity.x() / speed, radius * bench.grains.motion[0].spin.y() / speed};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ Kinetic kinetic_energy(const Grains& grains) {
     Kinetic sum;
     for (std::size_t i = 0; i < grains.size(); ++i) {
         sum.translation += 0.5 * grains.motion[i].velocity.squaredNorm() * grains.mass(i);
-        sum.rotation += 0.5 * grains.spin[i].rate.squaredNorm() * grains.inertia(i);
+        sum.rotation += 0.5 * grains.motion[i].spin.squaredNorm() * grains.inertia(i);
     }
     return sum;
 }

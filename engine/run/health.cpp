@@ -29,7 +29,7 @@ std::string grain_name(const HealthLimits& limits, const Grains& grains, std::si
 
 bool finite(const Grains& grains, std::size_t i) {
     return grains.place[i].position.allFinite() && grains.motion[i].velocity.allFinite() &&
-           grains.spin[i].rate.allFinite();
+           grains.motion[i].spin.allFinite();
 }
 
 double largest_mass(const Species& species) {

@@ -219,7 +219,7 @@ Frame Simulation::frame() const {
         x.x() = nearest_image(x.x(), m.around.period);
         f.position.push_back(x);
         f.velocity.push_back(g.motion[i].velocity);
-        f.spin.push_back(g.spin[i].rate);
+        f.spin.push_back(g.motion[i].spin);
         if (!g.orientation.empty()) f.orientation.push_back(g.orientation[i]);
     }
     return f;

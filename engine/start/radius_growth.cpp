@@ -137,7 +137,7 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
     for (std::size_t i = 0; i < grains.size(); ++i) {
         g.set_radius(i, g.wanted_of(i));
         grains.motion[i].velocity.setZero();
-        grains.spin[i].rate.setZero();
+        grains.motion[i].spin.setZero();
         grains.load[i] = {};
     }
     return report;

@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '5'};
+constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '6'};
 
 // What must be equal for a continuation to be the same run: laws, stiffness, step, drive.
 std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
@@ -49,7 +49,7 @@ std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
 
 template <class Grain, class Each>
 void transfer_grains(Grain& g, const Each& each) {
-    each(g.id), each(g.species), each(g.place), each(g.motion), each(g.spin), each(g.load);
+    each(g.id), each(g.species), each(g.place), each(g.motion), each(g.load);
     each(g.wall_work), each(g.orientation), each(g.derivatives);
 }
 

@@ -37,7 +37,7 @@ Grains grains_from_table(const Scene& scene) {
         grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
                    scene.species[s].density);
         grains.motion.back().velocity = frame.velocity[i];
-        grains.spin.back().rate = frame.spin[i];
+        grains.motion.back().spin = frame.spin[i];
     }
     if (!frame.orientation.empty()) grains.orientation = frame.orientation;
     return grains;
@@ -49,7 +49,7 @@ Grains listed_grains(const Scene& scene) {
         grains.add(static_cast<std::int32_t>(grains.size()), static_cast<std::int32_t>(g.species), g.position,
                    0.5 * g.diameter, scene.species[g.species].density);
         grains.motion.back().velocity = g.velocity;
-        grains.spin.back().rate = g.spin;
+        grains.motion.back().spin = g.spin;
     }
     return grains;
 }

@@ -9,7 +9,7 @@ namespace grainreel {
 
 void Grains::reserve(std::size_t count) {
     id.reserve(count), species.reserve(count);
-    place.reserve(count), motion.reserve(count), spin.reserve(count), load.reserve(count);
+    place.reserve(count), motion.reserve(count), load.reserve(count);
     wall_work.reserve(count);
 }
 
@@ -18,8 +18,7 @@ void Grains::add(std::int32_t grain_id, std::int32_t grain_species, const Vec3& 
     id.push_back(grain_id);
     species.push_back(grain_species);
     place.push_back({position, radius});
-    motion.push_back({Vec3::Zero(), 0});
-    spin.push_back({Vec3::Zero(), 0});
+    motion.push_back({Vec3::Zero(), 0, Vec3::Zero(), 0});
     load.push_back({});
     wall_work.push_back(0);
     set_radius(size() - 1, radius, density);
@@ -29,7 +28,7 @@ void Grains::set_radius(std::size_t i, double radius, double density) {
     const double mass = density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
     place[i].radius = radius;
     motion[i].inverse_mass = 1 / mass;
-    spin[i].inverse_inertia = 1 / (0.4 * mass * radius * radius);
+    motion[i].inverse_inertia = 1 / (0.4 * mass * radius * radius);
 }
 
 namespace {
@@ -64,7 +63,7 @@ void permute(const std::vector<std::int32_t>& order, std::vector<bool>& placed, 
 }  // namespace
 
 void Grains::reorder(const std::vector<std::int32_t>& order) {
-    permute(order, placed, id, species, place, motion, spin, load, rounded, wall_work, orientation,
+    permute(order, placed, id, species, place, motion, load, rounded, wall_work, orientation,
             derivatives);
 }
 

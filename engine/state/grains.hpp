@@ -9,17 +9,16 @@
 
 namespace grainreel {
 
-// 32-byte records: one aligned load a grain for each kind of access the contact pass makes.
+// Records of 32 bytes or two such: one aligned load a grain for each kind of access the contact pass makes,
+// and motion and load side by side, number by number, for the integration.
 struct alignas(32) Place {
     Vec3 position;  // m
     double radius;  // m
 };
-struct alignas(32) Motion {
-    Vec3 velocity;        // m/s
-    double inverse_mass;  // 1/kg
-};
-struct alignas(32) Spin {
-    Vec3 rate;               // rad/s
+struct alignas(64) Motion {
+    Vec3 velocity;           // m/s
+    double inverse_mass;     // 1/kg
+    Vec3 spin;               // rad/s; at rest and unread in scenes without friction
     double inverse_inertia;  // 1/(kg m2)
 };
 
@@ -27,7 +26,7 @@ struct alignas(32) Spin {
 // that little is lost by rounding.
 struct alignas(32) RoundedMotion {
     float velocity[3], inverse_mass;  // m/s, 1/kg
-    float rate[3], inverse_inertia;   // rad/s, 1/(kg m2)
+    float spin[3], inverse_inertia;   // rad/s, 1/(kg m2)
 };
 
 // Force and torque of the last evaluation, gravity left out.
@@ -49,7 +48,6 @@ struct Grains {
     std::vector<std::int32_t> species;
     std::vector<Place> place;
     std::vector<Motion> motion;
-    std::vector<Spin> spin;  // kept, but at rest and unread, in scenes without friction
     std::vector<Load> load;
     std::vector<RoundedMotion> rounded;    // empty unless a law wants it
     std::vector<double> wall_work;         // J, done by moving walls on this grain since the drive started
@@ -68,7 +66,7 @@ struct Grains {
     // Mass and inertia of a solid sphere follow the radius.
     void set_radius(std::size_t i, double radius, double density);
     double mass(std::size_t i) const { return 1 / motion[i].inverse_mass; }
-    double inertia(std::size_t i) const { return 1 / spin[i].inverse_inertia; }
+    double inertia(std::size_t i) const { return 1 / motion[i].inverse_inertia; }
 
     // order[new index] = old index.
     void reorder(const std::vector<std::int32_t>& order);

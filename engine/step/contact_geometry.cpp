@@ -55,8 +55,7 @@ HWY_INLINE int whole_blocks(int count) {
     return (count + kBlock - 1) / kBlock * kBlock;
 }
 
-// Where the records of a chunk's bodies start, in doubles: the same in all arrays, so that it is worked out
-// once.
+// Where the places of a chunk's bodies start, in doubles, worked out once: their motion starts twice as far.
 struct Places {
     alignas(64) std::int32_t first[kChunk], second[kChunk];
 
@@ -70,8 +69,7 @@ struct Places {
         for (int c = in.count; c % kBlock != 0; ++c) first[c] = first[c - 1], second[c] = second[c - 1];
     }
 };
-static_assert(sizeof(Place) == sizeof(Motion) && sizeof(Place) == sizeof(Spin) &&
-              sizeof(Place) == sizeof(RoundedMotion));
+static_assert(sizeof(Motion) == 2 * sizeof(Place) && sizeof(RoundedMotion) == sizeof(Place));
 
 // A chunk goes through in sweeps, as many as its law wants: places, velocities, spins. (One sweep for all was
 // no faster.) Lengths between places are taken as doubles, the rest as L.
@@ -124,16 +122,16 @@ void sweep_distances(const GeometryInput& in, TouchChunk& out) {
 template <class L>
 HWY_INLINE Four<typename L::Tag> velocities_of(const Grains& grains, const std::int32_t* at) {
     if constexpr (std::is_same_v<L, Lanes>)
-        return load_records(numbers(grains.motion), 1, at);
+        return load_records(numbers(grains.motion), 2, at);
     else
         return load_records<typename L::Tag>(grains.rounded.data()->velocity, 2, at);
 }
 template <class L>
 HWY_INLINE Triple<L> spins_of(const Grains& grains, const std::int32_t* at) {
     if constexpr (std::is_same_v<L, Lanes>)
-        return triple(load_records(numbers(grains.spin), 1, at));
+        return triple(load_records(numbers(grains.motion) + 4, 2, at));
     else
-        return triple(load_records<typename L::Tag>(grains.rounded.data()->rate, 2, at));
+        return triple(load_records<typename L::Tag>(grains.rounded.data()->spin, 2, at));
 }
 
 template <class L>
@@ -215,7 +213,6 @@ template <Wants wants, class Number>
 void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
     const double* motion = numbers(in.grains->motion);
-    const double* spin = numbers(in.grains->spin);
     out.touching = 0;
     const Lanes turn(0.5 * in.turns_for);
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
@@ -234,14 +231,14 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
         if (in.radius) put<Number>(radius, out.effective_radius, c);
         if (wants == Wants::overlap && !in.mass) continue;
 
-        const auto motion_one = load_records(motion, 4, i);
+        const auto motion_one = load_records(motion, 8, i);
         if (in.mass) put<Number>(Lanes(motion_one.d), out.inverse_mass, c);
         if constexpr (wants == Wants::overlap) continue;
 
         Triple<Lanes> velocity = triple(motion_one) - triple(load_records(numbers(walls.motion), 8, face));
         if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
-            const Triple<Lanes> rate = triple(load_records(spin, 4, i));
+            const Triple<Lanes> rate = triple(load_records(motion + 4, 8, i));
             // Along a cylinder's wall k turns with the grain about the axis; a plane's does not turn.
             Triple<Lanes> change = velocity.across(k) * select(round, -turn * inverse, Lanes(0.0));
             change.z = Lanes(0.0);

@@ -230,7 +230,7 @@ void ContactPass::each_touching_candidate(const ContactRules& rules, const Conta
 }
 
 void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state,
-                          const Times& times, GoOn& go_on, CostClock& clock) {
+                          const Times& times, Vanguard& vanguard, CostClock& clock) {
     for (std::size_t g = tables_.size(); g-- > 0;) {
         ContactTable& table = tables_[g];
         const Step in{rules, rules.groups[g], grains, state, times};
@@ -239,19 +239,19 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
                                 [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
         table.end_step();
         compute_stretch(in, table, table.late(), table.size(), nullptr, clock);
-        compute_stretch(in, table, 0, table.sorted(), g == 0 ? &go_on : nullptr, clock);
+        compute_stretch(in, table, 0, table.sorted(), g == 0 ? &vanguard : nullptr, clock);
     }
-    grainreel::go_on(grains, go_on, end_);
+    advance(vanguard, grains, end_);
     clock.lap(Cost::integrate);
 }
 
 void ContactPass::compute_stretch(const Step& in, ContactTable& table, std::int32_t begin, std::int32_t end,
-                                  GoOn* then, CostClock& clock) {
+                                  Vanguard* vanguard, CostClock& clock) {
     for (std::int32_t c = begin; c < end; c += kChunk) {
         const int count = std::min(kChunk, end - c);
         compute_chunk(in, table, c, count, clock);
-        if (!then || c + count == end) continue;
-        go_on(in.grains, *then, table.first()[c + count]);
+        if (!vanguard || c + count == end) continue;
+        advance(*vanguard, in.grains, table.first()[c + count]);
         clock.lap(Cost::integrate);
     }
 }
@@ -269,7 +269,6 @@ void fetch_ahead(const Grains& grains, bool rounded, const ContactTable& table, 
             __builtin_prefetch(&grains.rounded[j]);
         } else {
             __builtin_prefetch(&grains.motion[j]);
-            __builtin_prefetch(&grains.spin[j]);
         }
         __builtin_prefetch(&grains.load[j], 1);
     }

@@ -63,7 +63,7 @@ class ContactPass {
         double turns;  // s: `since`, or 0 where positions and velocities are of one time
     };
     void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Times& times,
-                 GoOn& go_on, CostClock& clock);
+                 Vanguard& vanguard, CostClock& clock);
 
     // Shows every contact of a group under an own grain that touches: its bodies, where to find it in the
     // chunks, and whether it is late: the others come by rising first and second body, and which are late
@@ -104,7 +104,7 @@ class ContactPass {
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                      const WallState& state, const Times& times, const Chunk& chunk, bool rounded) const;
     void compute_stretch(const Step& in, ContactTable& table, std::int32_t begin, std::int32_t end,
-                         GoOn* then, CostClock& clock);
+                         Vanguard* vanguard, CostClock& clock);
     void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, int count, CostClock& clock);
     void show(const ContactGroup& group, const LawInput& in, const void* history, const Chunk& chunk,
               bool late, const Seen& seen) const;

@@ -16,7 +16,8 @@ constexpr int kCosts = 6;
 class CostClock {
   public:
     // Counts from nothing.
-    void turn_on() { on_ = true, spent_.fill(0); }
+    void clear() { spent_.fill(0); }
+    void turn(bool on) { on_ = on; }
     void start() {
         if (on_) last_ = ticks();
     }

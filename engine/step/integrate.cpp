@@ -11,68 +11,75 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Of grain i: position and radius, velocity and inverse mass, spin and inverse inertia; force and torque.
+// Of grain i: position and radius; motion; force and torque.
 struct Numbers {
-    double *place, *motion, *spin, *load;
+    double *place, *motion, *load;
     RoundedMotion* rounded;
     explicit Numbers(Grains& g)
         : place(reinterpret_cast<double*>(g.place.data())),
           motion(reinterpret_cast<double*>(g.motion.data())),
-          spin(reinterpret_cast<double*>(g.spin.data())),
           load(reinterpret_cast<double*>(g.load.data())),
           rounded(g.rounded.empty() ? nullptr : g.rounded.data()) {}
 };
 
-// (x, x, x, fourth): kicks leave the fourth number of a record, its mass or inertia, as it is.
-HWY_INLINE Record<4> first_three(double x, double fourth = 0) {
-    return record_of(Vec3(x, x, x), fourth);
-}
-
-// A velocity or spin after a kick; `inverse`: its mass or inertia.
-HWY_INLINE Record<4> kicked(const Record<4>& rate, const Record<4>& push, const Record<4>& inverse,
-                            const Record<4>& extra, const Record<4>& time) {
-    return rate + time * (push * inverse + extra);
-}
+// What a pass works on of motion and load: velocity and force, and with friction spin and torque behind them.
+template <bool rubs>
+struct Half {
+    static constexpr int size = rubs ? 8 : 4;
+    static HWY_INLINE Record<size> of(const Record<4>& first, const Record<4>& second) {
+        if constexpr (rubs)
+            return both(first, second);
+        else
+            return first;
+    }
+    // (x, x, x, fourth) twice: kicks leave mass and inertia as they are.
+    static HWY_INLINE Record<size> of(double x, double fourth = 0) {
+        const Record<4> four = record_of(Vec3(x, x, x), fourth);
+        return of(four, four);
+    }
+    // Each half's fourth number, everywhere in it.
+    static HWY_INLINE Record<size> fourths(const double* from) {
+        return of(record_of(from[3]), record_of(from[7]));
+    }
+};
 
 // Whether a pass over the grains ends a step, begins one, or both.
-template <bool ends, bool begins>
-HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+template <bool ends, bool begins, bool rubs>
+HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    using Half = Half<rubs>;
+    constexpr int size = Half::size;
     const Numbers at(grains);
-    const Record<4> last = first_three(in.end_kick), next = first_three(in.begin_kick);
-    const Record<4> whole = first_three(in.drift), nothing = record_of(0.0);
-    const Record<4> gravity = record_of(in.gravity), frame = record_of(in.frame);
-    const Record<4> keep = first_three(in.keep, 1);
-    Record<4> fastest = nothing;
+    const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
+    const Record<size> last = Half::of(in.end_kick), next = Half::of(in.begin_kick);
+    const Record<size> keep = Half::of(in.keep, 1), nothing = Half::of(zero, zero);
+    const Record<size> gravity = Half::of(record_of(in.gravity), zero);
+    const Record<size> frame = Half::of(record_of(in.frame), zero);
+    Record<4> fastest = zero;
     for (std::ptrdiff_t i = begin; i < end; ++i) {
-        double *motion = at.motion + 4 * i, *load = at.load + 8 * i;
-        const Record<4> force = record_at<4>(load), inverse_mass = record_of(motion[3]);
-        Record<4> velocity = record_at<4>(motion);
-        if (ends) velocity = kicked(velocity, force, inverse_mass, gravity, last) * keep;
+        double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
+        const Record<size> gains = record_at<size>(load) * Half::fourths(motion) + gravity;
+        Record<size> now = record_at<size>(motion);
+        if (ends) now = (now + last * gains) * keep;
         if (begins) {
-            velocity = kicked(velocity, force, inverse_mass, gravity, next);
+            now = now + next * gains;
             double* place = at.place + 4 * i;
-            put(record_at<4>(place) + whole * velocity, place);
+            put(record_at<4>(place) + whole * first_four(now), place);
             put(nothing, load);
-            const Record<4> relative = velocity - frame;
-            fastest = larger_size(fastest, relative);
+            const Record<size> relative = now - frame;
+            fastest = larger_size(fastest, first_four(relative));
             if (at.rounded) put_rounded(relative, at.rounded[i].velocity);
         }
-        put(velocity, motion);
-        if (!in.rubs) continue;
-        double* spin = at.spin + 4 * i;
-        const Record<4> torque = record_at<4>(load + 4), inverse_inertia = record_of(spin[3]);
-        Record<4> rate = record_at<4>(spin);
-        if (ends) rate = kicked(rate, torque, inverse_inertia, nothing, last) * keep;
-        if (begins) {
-            rate = kicked(rate, torque, inverse_inertia, nothing, next);
-            put(nothing, load + 4);
-            if (at.rounded) put_rounded(rate, at.rounded[i].rate);
-        }
-        put(rate, spin);
+        put(now, motion);
     }
     HWY_ALIGN double f[4];
     put(fastest, f);
     return {f[0], f[1], f[2]};
+}
+
+template <bool ends, bool begins>
+HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    return in.rubs ? pass_of<ends, begins, true>(grains, in, begin, end)
+                   : pass_of<ends, begins, false>(grains, in, begin, end);
 }
 
 Vec3 first_half(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
@@ -105,7 +112,7 @@ Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
 void turn(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     if (!in.rubs || grains.orientation.empty()) return;
     for (std::int32_t i = begin; i < end; ++i) {
-        grains.orientation[i] = turned(grains.orientation[i], grains.spin[i].rate, in.drift);
+        grains.orientation[i] = turned(grains.orientation[i], grains.motion[i].spin, in.drift);
     }
 }
 
@@ -131,11 +138,11 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
     return fastest;
 }
 
-void go_on(Grains& grains, GoOn& stretch, std::int32_t complete) {
-    const std::int32_t end = std::min(complete, stretch.end);
-    if (end <= stretch.next) return;
-    stretch.fastest = stretch.fastest.cwiseMax(kick_and_go_on(grains, stretch.kicks, stretch.next, end));
-    stretch.next = end;
+void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {
+    const std::int32_t end = std::min(complete, vanguard.end);
+    if (end <= vanguard.next) return;
+    vanguard.fastest = vanguard.fastest.cwiseMax(kick_and_go_on(grains, vanguard.kicks, vanguard.next, end));
+    vanguard.next = end;
 }
 
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
@@ -150,7 +157,7 @@ Vec3 acceleration(const Grains& grains, const KickInput& in, std::int32_t i) {
     return grains.motion[i].inverse_mass * grains.load[i].force + in.gravity;
 }
 Vec3 spin_acceleration(const Grains& grains, std::int32_t i) {
-    return grains.spin[i].inverse_inertia * grains.load[i].torque;
+    return grains.motion[i].inverse_inertia * grains.load[i].torque;
 }
 
 }  // namespace
@@ -176,7 +183,7 @@ Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32
         d.acceleration += h * d.jerk;
         grains.load[i] = {};
         if (!in.rubs) continue;
-        grains.spin[i].rate += h * d.spin_acceleration + h * h / 2 * d.spin_jerk;
+        grains.motion[i].spin += h * d.spin_acceleration + h * h / 2 * d.spin_jerk;
         d.spin_acceleration += h * d.spin_jerk;
     }
     turn(grains, in, begin, end);
@@ -188,11 +195,11 @@ void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::
     if (grains.rounded.empty()) return;
     for (std::int32_t i = begin; i < end; ++i) {
         const Eigen::Vector3f velocity = (grains.motion[i].velocity - in.frame).cast<float>();
-        const Eigen::Vector3f rate = grains.spin[i].rate.cast<float>();
+        const Eigen::Vector3f rate = grains.motion[i].spin.cast<float>();
         grains.rounded[i] = {{velocity.x(), velocity.y(), velocity.z()},
                              static_cast<float>(grains.motion[i].inverse_mass),
                              {rate.x(), rate.y(), rate.z()},
-                             static_cast<float>(grains.spin[i].inverse_inertia)};
+                             static_cast<float>(grains.motion[i].inverse_inertia)};
     }
 }
 
@@ -209,7 +216,7 @@ void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32
         d.jerk += more / h;
         if (!in.rubs) continue;
         const Vec3 faster = spin_acceleration(grains, i) - d.spin_acceleration;
-        grains.spin[i].rate = (grains.spin[i].rate + 5 * h / 12 * faster) * in.keep;
+        grains.motion[i].spin = (grains.motion[i].spin + 5 * h / 12 * faster) * in.keep;
         d.spin_acceleration += faster;
         d.spin_jerk += faster / h;
     }

@@ -30,14 +30,14 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
 // A stretch of grains that begin their next step while others still wait for forces: while they are in the
 // cache, which saves a second way through memory. Nobody may need them as they were: no contact that is yet
 // to be computed, and no other thread.
-struct GoOn {
+struct Vanguard {
     std::int32_t begin = 0, end = 0;  // empty: none
     KickInput kicks;
     std::int32_t next = 0;  // [begin, next) have gone on
     Vec3 fastest{0, 0, 0};  // m/s, of these
 };
 // All of them below `complete`.
-void go_on(Grains& grains, GoOn& stretch, std::int32_t complete);
+void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete);
 
 // A drift alone. Loads stay.
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);

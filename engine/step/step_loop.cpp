@@ -35,7 +35,7 @@ void StepLoop::restart() {
         round_motion(grains_, {}, share_[member], share_[member + 1]);
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
         team_.barrier(member);
-        GoOn none;
+        Vanguard none;
         members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, none, idle);
     });
     rebuilds_ = refreshes_ = 0;
@@ -101,8 +101,12 @@ StepLoop::Evaluation StepLoop::evaluation(std::int64_t n, std::size_t stage, dou
     return at;
 }
 
-void StepLoop::time_costs() {
-    for (Member& m : members_) m.clock.turn_on();
+void StepLoop::time_costs(bool on) {
+    for (Member& m : members_) m.clock.turn(on);
+}
+
+void StepLoop::clear_costs() {
+    for (Member& m : members_) m.clock.clear();
 }
 
 std::array<double, kCosts> StepLoop::cost_shares() const {
@@ -149,7 +153,7 @@ void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
     const std::int32_t reach = lists_.pairs.farthest_partner;
     const std::int32_t begin = share_[member] + (member > 0 ? reach : 0);
     const std::int32_t end = share_[member + 1] - (member + 1 < team_.size() ? reach : 0);
-    GoOn& ahead = members_[member].ahead;
+    Vanguard& ahead = members_[member].ahead;
     const bool some = goes_on && !scheme_.corrects && begin < end;
     ahead = {some ? begin : share_[member], some ? end : share_[member], kicks};
     ahead.next = ahead.begin;

@@ -72,8 +72,10 @@ class StepLoop {
 
     std::int64_t rebuilds() const { return rebuilds_; }
     std::int64_t refreshes() const { return refreshes_; }
-    // From now on run() notes which stage takes how long; shares of all that time, summed over the threads.
-    void time_costs();
+    // Whether run() notes which stage takes how long, which slows it by some 5 %. Shares of all the time so
+    // noted since the last clear_costs(), summed over the threads.
+    void time_costs(bool on);
+    void clear_costs();
     std::array<double, kCosts> cost_shares() const;
 
     std::size_t listed_pairs() const { return lists_.pairs.size(); }
@@ -97,7 +99,7 @@ class StepLoop {
         NeighbourList pairs;                // its part of the search, where there are several threads
         std::vector<WallNeighbour> walls_near;
         Reach reach;
-        GoOn ahead;  // its grains that go on before the others
+        Vanguard ahead;  // its grains that go on before the others
         CostClock clock;
         Vec3 fastest{0, 0, 0};   // m/s, largest components of its grains against the bed's free flight
         double farthest = 0;     // m, from where they were listed

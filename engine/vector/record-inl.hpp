@@ -47,6 +47,22 @@ HWY_INLINE Record<2 * size> both(const Record<size>& first, const Record<size>& 
     return r;
 }
 
+template <int size>
+HWY_INLINE Record<4> first_four(const Record<size>& r) {
+    Record<4> first;
+    if constexpr (size == 4) return r;
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (Record<size>::lanes > 4) {
+        first.part[0] = hn::LowerHalf(Record<4>::D(), r.part[0]);
+        return first;
+    }
+#endif
+    if constexpr (Record<size>::lanes <= 4) {
+        for (int p = 0; p < first.parts; ++p) first.part[p] = r.part[p];
+    }
+    return first;
+}
+
 // Four floats in memory.
 HWY_INLINE Record<4> widened_at(const float* from) {
     Record<4> r;
@@ -55,8 +71,9 @@ HWY_INLINE Record<4> widened_at(const float* from) {
     for (int p = 0; p < r.parts; ++p) r.part[p] = hn::PromoteTo(d, hn::Load(floats, from + p * r.lanes));
     return r;
 }
-HWY_INLINE void put_rounded(const Record<4>& r, float* to) {
-    const hn::Rebind<float, Record<4>::D> floats;
+template <int size>
+HWY_INLINE void put_rounded(const Record<size>& r, float* to) {
+    const hn::Rebind<float, typename Record<size>::D> floats;
     for (int p = 0; p < r.parts; ++p) hn::Store(hn::DemoteTo(floats, r.part[p]), floats, to + p * r.lanes);
 }
 HWY_INLINE Record<4> record_of(double x) {

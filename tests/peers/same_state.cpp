@@ -92,7 +92,7 @@ class Bed {
             grains_.add(static_cast<std::int32_t>(k), from[k].type - 1, from[k].position - corner,
                         diameter / 2, 2500);
             grains_.motion.back().velocity = from[k].velocity;
-            grains_.spin.back().rate = from[k].spin;
+            grains_.motion.back().spin = from[k].spin;
         }
         loop_ = std::make_unique<StepLoop>(plan_, around_, grains_, team_);
         loop_->restart();

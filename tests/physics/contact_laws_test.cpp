@@ -306,7 +306,7 @@ TEST(Rolling, SlowsABallDown) {
     const double arm = kRadius - sphere_mass() * gravity / kStiffness;
     w.grains.add(0, 0, Vec3(0, 0, arm), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(u, 0, 0);
-    w.grains.spin[0].rate = Vec3(0, u / arm, 0);
+    w.grains.motion[0].spin = Vec3(0, u / arm, 0);
     w.start();
     w.run(500000);
     EXPECT_NEAR(w.velocity(0).x(), u - 5.0 / 7 * rolling * gravity * 0.5, 2e-3 * u);
@@ -343,13 +343,13 @@ TEST(Rolling, KeepsAngularMomentumBetweenGrains) {
     w.grains.add(0, 0, Vec3(-kRadius, 0, 0), kRadius, kDensity);
     w.grains.add(1, 0, Vec3(0.52 * kRadius, 0, 0), 0.5 * kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(0.4, 0, 0);
-    w.grains.spin[0].rate = Vec3(5, 80, -60);
+    w.grains.motion[0].spin = Vec3(5, 80, -60);
     w.start();
     const auto angular = [&] {
         Vec3 sum = Vec3::Zero();
         for (std::size_t i = 0; i < w.grains.size(); ++i)
             sum += w.grains.mass(i) * w.grains.place[i].position.cross(w.grains.motion[i].velocity) +
-                   w.grains.inertia(i) * w.grains.spin[i].rate;
+                   w.grains.inertia(i) * w.grains.motion[i].spin;
         return sum;
     };
     const Vec3 before = angular();

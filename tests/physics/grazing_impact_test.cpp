@@ -37,7 +37,7 @@ double kept(const Laws& laws, double friction, double degrees, double spin, doub
     const double speed = 0.3, down = speed * std::cos(degrees * pi / 180);
     w.grains.add(0, 0, Vec3(0, 0, kRadius + 0.4 * down * w.plan.clock.step), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(speed * std::sin(degrees * pi / 180), 0, -down);
-    w.grains.spin[0].rate = Vec3(0, spin * speed / kRadius, 0);
+    w.grains.motion[0].spin = Vec3(0, spin * speed / kRadius, 0);
     w.start();
     const double before = w.energy();
     w.run(static_cast<std::int64_t>(6 * steps));

@@ -174,7 +174,7 @@ TEST(ObliqueImpact, SpinOfOneSphereIsSlipForBoth) {
     w.grains.add(1, 0, Vec3(apart, 0, 0), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(v / 2, 0, 0);
     w.grains.motion[1].velocity = Vec3(-v / 2, 0, 0);
-    w.grains.spin[0].rate = Vec3(0, 0, vt / kRadius);
+    w.grains.motion[0].spin = Vec3(0, 0, vt / kRadius);
     w.start();
     w.run(1);
     while (std::abs(w.grains.load[0].force.x()) > 0 || w.step < 100) w.run(1);
@@ -205,14 +205,14 @@ TEST(ObliqueImpact, KeepsLinearAndAngularMomentum) {
     w.grains.add(1, 0, Vec3(0.62 * kRadius, 0, 0.2 * kRadius), 0.6 * kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(0.4, 0, 0.1);
     w.grains.motion[1].velocity = Vec3(-0.2, 0.1, 0);
-    w.grains.spin[0].rate = Vec3(20, -30, 50);
+    w.grains.motion[0].spin = Vec3(20, -30, 50);
     w.start();
     const auto momenta = [&] {
         Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
         for (std::size_t i = 0; i < w.grains.size(); ++i) {
             const Vec3 p = w.grains.mass(i) * w.grains.motion[i].velocity;
             linear += p;
-            angular += w.grains.place[i].position.cross(p) + w.grains.inertia(i) * w.grains.spin[i].rate;
+            angular += w.grains.place[i].position.cross(p) + w.grains.inertia(i) * w.grains.motion[i].spin;
         }
         return std::pair(linear, angular);
     };

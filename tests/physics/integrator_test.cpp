@@ -66,7 +66,7 @@ TEST(Integrators, GoOnWhereTheyStopped) {
             w.grains.add(0, 0, Vec3(0, 0, 1.01 * kRadius), kRadius, kDensity);
             w.grains.add(1, 0, Vec3(0.3 * kRadius, 0, 3.05 * kRadius), kRadius, kDensity);
             w.grains.motion[1].velocity = Vec3(0.1, 0.02, -0.5);
-            w.grains.spin[0].rate = Vec3(30, 0, 10);
+            w.grains.motion[0].spin = Vec3(30, 0, 10);
             w.start();
             for (int k = 0; k < pieces; ++k) w.run(3000 / pieces);
             return std::vector<double>{w.position(0).x(), w.position(1).y(), w.velocity(1).z(),

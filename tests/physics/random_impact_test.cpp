@@ -36,8 +36,8 @@ class RandomImpacts {
         Vec3 towards = direction();
         if (towards.dot(k) < 0) towards = -towards;
         w.grains.motion[0].velocity = speed * towards;
-        w.grains.spin[0].rate = speed / small * share() * direction();
-        w.grains.spin[1].rate = speed / big * share() * direction();
+        w.grains.motion[0].spin = speed / small * share() * direction();
+        w.grains.motion[1].spin = speed / big * share() * direction();
         w.around.skin = 0.2 * small;
         w.start();
         const Kinetic before = kinetic_energy(w.grains);
@@ -64,7 +64,7 @@ class RandomImpacts {
         for (std::size_t i = 0; i < w.grains.size(); ++i) {
             const Vec3 p = w.grains.mass(i) * w.grains.motion[i].velocity;
             linear += p;
-            angular += w.grains.place[i].position.cross(p) + w.grains.inertia(i) * w.grains.spin[i].rate;
+            angular += w.grains.place[i].position.cross(p) + w.grains.inertia(i) * w.grains.motion[i].spin;
         }
         return {linear, angular};
     }

@@ -58,7 +58,7 @@ TEST(OnTheFloor, RollingWithoutSlipMeetsNoFriction) {
     World w = ball_on_floor(0.5, {0, 0, -kGravity});
     const double arm = w.grains.place[0].position.z();
     w.grains.motion[0].velocity = Vec3(0.1, 0, 0);
-    w.grains.spin[0].rate = Vec3(0, 0.1 / arm, 0);
+    w.grains.motion[0].spin = Vec3(0, 0.1 / arm, 0);
     w.start();
     w.run(10000);
     double friction = -1;

@@ -28,7 +28,7 @@ class LedPair {
         const Vec3 apart(1.59 * kRadius, 0, 0);
         grains_.place[1].position = pose * apart;
         grains_.motion[1].velocity = rate.cross(middle * apart) - slip;
-        grains_.spin[0].rate = grains_.spin[1].rate = rate;
+        grains_.motion[0].spin = grains_.motion[1].spin = rate;
         const GeometryInput in{&grains_, first_, second_, 1, Wants::spin, LeverArms::contact_plane,
                                step,     step,   nullptr};
         touch_pairs(in, 0, touch_);

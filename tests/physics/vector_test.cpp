@@ -275,7 +275,7 @@ std::vector<double> tumble(TangentialLaw tangential, int threads, double skin = 
         w.grains.add(k, 0, Vec3(0.01 * one(random), 0.01 * one(random), 0.012 + 0.008 * one(random)), r,
                      kDensity);
         w.grains.motion.back().velocity = 0.3 * Vec3(one(random), one(random), one(random));
-        w.grains.spin.back().rate = 100 * Vec3(one(random), one(random), one(random));
+        w.grains.motion.back().spin = 100 * Vec3(one(random), one(random), one(random));
     }
     w.around.skin = skin;
     w.start();

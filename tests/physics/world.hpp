@@ -37,7 +37,7 @@ struct World {
     }
     const Vec3& position(std::int32_t id) const { return grains.place[index_of(id)].position; }
     const Vec3& velocity(std::int32_t id) const { return grains.motion[index_of(id)].velocity; }
-    const Vec3& spin(std::int32_t id) const { return grains.spin[index_of(id)].rate; }
+    const Vec3& spin(std::int32_t id) const { return grains.motion[index_of(id)].spin; }
     double energy() const {
         const Kinetic k = kinetic_energy(grains);
         return k.translation + k.rotation + gravitational_energy(grains, around.gravity) +
