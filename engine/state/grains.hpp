@@ -26,7 +26,7 @@ struct alignas(64) Motion {
 // that little is lost by rounding.
 struct alignas(32) RoundedMotion {
     float velocity[3], inverse_mass;  // m/s, 1/kg
-    float spin[3], inverse_inertia;   // rad/s, 1/(kg m2)
+    float spin[3], radius;            // rad/s, m
 };
 
 // Force and torque of the last evaluation, gravity left out.

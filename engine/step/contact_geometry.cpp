@@ -41,10 +41,10 @@ std::uint64_t pairs_that_touch(const Grains& grains, const std::int32_t* i, cons
     const double* place = numbers(grains.place);
     std::uint64_t touching = 0;
     for (int c = 0; c < count; c += kLanes) {
-        const auto one = load_records(place, 4, i + c), two = load_records(place, 4, j + c);
-        Triple<Lanes> apart = triple(two) - triple(one);
+        const auto between = load_relative(place, 4, j + c, i + c);
+        Triple<Lanes> apart = triple(between);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
-        const Lanes reach = Lanes(one.d) + Lanes(two.d);
+        const Lanes reach(between.d);
         touching |= bits(apart.squared() < reach * reach) << c;
     }
     return touching;
@@ -71,13 +71,12 @@ struct Places {
 };
 static_assert(sizeof(Motion) == 2 * sizeof(Place) && sizeof(RoundedMotion) == sizeof(Place));
 
-// A chunk goes through in sweeps, as many as its law wants: places, velocities, spins. (One sweep for all was
-// no faster.) Lengths between places are taken as doubles, the rest as L.
+// A chunk goes through in sweeps, as many as its law wants: places, distances, velocities, spins. (One sweep
+// for all was no faster.)
 //
-// Distances, for now where inverse distances and normals will be, and overlaps.
-template <class L>
+// Distances, for now where inverse distances will be, likewise what lies between the centres, and radii where
+// arms will be; overlaps.
 void sweep_places(const GeometryInput& in, const Places& at, double period, TouchChunk& out) {
-    using Number = NumberOf<L>;
     const double* place = numbers(in.grains->place);
     out.touching = 0;
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
@@ -87,75 +86,117 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
         const Lanes radius_one(one.d), radius_two(two.d), distance = root(apart.squared());
         const Lanes overlap = radius_one + radius_two - distance;
         out.touching |= bits(overlap > Lanes(0.0)) << c;
-        put<Number>(overlap, out.overlap, c);
-        put<Number>(apart, out.normal, c);
-        put<Number>(distance, out.inverse_distance, c);
-        if (in.radius) {
-            const Lanes inverse = Lanes(1.0) / radius_one + Lanes(1.0) / radius_two;
-            put<Number>(Lanes(1.0) / inverse, out.effective_radius, c);
-        }
-        if (in.wants < Wants::spin) continue;
-        put<Number>(radius_one, out.first_arm, c);
-        put<Number>(radius_two, out.second_arm, c);
+        put<double>(overlap, out.overlap, c);
+        put<double>(apart, out.normal, c);
+        put<double>(distance, out.inverse_distance, c);
+        put<double>(radius_one, out.first_arm, c);
+        put<double>(radius_two, out.second_arm, c);
     }
 }
 
-// Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is what
-// keeps angular momentum. The original program took the radii.
+// The same for rows of floats, but for what sweep_distances() does, and for the radii. Of R, their sum, and the
+// distance d the small difference R^2 - d^2 = (R - d)(R + d) is taken as doubles and rounded then, so that all
+// digits of the overlap count; d may be rounded before.
+void sweep_rounded_places(const GeometryInput& in, const Places& at, double period, TouchChunk& out) {
+    const double* place = numbers(in.grains->place);
+    out.touching = 0;
+    for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
+        const auto between = load_relative(place, 1, at.second + c, at.first + c);
+        Triple<Lanes> apart = triple(between);
+        if (period > 0) apart.x = nearest(apart.x, Lanes(period));
+        const Lanes reach(between.d), difference = reach * reach - apart.squared();
+        out.touching |= bits(difference > Lanes(0.0)) << c;
+        put<float>(difference, out.overlap, c);
+        put<float>(apart, out.normal, c);
+        put<float>(reach, out.inverse_distance, c);
+    }
+}
+
+// Normals, inverse distances and, for sweep_spins(), distances where the twist will be.
 template <class L>
 void sweep_distances(const GeometryInput& in, TouchChunk& out) {
     using Number = NumberOf<L>;
-    const bool arms = in.wants >= Wants::spin && in.arms == LeverArms::contact_plane;
     for (int c = 0; c < in.count; c += L::count) {
-        const L distance = row_at<L>(out.inverse_distance, c), inverse = L(1.0) / distance;
-        put<Number>(triple_at<L>(out.normal, c) * inverse, out.normal, c);
+        const Triple<L> apart = triple_at<L>(out.normal, c);
+        L distance = row_at<L>(out.inverse_distance, c);
+        if constexpr (std::is_same_v<L, FloatLanes>) {
+            const L reach = distance;
+            distance = root(apart.squared());
+            put<Number>(row_at<L>(out.overlap, c) / (reach + distance), out.overlap, c);
+        }
+        const L inverse = L(1.0) / distance;
+        put<Number>(apart * inverse, out.normal, c);
         put<Number>(inverse, out.inverse_distance, c);
-        if (!arms) continue;
-        const L one = row_at<L>(out.first_arm, c), two = row_at<L>(out.second_arm, c);
-        const L first_arm = L(0.5) * multiply_add((one - two) * (one + two), inverse, distance);
-        put<Number>(first_arm, out.first_arm, c);
-        put<Number>(distance - first_arm, out.second_arm, c);
+        put<Number>(distance, out.twist, c);
     }
 }
 
 // Velocities and spins of grains, numbers of L.
 template <class L>
-HWY_INLINE Four<typename L::Tag> velocities_of(const Grains& grains, const std::int32_t* at) {
+HWY_INLINE const NumberOf<L>* velocities(const Grains& grains) {
     if constexpr (std::is_same_v<L, Lanes>)
-        return load_records(numbers(grains.motion), 2, at);
+        return numbers(grains.motion);
     else
-        return load_records<typename L::Tag>(grains.rounded.data()->velocity, 2, at);
+        return grains.rounded.data()->velocity;
 }
+
 template <class L>
-HWY_INLINE Triple<L> spins_of(const Grains& grains, const std::int32_t* at) {
-    if constexpr (std::is_same_v<L, Lanes>)
-        return triple(load_records(numbers(grains.motion) + 4, 2, at));
-    else
-        return triple(load_records<typename L::Tag>(grains.rounded.data()->spin, 2, at));
+void sweep_radii(const GeometryInput& in, const Places& at, TouchChunk& out) {
+    using Number = NumberOf<L>;
+    for (int c = 0; c < in.count; c += L::count) {
+        L one, two;
+        if constexpr (std::is_same_v<L, Lanes>) {
+            one = row_at<L>(out.first_arm, c), two = row_at<L>(out.second_arm, c);
+        } else {
+            const float* from = velocities<L>(*in.grains) + 4;
+            one = load_records<Floats>(from, 2, at.first + c).d;
+            two = load_records<Floats>(from, 2, at.second + c).d;
+        }
+        put<Number>(one * two / (one + two), out.effective_radius, c);
+    }
 }
 
 template <class L>
 void sweep_velocities(const GeometryInput& in, const Places& at, TouchChunk& out) {
     using Number = NumberOf<L>;
+    const Number* from = velocities<L>(*in.grains);
     for (int c = 0; c < in.count; c += L::count) {
-        const auto one = velocities_of<L>(*in.grains, at.first + c);
-        const auto two = velocities_of<L>(*in.grains, at.second + c);
-        put<Number>(triple(one) - triple(two), out.velocity, c);
-        if (in.mass) put<Number>(L(one.d) + L(two.d), out.inverse_mass, c);
+        const auto relative = load_relative<typename L::Tag>(from, 2, at.first + c, at.second + c);
+        put<Number>(triple(relative), out.velocity, c);
+        if (in.mass) put<Number>(L(relative.d), out.inverse_mass, c);
     }
+}
+
+// Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is what keeps
+// angular momentum. The original program took the radii.
+template <class L>
+HWY_INLINE void to_contact_plane(L distance, L inverse, L& one, L& two) {
+    one = L(0.5) * multiply_add((one - two) * (one + two), inverse, distance);
+    two = distance - one;
 }
 
 template <class L>
 void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
     using Number = NumberOf<L>;
+    const Number* from = velocities<L>(*in.grains) + 4;
     const L turn(0.5 * in.turns_for), half_step(0.5 * in.step);
     for (int c = 0; c < in.count; c += L::count) {
-        const Triple<L> one = spins_of<L>(*in.grains, at.first + c);
-        const Triple<L> two = spins_of<L>(*in.grains, at.second + c);
+        const auto first = load_records<typename L::Tag>(from, 2, at.first + c);
+        const auto second = load_records<typename L::Tag>(from, 2, at.second + c);
+        const Triple<L> one = triple(first), two = triple(second);
         const Triple<L> k = triple_at<L>(out.normal, c), velocity = triple_at<L>(out.velocity, c);
-        const L turning = turn * row_at<L>(out.inverse_distance, c);
-        const Triple<L> change = velocity.across(k) * turning;
-        const Triple<L> spins = (one * row_at<L>(out.first_arm, c)).plus(two, row_at<L>(out.second_arm, c));
+        const L inverse = row_at<L>(out.inverse_distance, c);
+        L first_arm, second_arm;
+        if constexpr (std::is_same_v<L, FloatLanes>)
+            first_arm = first.d, second_arm = second.d;
+        else
+            first_arm = row_at<L>(out.first_arm, c), second_arm = row_at<L>(out.second_arm, c);
+        if (in.arms == LeverArms::contact_plane)
+            to_contact_plane(row_at<L>(out.twist, c), inverse, first_arm, second_arm);
+        put<Number>(first_arm, out.first_arm, c);
+        put<Number>(second_arm, out.second_arm, c);
+        const Triple<L> change = velocity.across(k) * (turn * inverse);
+        const Triple<L> spins = (one * first_arm).plus(two, second_arm);
         put<Number>(of_surfaces(velocity, spins, k, change), out.velocity, c);
         put<Number>(half_step * (one + two).dot(k), out.twist, c);
         if (in.wants == Wants::rolling) put<Number>((one - two).across(k), in.rolling->rate, c);
@@ -165,8 +206,12 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
 template <class L>
 void pairs_at(const GeometryInput& in, double period, TouchChunk& out) {
     const Places at(in);
-    sweep_places<L>(in, at, period, out);
+    if constexpr (std::is_same_v<L, Lanes>)
+        sweep_places(in, at, period, out);
+    else
+        sweep_rounded_places(in, at, period, out);
     sweep_distances<L>(in, out);
+    if (in.radius) sweep_radii<L>(in, at, out);
     if (in.wants >= Wants::velocity || in.mass) sweep_velocities<L>(in, at, out);
     if (in.wants >= Wants::spin) sweep_spins<L>(in, at, out);
 }

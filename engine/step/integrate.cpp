@@ -67,7 +67,10 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
             put(nothing, load);
             const Record<size> relative = now - frame;
             fastest = larger_size(fastest, first_four(relative));
-            if (at.rounded) put_rounded(relative, at.rounded[i].velocity);
+            if (at.rounded) {
+                put_rounded(relative, at.rounded[i].velocity);
+                at.rounded[i].radius = static_cast<float>(place[3]);
+            }
         }
         put(now, motion);
     }
@@ -199,7 +202,7 @@ void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::
         grains.rounded[i] = {{velocity.x(), velocity.y(), velocity.z()},
                              static_cast<float>(grains.motion[i].inverse_mass),
                              {rate.x(), rate.y(), rate.z()},
-                             static_cast<float>(grains.motion[i].inverse_inertia)};
+                             static_cast<float>(grains.place[i].radius)};
     }
 }
 

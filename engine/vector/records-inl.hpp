@@ -31,6 +31,14 @@ HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, c
     return {hn::Load(d, at), hn::Load(d, at + 1), hn::Load(d, at + 2), hn::Load(d, at + 3)};
 }
 
+// a - b for the first three numbers, a + b for the fourth.
+template <class D = Doubles>
+HWY_INLINE Four<D> load_relative(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* a,
+                                 const std::int32_t* b) {
+    const Four<D> one = load_records<D>(base, stride, a), two = load_records<D>(base, stride, b);
+    return {hn::Sub(one.a, two.a), hn::Sub(one.b, two.b), hn::Sub(one.c, two.c), hn::Add(one.d, two.d)};
+}
+
 HWY_INLINE Rows<4> rows_of(const Four<Doubles>& f) {
     return {{{{f.a, f.b, f.c, f.d}}}};
 }
@@ -67,22 +75,26 @@ HWY_INLINE hn::Vec<D> both_halves(D d, const double* low, const double* high) {
     return hn::Combine(d, hn::Load(half, high), hn::Load(half, low));
 }
 
-// Four numbers each from as many addresses as there are lanes, aligned to 32 bytes.
-template <class D = Doubles>
-HWY_INLINE Four<D> load_records_at(const double* const* at) {
-    const D d;
+// Four numbers each from as many addresses as there are lanes, aligned to 32 bytes: as they lie in memory,
+// before they are transposed.
+template <class D>
+HWY_INLINE Four<D> rows_at(D d, const double* const* at) {
     if constexpr (hn::MaxLanes(D()) == 8) {
-        return transposed(d, Four<D>{both_halves(d, at[0], at[4]), both_halves(d, at[1], at[5]),
-                                     both_halves(d, at[2], at[6]), both_halves(d, at[3], at[7])});
+        return {both_halves(d, at[0], at[4]), both_halves(d, at[1], at[5]), both_halves(d, at[2], at[6]),
+                both_halves(d, at[3], at[7])};
     } else if constexpr (hn::MaxLanes(D()) == 4) {
-        return transposed(
-            d, Four<D>{hn::Load(d, at[0]), hn::Load(d, at[1]), hn::Load(d, at[2]), hn::Load(d, at[3])});
+        return {hn::Load(d, at[0]), hn::Load(d, at[1]), hn::Load(d, at[2]), hn::Load(d, at[3])};
     } else {
-        const auto ab0 = hn::Load(d, at[0]), ab1 = hn::Load(d, at[1]);
-        const auto cd0 = hn::Load(d, at[0] + 2), cd1 = hn::Load(d, at[1] + 2);
-        return {hn::InterleaveLower(d, ab0, ab1), hn::InterleaveUpper(d, ab0, ab1),
-                hn::InterleaveLower(d, cd0, cd1), hn::InterleaveUpper(d, cd0, cd1)};
+        return {hn::Load(d, at[0]), hn::Load(d, at[1]), hn::Load(d, at[0] + 2), hn::Load(d, at[1] + 2)};
     }
+}
+template <class D>
+HWY_INLINE Four<D> transposed_rows(D d, const Four<D>& r) {
+    if constexpr (hn::MaxLanes(D()) >= 4)
+        return transposed(d, r);
+    else
+        return {hn::InterleaveLower(d, r.a, r.b), hn::InterleaveUpper(d, r.a, r.b),
+                hn::InterleaveLower(d, r.c, r.d), hn::InterleaveUpper(d, r.c, r.d)};
 }
 
 // A block of 128 bits from every fourth address.
@@ -113,19 +125,39 @@ HWY_INLINE Four<D> transposed_floats(D d, const Four<D>& r) {
 
 // The same for four floats each, aligned to 16 bytes.
 template <class D>
-HWY_INLINE Four<D> load_records_at(const float* const* at) {
-    const D d;
-    return transposed_floats(d, Four<D>{every_fourth(d, at), every_fourth(d, at + 1), every_fourth(d, at + 2),
-                                        every_fourth(d, at + 3)});
+HWY_INLINE Four<D> rows_at(D d, const float* const* at) {
+    return {every_fourth(d, at), every_fourth(d, at + 1), every_fourth(d, at + 2), every_fourth(d, at + 3)};
+}
+template <class D>
+requires(sizeof(hn::TFromD<D>) == sizeof(float)) HWY_INLINE Four<D> transposed_rows(D d, const Four<D>& r) {
+    return transposed_floats(d, r);
 }
 
 // Records index[0] .. index[lanes - 1] of `stride` numbers each, their first four numbers.
-template <class D = Doubles>
-HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
+template <class D>
+HWY_INLINE Four<D> rows_of_records(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
     const hn::TFromD<D>* at[hn::MaxLanes(D())];
     for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k)
         at[k] = base + stride * static_cast<std::size_t>(index[k]);
-    return load_records_at<D>(at);
+    return rows_at(D(), at);
+}
+template <class D = Doubles>
+HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
+    return transposed_rows(D(), rows_of_records<D>(base, stride, index));
+}
+
+// a - b for the first three numbers, a + b for the fourth: half as many shuffles as for both apart.
+template <class D = Doubles>
+HWY_INLINE Four<D> load_relative(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* a,
+                                 const std::int32_t* b) {
+    using T = hn::TFromD<D>;
+    HWY_ALIGN static constexpr T signs[16] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1};
+    const D d;
+    const Four<D> one = rows_of_records<D>(base, stride, a), two = rows_of_records<D>(base, stride, b);
+    constexpr bool split = hn::MaxLanes(D()) < 4;  // c and d have the third and fourth numbers
+    const auto low = hn::Load(d, signs), high = hn::Load(d, signs + (split ? 2 : 0));
+    return transposed_rows(d, Four<D>{hn::MulAdd(two.a, low, one.a), hn::MulAdd(two.b, low, one.b),
+                                      hn::MulAdd(two.c, high, one.c), hn::MulAdd(two.d, high, one.d)});
 }
 
 // The other way, into memory: the four floats of record k to place_of_row(k).
