@@ -36,15 +36,15 @@ HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spi
     return velocity.less(change, k.dot(velocity)) + spins.cross(k + change);
 }
 
-std::uint64_t pairs_that_touch(const Grains& grains, const std::int32_t* i, const std::int32_t* j, int count,
-                               double period) {
+std::uint64_t pairs_within(const Grains& grains, const std::int32_t* i, const std::int32_t* j, int count,
+                           double period, double gap) {
     const double* place = numbers(grains.place);
     std::uint64_t touching = 0;
     for (int c = 0; c < count; c += kLanes) {
         const auto between = load_relative(place, 4, j + c, i + c);
         Triple<Lanes> apart = triple(between);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
-        const Lanes reach(between.d);
+        const Lanes reach = Lanes(between.d) + Lanes(gap);
         touching |= bits(apart.squared() < reach * reach) << c;
     }
     return touching;
@@ -320,14 +320,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace grainreel {
 
-HWY_EXPORT(pairs_that_touch);
+HWY_EXPORT(pairs_within);
 HWY_EXPORT(walls_that_touch);
 HWY_EXPORT(pairs);
 HWY_EXPORT(walls);
 
-std::uint64_t touching_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
-                             int count, double period) {
-    return HWY_DYNAMIC_DISPATCH(pairs_that_touch)(grains, first, second, count, period);
+std::uint64_t near_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second, int count,
+                         double period, double gap) {
+    return HWY_DYNAMIC_DISPATCH(pairs_within)(grains, first, second, count, period, gap);
 }
 
 std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, const std::int32_t* second,

@@ -10,13 +10,33 @@ namespace grainreel {
 
 namespace {
 
-bool near(const Grains& grains, std::int32_t i, std::int32_t j, double period, double skin) {
-    const Place &one = grains.place[i], &two = grains.place[j];
-    Vec3 apart = two.position - one.position;
-    apart.x() = nearest_image(apart.x(), period);
-    const double limit = one.radius + two.radius + skin;
-    return apart.squaredNorm() < limit * limit;
-}
+// Collects pairs until there is a chunk of them, and passes on those closer than `gap` (m).
+template <class Pass>
+class NearPairs {
+  public:
+    NearPairs(const Grains& grains, double period, double gap, const Pass& pass)
+        : grains_(grains), period_(period), gap_(gap), pass_(pass) {}
+    void add(std::int32_t i, std::int32_t j) {
+        first_[count_] = i, second_[count_] = j;
+        if (++count_ == kChunk) flush();
+    }
+    void flush() {
+        std::uint64_t left = near_pairs(grains_, first_, second_, count_, period_, gap_);
+        if (count_ < kChunk) left &= (std::uint64_t{1} << count_) - 1;
+        for (; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            pass_(first_[k], second_[k]);
+        }
+        count_ = 0;
+    }
+
+  private:
+    const Grains& grains_;
+    const double period_, gap_;
+    const Pass& pass_;
+    std::int32_t first_[kChunk] = {}, second_[kChunk] = {};
+    int count_ = 0;
+};
 
 // Where the wall neighbours of grains from `begin` on start in their list.
 std::int32_t first_wall_slot(const std::vector<WallNeighbour>& list, std::int32_t begin) {
@@ -100,16 +120,17 @@ void ContactPass::list_near_pairs(const ContactRules& rules, const Grains& grain
                                   double skin) {
     const bool one_group = rules.one_group_of_pairs();
     const auto sort_in = [&](std::int32_t i, std::int32_t j) {
-        if (!near(grains, i, j, rules.period, skin)) return;
         const std::int32_t group =
             one_group ? 0 : rules.group_of_pair[grains.species[i] * rules.species + grains.species[j]];
         tables_[group].offer(i, j);
     };
-    for (const Pair& pair : incoming_) sort_in(pair.first, pair.second);
+    NearPairs pairs(grains, rules.period, skin, sort_in);
+    for (const Pair& pair : incoming_) pairs.add(pair.first, pair.second);
     for (std::int32_t i = begin_; i < end_; ++i) {
         for (std::int32_t at = list.start[i], last = list.start[i + 1]; at < last; ++at)
-            sort_in(i, list.partner[at]);
+            pairs.add(i, list.partner[at]);
     }
+    pairs.flush();
 }
 
 void ContactPass::list_near_walls(const ContactRules& rules, const Grains& grains,
@@ -212,7 +233,7 @@ History* behind_law(const ContactGroup& group, History* history) {
 std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactGroup& group,
                                        const Grains& grains, const WallState& state, const Chunk& chunk) {
     const std::uint64_t touching =
-        group.of_pairs ? touching_pairs(grains, chunk.first, chunk.second, chunk.count, rules.period)
+        group.of_pairs ? near_pairs(grains, chunk.first, chunk.second, chunk.count, rules.period, 0)
                        : touching_walls(grains, chunk.first, chunk.second, chunk.count, state);
     return chunk.count < kChunk ? touching & ((std::uint64_t{1} << chunk.count) - 1) : touching;
 }
