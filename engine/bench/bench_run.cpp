@@ -121,7 +121,8 @@ class BenchRun {
             done += now;
             done_steps_ += static_cast<double>(now);
         }
-        if (report) note(run, steps, taken * static_cast<double>(steps) / static_cast<double>(counted), *report);
+        if (report)
+            note(run, steps, taken * static_cast<double>(steps) / static_cast<double>(counted), *report);
         return true;
     }
 

@@ -63,8 +63,7 @@ void permute(const std::vector<std::int32_t>& order, std::vector<bool>& placed, 
 }  // namespace
 
 void Grains::reorder(const std::vector<std::int32_t>& order) {
-    permute(order, placed, id, species, place, motion, load, rounded, wall_work, orientation,
-            derivatives);
+    permute(order, placed, id, species, place, motion, load, rounded, wall_work, orientation, derivatives);
 }
 
 }  // namespace grainreel

@@ -94,9 +94,9 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
     }
 }
 
-// The same for rows of floats, but for what sweep_distances() does, and for the radii. Of R, their sum, and the
-// distance d the small difference R^2 - d^2 = (R - d)(R + d) is taken as doubles and rounded then, so that all
-// digits of the overlap count; d may be rounded before.
+// The same for rows of floats, but for what sweep_distances() does, and for the radii. Of R, their sum, and
+// the distance d the small difference R^2 - d^2 = (R - d)(R + d) is taken as doubles and rounded then, so
+// that all digits of the overlap count; d may be rounded before.
 void sweep_rounded_places(const GeometryInput& in, const Places& at, double period, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
     out.touching = 0;
@@ -167,8 +167,8 @@ void sweep_velocities(const GeometryInput& in, const Places& at, TouchChunk& out
     }
 }
 
-// Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is what keeps
-// angular momentum. The original program took the radii.
+// Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is what
+// keeps angular momentum. The original program took the radii.
 template <class L>
 HWY_INLINE void to_contact_plane(L distance, L inverse, L& one, L& two) {
     one = L(0.5) * multiply_add((one - two) * (one + two), inverse, distance);
@@ -325,8 +325,8 @@ HWY_EXPORT(walls_that_touch);
 HWY_EXPORT(pairs);
 HWY_EXPORT(walls);
 
-std::uint64_t near_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second, int count,
-                         double period, double gap) {
+std::uint64_t near_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
+                         int count, double period, double gap) {
     return HWY_DYNAMIC_DISPATCH(pairs_within)(grains, first, second, count, period, gap);
 }
 

@@ -32,8 +32,8 @@ struct GeometryInput {
 
 // A bit a contact, of at most kChunk of which whole registers can be read: are the surfaces closer than `gap`
 // (m), or do they overlap where it is 0?
-std::uint64_t near_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second, int count,
-                         double period, double gap);
+std::uint64_t near_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
+                         int count, double period, double gap);
 std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                              int count, const WallState& walls);
 

@@ -30,8 +30,8 @@ class ContactTable {
     // No contacts; histories of so many numbers.
     void shape(int history_size, std::size_t number_size);
 
-    // The contacts in order are [0, sorted()), the late ones [late(), size()); behind both stands more to fill
-    // a block, so that whole registers can be read. Empty places do not touch.
+    // The contacts in order are [0, sorted()), the late ones [late(), size()); behind both stands more to
+    // fill a block, so that whole registers can be read. Empty places do not touch.
     std::int32_t sorted() const { return sorted_; }
     std::int32_t late() const { return (sorted_ + 63) / 64 * 64; }
     std::int32_t size() const { return size_; }

@@ -127,9 +127,8 @@ void pairs_of(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t b
     Load* const loads = grains.load.data();
     Load* const of_others = &scratch.of_others;
     const auto any = [loads](std::int32_t i) HWY_ATTR -> Load& { return loads[i]; };
-    const auto own = [loads, of_others, begin, end](std::int32_t i) HWY_ATTR -> Load& {
-        return i >= begin && i < end ? loads[i] : *of_others;
-    };
+    const auto own = [loads, of_others, begin, end](std::int32_t i)
+                         HWY_ATTR -> Load& { return i >= begin && i < end ? loads[i] : *of_others; };
     const bool alone = begin == 0 && end == static_cast<std::int32_t>(grains.size());
     alone || all_between(chunk, begin, end) ? add_each<L, rubs>(chunk, any, any)
                                             : add_each<L, rubs>(chunk, own, own);

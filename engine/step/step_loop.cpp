@@ -147,8 +147,8 @@ void StepLoop::move(int member, bool first, const KickInput& kicks) {
     }
 }
 
-// Which grains go on with the next step as soon as their loads are complete: those that no other thread reads,
-// as partners of its own.
+// Which grains go on with the next step as soon as their loads are complete: those that no other thread
+// reads, as partners of its own.
 void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
     const std::int32_t reach = lists_.pairs.farthest_partner;
     const std::int32_t begin = share_[member] + (member > 0 ? reach : 0);
