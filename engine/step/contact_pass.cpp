@@ -21,6 +21,9 @@ class NearPairs {
         if (++count_ == kChunk) flush();
     }
     void flush() {
+        // Up to a whole register, with what this thread may read.
+        for (int k = count_; k > 0 && k % kBlock != 0; ++k)
+            first_[k] = first_[k - 1], second_[k] = second_[k - 1];
         std::uint64_t left = near_pairs(grains_, first_, second_, count_, period_, gap_);
         if (count_ < kChunk) left &= (std::uint64_t{1} << count_) - 1;
         for (; left != 0; left &= left - 1) {
