@@ -89,6 +89,7 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
         put<double>(overlap, out.overlap, c);
         put<double>(apart, out.normal, c);
         put<double>(distance, out.inverse_distance, c);
+        if (in.wants < Wants::spin && !in.radius) continue;
         put<double>(radius_one, out.first_arm, c);
         put<double>(radius_two, out.second_arm, c);
     }
@@ -127,7 +128,7 @@ void sweep_distances(const GeometryInput& in, TouchChunk& out) {
         const L inverse = L(1.0) / distance;
         put<Number>(apart * inverse, out.normal, c);
         put<Number>(inverse, out.inverse_distance, c);
-        put<Number>(distance, out.twist, c);
+        if (in.wants >= Wants::spin) put<Number>(distance, out.twist, c);
     }
 }
 

@@ -1,8 +1,10 @@
-// The step loop: neighbours -> contacts -> walls -> integrate, on a team of threads.
+// The step loop: neighbours -> walls -> contacts -> integrate, on a team of threads.
 //
 // Why the bits do not depend on the number of threads: grains are in one spatial order whatever the team,
-// every thread computes all contacts of its own grains, and every grain sums its contacts in one order: as
-// second partner by rising index of the first, as first partner by rising index of the second, walls last.
+// every thread computes all contacts of its own grains, and every grain sums its contacts in one order: walls
+// before pairs, law by law; of one law first those that began since the last refresh, by the step in which
+// they did, then as second partner by rising index of the first, as first partner by rising index of the
+// second.
 #pragma once
 
 #include <array>
