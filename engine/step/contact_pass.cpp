@@ -241,6 +241,43 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
     return chunk.count < kChunk ? touching & ((std::uint64_t{1} << chunk.count) - 1) : touching;
 }
 
+namespace {
+
+// Beds larger than the caches wait for second bodies, which lie far from the first in no order that the
+// processor foresees. So all grains are brought to the second-level cache in their order, a while before a
+// contact wants them, and second bodies to the first level a chunk ahead: a fifth of the time of a million.
+// Small beds lose by it. (Inlined by force: GCC 12 takes a function that only prefetches for one without
+// effect, and leaves out its calls.)
+constexpr std::int32_t kLargeBed = 50'000, kAhead = 1000;  // grains; a tile of boxes has some 2,000
+
+template <int level>
+[[gnu::always_inline]] inline void fetch(const Grains& grains, bool rounded, std::int32_t i) {
+    constexpr int locality = 4 - level;
+    __builtin_prefetch(&grains.place[i], 0, locality);
+    if (rounded) __builtin_prefetch(&grains.rounded[i], 0, locality);
+    if (!rounded || level > 1) __builtin_prefetch(&grains.motion[i], 1, locality);
+    __builtin_prefetch(&grains.load[i], 1, locality);
+}
+
+// Of candidates, the second places of the next chunk.
+[[gnu::always_inline]] inline void fetch_places(const Grains& grains, const ContactTable& table,
+                                                std::int32_t c) {
+    const std::int32_t begin = std::min(table.candidates(), c + kChunk);
+    const std::int32_t end = std::min(table.candidates(), c + 2 * kChunk);
+    for (std::int32_t k = begin; k < end; ++k) __builtin_prefetch(&grains.place[table.near_second()[k]]);
+}
+
+[[gnu::always_inline]] inline void fetch_ahead(const Grains& grains, bool rounded, const ContactTable& table,
+                                               std::int32_t c, int count) {
+    const auto size = static_cast<std::int32_t>(grains.size());
+    const std::int32_t begin = table.first()[c] + kAhead, end = table.first()[c + count - 1] + 1 + kAhead;
+    for (std::int32_t i = begin; i < std::min(size, end); ++i) fetch<2>(grains, rounded, i);
+    for (std::int32_t k = c + kChunk; k < std::min(table.sorted(), c + 2 * kChunk); ++k)
+        fetch<1>(grains, rounded, table.second()[k]);
+}
+
+}  // namespace
+
 // work(c, bits): of the 64 candidates from c on, those that touch.
 template <class Work>
 void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
@@ -249,6 +286,7 @@ void ContactPass::each_touching_candidate(const ContactRules& rules, const Conta
     for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
         const Chunk chunk{table.near_first() + c, table.near_second() + c,
                           std::min(kChunk, table.candidates() - c)};
+        if (group.of_pairs && grains.size() >= kLargeBed) fetch_places(grains, table, c);
         work(c, which_touch(rules, group, grains, state, chunk));
     }
 }
@@ -279,35 +317,6 @@ void ContactPass::compute_stretch(const Step& in, ContactTable& table, std::int3
         clock.lap(Cost::integrate);
     }
 }
-
-namespace {
-
-// Beds larger than the caches wait for second bodies, which lie far from the first in no order that the
-// processor foresees. So all grains are brought to the second-level cache in their order, a while before a
-// contact wants them, and second bodies to the first level a chunk ahead: a fifth of the time of a million.
-// Small beds lose by it. (Inlined by force: GCC 12 takes a function that only prefetches for one without
-// effect, and leaves out its calls.)
-constexpr std::int32_t kLargeBed = 50'000, kAhead = 1000;  // grains; a tile of boxes has some 2,000
-
-template <int level>
-[[gnu::always_inline]] inline void fetch(const Grains& grains, bool rounded, std::int32_t i) {
-    constexpr int locality = 4 - level;
-    __builtin_prefetch(&grains.place[i], 0, locality);
-    if (rounded) __builtin_prefetch(&grains.rounded[i], 0, locality);
-    if (!rounded || level > 1) __builtin_prefetch(&grains.motion[i], 1, locality);
-    __builtin_prefetch(&grains.load[i], 1, locality);
-}
-
-[[gnu::always_inline]] inline void fetch_ahead(const Grains& grains, bool rounded, const ContactTable& table,
-                                               std::int32_t c, int count) {
-    const auto size = static_cast<std::int32_t>(grains.size());
-    const std::int32_t begin = table.first()[c] + kAhead, end = table.first()[c + count - 1] + 1 + kAhead;
-    for (std::int32_t i = begin; i < std::min(size, end); ++i) fetch<2>(grains, rounded, i);
-    for (std::int32_t k = c + kChunk; k < std::min(table.sorted(), c + 2 * kChunk); ++k)
-        fetch<1>(grains, rounded, table.second()[k]);
-}
-
-}  // namespace
 
 void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_t c, int count,
                                 CostClock& clock) {
