@@ -10,6 +10,10 @@ namespace grainreel {
 
 namespace {
 
+std::uint64_t bits_of_first(int count) {
+    return count < kChunk ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+}
+
 // Collects pairs until there is a chunk of them, and passes on those closer than `gap` (m).
 template <class Pass>
 class NearPairs {
@@ -25,7 +29,7 @@ class NearPairs {
         for (int k = count_; k > 0 && k % kBlock != 0; ++k)
             first_[k] = first_[k - 1], second_[k] = second_[k - 1];
         std::uint64_t left = near_pairs(grains_, first_, second_, count_, period_, gap_);
-        if (count_ < kChunk) left &= (std::uint64_t{1} << count_) - 1;
+        left &= bits_of_first(count_);
         for (; left != 0; left &= left - 1) {
             const int k = std::countr_zero(left);
             pass_(first_[k], second_[k]);
@@ -205,7 +209,7 @@ LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& gro
                            group.law->uses_radius || group.rolling,
                            rounded};
     group.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
-    if (chunk.count < kChunk) touch_.touching &= (std::uint64_t{1} << chunk.count) - 1;  // not the fill
+    touch_.touching &= bits_of_first(chunk.count);  // not the fill
     std::fill_n(kind_, kChunk, 0);
     if (group.needs_rows()) {
         for (int c = 0; c < chunk.count; ++c) {
@@ -238,7 +242,7 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
     const std::uint64_t touching =
         group.of_pairs ? near_pairs(grains, chunk.first, chunk.second, chunk.count, rules.period, 0)
                        : touching_walls(grains, chunk.first, chunk.second, chunk.count, state);
-    return chunk.count < kChunk ? touching & ((std::uint64_t{1} << chunk.count) - 1) : touching;
+    return touching & bits_of_first(chunk.count);
 }
 
 namespace {

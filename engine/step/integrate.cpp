@@ -24,7 +24,7 @@ struct Numbers {
 
 // What a pass works on of motion and load: velocity and force, and with friction spin and torque behind them.
 template <bool rubs>
-struct Half {
+struct MotionRecord {
     static constexpr int size = rubs ? 8 : 4;
     static HWY_INLINE Record<size> of(const Record<4>& first, const Record<4>& second) {
         if constexpr (rubs)
@@ -46,18 +46,18 @@ struct Half {
 // Whether a pass over the grains ends a step, begins one, or both.
 template <bool ends, bool begins, bool rubs>
 HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
-    using Half = Half<rubs>;
-    constexpr int size = Half::size;
+    using Whole = MotionRecord<rubs>;
+    constexpr int size = Whole::size;
     const Numbers at(grains);
     const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
-    const Record<size> last = Half::of(in.end_kick), next = Half::of(in.begin_kick);
-    const Record<size> keep = Half::of(in.keep, 1), nothing = Half::of(zero, zero);
-    const Record<size> gravity = Half::of(record_of(in.gravity), zero);
-    const Record<size> frame = Half::of(record_of(in.frame), zero);
+    const Record<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
+    const Record<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
+    const Record<size> gravity = Whole::of(record_of(in.gravity), zero);
+    const Record<size> frame = Whole::of(record_of(in.frame), zero);
     Record<4> fastest = zero;
     for (std::ptrdiff_t i = begin; i < end; ++i) {
         double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
-        const Record<size> gains = record_at<size>(load) * Half::fourths(motion) + gravity;
+        const Record<size> gains = record_at<size>(load) * Whole::fourths(motion) + gravity;
         Record<size> now = record_at<size>(motion);
         if (ends) now = (now + last * gains) * keep;
         if (begins) {
