@@ -22,6 +22,9 @@ class Shapes {
     void polygon(const std::vector<Pixel>& corners, const Paint& paint);  // convex
     // width: pixels. Corners are mitred, so a translucent line shows no knots.
     void line(const std::vector<Pixel>& points, bool closed, double width, const Paint& paint);
+    void append(const Shapes& others) {
+        vertices_.insert(vertices_.end(), others.vertices_.begin(), others.vertices_.end());
+    }
     void clear() { vertices_.clear(); }
 
     struct Vertex {

@@ -3,27 +3,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "render/spheres/pixel.hpp"
+
 namespace grainreel {
 namespace {
 
 constexpr std::uint32_t kGhost = 90;  // strength of a ghost, of 255
-
-// All four channels times share / 255, two in each half, rounded.
-std::uint32_t scaled(std::uint32_t pixel, std::uint32_t share) {
-    constexpr std::uint32_t kEven = 0x00ff00ffu, kHalf = 0x00800080u;
-    const auto pair = [&](std::uint32_t two) {
-        const std::uint32_t product = two * share + kHalf;  // / 255: (p + p / 256) / 256
-        return ((product + ((product >> 8) & kEven)) >> 8) & kEven;
-    };
-    return pair(pixel & kEven) + (pair((pixel >> 8) & kEven) << 8);
-}
-
-std::uint32_t over(std::uint32_t top, std::uint32_t below) {
-    const std::uint32_t left = 255 - (top >> 24);
-    if (left == 255) return below;
-    if (left == 0) return top;
-    return top + scaled(below, left);
-}
 
 // Eight pixels at once where there is nothing to lay over, as in most of a picture.
 constexpr int kSpan = 8;

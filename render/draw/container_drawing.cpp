@@ -55,7 +55,7 @@ double azimuth_of(const View& view) {
     return std::atan2(-view.right.x(), view.right.y()) * 180 / std::numbers::pi;
 }
 
-void draw_lab_marks(const Scene& scene, const Sketches& sketches, double azimuth, Shapes& on) {
+void draw_lab_marks(const Scene& scene, const Sketches& sketches, double azimuth, WallSide& on) {
     const double pen = sketches.lab.pen;
     const Paint ink{sketches.lab.palette.faint_ink, 1}, accent{sketches.lab.palette.accent, 1};
     const double thickness = drawn_thickness(scene.container);
@@ -98,7 +98,7 @@ std::vector<Vec3> corners_of(const Scene& scene) {
 
 void draw_ghost(const Scene& scene, const Sketch& lab, Shapes& on) {
     for (const FreeWall& wall : scene.walls)
-        if (wall.moves) draw_free_wall_ghost(wall, extent_of(scene), lab, on);
+        if (wall.moves) draw_free_wall_ghost(wall, scene, lab, on);
     const bool floor_only = scene.drive.moves == Drive::Moves::floor;
     if (scene.container.shape == Container::Shape::cylinder)
         draw_cylinder_ghost(scene.container, floor_only, lab, on);
@@ -147,19 +147,20 @@ void draw_container(const Scene& scene, const Views& views, const Frame& frame, 
                     int picture_height, ContainerShapes& shapes) {
     shapes.behind.clear();
     shapes.before.clear();
+    shapes.over.clear();
     const Sketches sketches{{views, palette, picture_height, frame.wall_offset},
                             {views, palette, picture_height, frame.floor_offset},
                             {views, palette, picture_height, Vec3(0, 0, 0)}};
-    for (const FreeWall& wall : scene.walls) {
-        const Vec3 offset = (wall.moves ? frame.floor_offset : Vec3(0, 0, 0)) + frame.time * wall.velocity;
-        draw_free_wall(wall, extent_of(scene), {views, palette, picture_height, offset}, shapes);
-    }
     if (scene.container.shape == Container::Shape::cylinder)
         draw_cylinder(scene.container, sketches, shapes);
     else if (scene.container.shape != Container::Shape::none)
         draw_prism(scene.container, sketches, shapes);
+    for (const FreeWall& wall : scene.walls) {  // inside, so over the container's far walls
+        const Vec3 offset = (wall.moves ? frame.floor_offset : Vec3(0, 0, 0)) + frame.time * wall.velocity;
+        draw_free_wall(wall, scene, {views, palette, picture_height, offset}, shapes);
+    }
     draw_lab_marks(scene, sketches, azimuth_of(views.at_rest), shapes.behind);
-    if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.before);
+    if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.over);
 }
 
 }  // namespace grainreel

@@ -1,8 +1,9 @@
 // The container as a cut-away: walls of visible thickness, behind the grains where the eye looks at their
 // inner side and as bare glass edges over the grains where it looks at them from outside.
 //
-// The container is convex and the grains are inside, so no depth test is needed: what lies behind the grains
-// is painted before them, what lies in front after them, and every edge stays smooth.
+// The container is convex and the grains are inside: what lies behind the grains is painted before them, what
+// lies in front after them, and every edge stays smooth. For grains that reach through a wall or are outside,
+// WallOrder takes the painted faces and puts that right.
 #pragma once
 
 #include <vector>
@@ -27,8 +28,23 @@ std::vector<Vec3> framing_points(const Scene& scene);  // at the camera's own az
 // The scene's camera as the film begins.
 View frame_container(const Scene& scene, const PictureLayout& layout);
 
+// Walls on one side of the grains, as painted and as faces in space.
+struct WallSide {
+    struct Face {
+        std::vector<Vec3> corners;  // m, where it is now
+        double alpha;
+    };
+    Shapes shapes;
+    std::vector<Face> faces;
+    void clear() {
+        shapes.clear();
+        faces.clear();
+    }
+};
+
 struct ContainerShapes {
-    Shapes behind, before;  // to be painted before and after the grains
+    WallSide behind, before;  // to be painted before and after the grains
+    Shapes over;              // over everything
 };
 
 // The camera, before it follows anything and now; `moves`: it does not stand all the film.

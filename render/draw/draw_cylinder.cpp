@@ -65,7 +65,7 @@ class Cylinder {
         const double inner = up > 0 ? low : high, outer = up > 0 ? high : low;
         const double solid = sketch.solid({0, 0, inner}, {0, 0, up});
         const bool behind = !sketch.faces({0, 0, inner}, {0, 0, up});
-        Shapes& on = behind ? shapes_.behind : shapes_.before;
+        WallSide& on = behind ? shapes_.behind : shapes_.before;
         const double wide = radius_ + thickness_;
         const Paint edge = blend(sketch.glass_edge(), sketch.edge(), solid);
         if (solid > 0 && behind) {

@@ -1,5 +1,7 @@
-// Planes of the scene's own: the piece of each that lies in the box of what is looked at.
+// Planes of the scene's own: the piece of each that lies in the container, or in the box of what is looked
+// at.
 #include <cmath>
+#include <numbers>
 
 #include "render/draw/drawing_kit.hpp"
 
@@ -30,6 +32,40 @@ std::vector<Vec3> cut(const FreeWall& wall, const Vec3& point, const Extent& ext
     return crossings;
 }
 
+// What of a convex piece lies where normal . (p - point) >= 0 (Sutherland and Hodgman 1974).
+std::vector<Vec3> clipped(const std::vector<Vec3>& piece, const Vec3& point, const Vec3& normal) {
+    std::vector<Vec3> left;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+        const Vec3 &from = piece[k], &to = piece[(k + 1) % piece.size()];
+        const double a = normal.dot(from - point), b = normal.dot(to - point);
+        if (a >= 0) left.push_back(from);
+        if ((a > 0 && b < 0) || (a < 0 && b > 0)) left.push_back(from + a / (a - b) * (to - from));
+    }
+    return left;
+}
+
+// Walls that are not sides of the box of what is looked at.
+std::vector<Vec3> inside(std::vector<Vec3> piece, const Container& container) {
+    if (container.shape == Container::Shape::wedge && container.half_angle > 0) {
+        const double cosine = std::cos(container.half_angle), sine = std::sin(container.half_angle);
+        for (const double side : {-1.0, 1.0})
+            piece = clipped(piece, {0, side * container.floor_half_width(), 0}, {0, -side * cosine, sine});
+    }
+    constexpr int kSides = 96;  // of a circle
+    for (int k = 0; container.shape == Container::Shape::cylinder && k < kSides; ++k) {
+        const double angle = 2 * std::numbers::pi * k / kSides;
+        const Vec3 outward(std::cos(angle), std::sin(angle), 0);
+        piece = clipped(piece, container.half_width * outward, -outward);
+    }
+    return piece;
+}
+
+// In the place where it is now, moved by `offset`.
+std::vector<Vec3> piece_of(const FreeWall& wall, const Scene& scene, const Vec3& offset) {
+    std::vector<Vec3> piece = inside(cut(wall, wall.point + offset, extent_of(scene)), scene.container);
+    return piece.size() >= 3 ? piece : std::vector<Vec3>();
+}
+
 }  // namespace
 
 std::vector<Vec3> extent_corners(const Extent& extent) {
@@ -40,22 +76,21 @@ std::vector<Vec3> extent_corners(const Extent& extent) {
     return corners;
 }
 
-void draw_free_wall(const FreeWall& wall, const Extent& extent, const Sketch& sketch,
-                    ContainerShapes& shapes) {
+void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sketch, ContainerShapes& shapes) {
     // The sketch moves what it draws, so the cut is made where the wall is and taken back.
-    std::vector<Vec3> piece = cut(wall, wall.point + sketch.offset(), extent);
-    if (piece.size() < 3) return;
+    std::vector<Vec3> piece = piece_of(wall, scene, sketch.offset());
+    if (piece.empty()) return;
     for (Vec3& corner : piece) corner -= sketch.offset();
-    Shapes& on = sketch.faces(wall.point, wall.normal) ? shapes.behind : shapes.before;
+    WallSide& on = sketch.faces(wall.point, wall.normal) ? shapes.behind : shapes.before;
     // Solid where the eye is on the grains' side.
     const double solid = sketch.solid(wall.point, -wall.normal);
     sketch.polygon(on, piece, blend(sketch.glass_face(), sketch.inner_face(), solid));
     sketch.line(on, piece, true, sketch.pen, blend(sketch.glass_edge(), sketch.far_edge(), solid));
 }
 
-void draw_free_wall_ghost(const FreeWall& wall, const Extent& extent, const Sketch& lab, Shapes& on) {
-    const std::vector<Vec3> piece = cut(wall, wall.point, extent);
-    if (piece.size() >= 3) lab.dashed(on, piece, true, 0.8 * lab.pen, lab.ghost());
+void draw_free_wall_ghost(const FreeWall& wall, const Scene& scene, const Sketch& lab, Shapes& on) {
+    const std::vector<Vec3> piece = piece_of(wall, scene, Vec3(0, 0, 0));
+    if (!piece.empty()) lab.dashed(on, piece, true, 0.8 * lab.pen, lab.ghost());
 }
 
 }  // namespace grainreel

@@ -115,7 +115,7 @@ class Prism {
         const Sketch& walls = sketches_.walls;
         for (std::size_t i = 0; i + 1 < profile.inner.size(); ++i) segment(profile, i);
         const Vec3 foot = at(0, profile.inner.front()), normal = outward(profile, 0);
-        Shapes& on = walls.faces(foot, normal) ? shapes_.before : shapes_.behind;
+        WallSide& on = walls.faces(foot, normal) ? shapes_.before : shapes_.behind;
         const Paint paint = blend(walls.glass_edge(), walls.edge(), walls.solid(foot, normal));
         for (const End& end : near_)
             for (const std::size_t i : {profile.inner.size() - 1, std::size_t{0}})
@@ -138,7 +138,7 @@ class Prism {
         const std::vector<Vec3> inner = {at(x, a), at(x, b), at(-x, b), at(-x, a)};
         const double solid = walls.solid(at(0, a), outward(profile, i));
         const bool behind = !walls.faces(at(0, a), outward(profile, i));
-        Shapes& on = behind ? shapes_.behind : shapes_.before;
+        WallSide& on = behind ? shapes_.behind : shapes_.before;
         walls.polygon(on, inner, blend(walls.glass_face(), walls.inner_face(), behind ? solid : 0));
         const Paint thin = blend(walls.glass_edge(), walls.far_edge(), solid);
         for (const Flat& p : {a, b}) walls.line(on, {at(x, p), at(-x, p)}, false, 0.6 * walls.pen, thin);
@@ -159,7 +159,7 @@ class Prism {
     void plate(const Sketch& sketch, const Plate& plate, double inner_height, double up) {
         const double solid = sketch.solid({0, 0, inner_height}, {0, 0, up});
         const bool behind = !sketch.faces({0, 0, inner_height}, {0, 0, up});
-        Shapes& on = behind ? shapes_.behind : shapes_.before;
+        WallSide& on = behind ? shapes_.behind : shapes_.before;
         const double w = plate.half_width, x = 0.5 * container_.depth;
         const auto level = [&](double z) {
             return std::vector<Vec3>{{x, -w, z}, {x, w, z}, {-x, w, z}, {-x, -w, z}};

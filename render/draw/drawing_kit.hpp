@@ -34,12 +34,14 @@ class Sketch {
     const View& view() const { return views_.now; }
     const Vec3& offset() const { return offset_; }
 
-    void polygon(Shapes& on, const std::vector<Vec3>& corners, const Paint& paint) const {
-        on.polygon(project(corners), paint);
+    void polygon(WallSide& on, const std::vector<Vec3>& corners, const Paint& paint) const {
+        on.shapes.polygon(project(corners), paint);
+        on.faces.push_back({corners, paint.alpha});
+        for (Vec3& corner : on.faces.back().corners) corner += offset_;
     }
-    void line(Shapes& on, const std::vector<Vec3>& points, bool closed, double width,
+    void line(WallSide& on, const std::vector<Vec3>& points, bool closed, double width,
               const Paint& paint) const {
-        on.line(project(points), closed, width, paint);
+        on.shapes.line(project(points), closed, width, paint);
     }
     void dashed(Shapes& on, std::vector<Vec3> points, bool closed, double width, const Paint& paint) const;
 
@@ -77,14 +79,13 @@ struct Sketches {
 void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 
-// A plane, as far as the box reaches.
-void draw_free_wall(const FreeWall& wall, const Extent& extent, const Sketch& sketch,
-                    ContainerShapes& shapes);
+// A plane, as far as the container reaches, or what is looked at.
+void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sketch, ContainerShapes& shapes);
 
 // Dashed outlines over the grains: of the container's moving parts, or of a plane that moves, at rest.
 void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
 void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
-void draw_free_wall_ghost(const FreeWall& wall, const Extent& extent, const Sketch& lab, Shapes& on);
+void draw_free_wall_ghost(const FreeWall& wall, const Scene& scene, const Sketch& lab, Shapes& on);
 
 // Half the width of everything drawn, at the height of the floor's top; m.
 double outer_floor_half_width(const Container& container);

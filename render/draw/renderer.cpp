@@ -1,5 +1,6 @@
 #include "render/draw/renderer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <functional>
@@ -15,6 +16,7 @@
 #include "render/draw/overlay.hpp"
 #include "render/draw/shown_grains.hpp"
 #include "render/draw/spheres.hpp"
+#include "render/spheres/pixel.hpp"
 
 namespace grainreel {
 namespace {
@@ -82,8 +84,10 @@ class SideLayer {
     std::vector<std::uint32_t> pixels_;
 };
 
+constexpr std::array<float, 4> clear{0, 0, 0, 0};
+
 std::array<float, 4> clear_colour(const Colour& colour, bool transparent) {
-    if (transparent) return {0, 0, 0, 0};
+    if (transparent) return clear;
     return {static_cast<float>(colour.red), static_cast<float>(colour.green), static_cast<float>(colour.blue),
             1.0f};
 }
@@ -101,7 +105,7 @@ struct Renderer::Impl {
           context(gl::make_context(provider, raster_threads)),
           shape_painter(context->gl()),
           behind(context->gl(), port, clear_colour(palette.background, s.film.transparent)),
-          before(context->gl(), port, {0, 0, 0, 0}),
+          before(context->gl(), port, clear),
           team(raster_threads),
           shown(s, s.film.shows.hidden),
           solid(s, s.film.shows.ghosts),
@@ -123,6 +127,8 @@ struct Renderer::Impl {
     std::unique_ptr<gl::Context> context;
     ShapePainter shape_painter;
     SideLayer behind, before;
+    std::optional<SideLayer> marks_alone;  // where grains hide parts of the walls before them
+    std::vector<std::uint32_t> mended;     // of `before` and `marks_alone`
     std::optional<GroundPainter> ground;
     Team team;
     ShownGrains shown, solid;  // of all: those that are not hidden; of these: those that are not ghosts
@@ -138,6 +144,7 @@ struct Renderer::Impl {
     void draw_exposed(const Frame& frame, const View& view, Stopwatch& watch);
     void draw_moment(const Frame& frame, const Frame* marked, const View& view, Stopwatch& watch);
     const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
+    const std::vector<std::uint32_t>& walls_before();
 };
 
 void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time,
@@ -175,24 +182,48 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     const Frame& all = shown.of(frame);
     const Frame& opaque = ghost_painter ? solid.of(all) : all;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
-    marks.draw(eye, marked ? *marked : all, shapes.before);
+    marks.draw(eye, marked ? *marked : all, shapes.over);
     watch.lap(&DrawTimes::walls);
     if (ground) ground->update(opaque, eye);
     watch.lap(&DrawTimes::shadow);
-    behind.draw(shape_painter, shapes.behind, ground ? [&] { ground->paint(eye); } : std::function<void()>());
-    before.draw(shape_painter, shapes.before, {});
+    behind.draw(shape_painter, shapes.behind.shapes,
+                ground ? [&] { ground->paint(eye); } : std::function<void()>());
     watch.lap(&DrawTimes::walls);
     const Layer& grains = draw_grains(sphere_painter, opaque, watch);
     const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, all, watch) : nullptr;
-    compose({behind.read(), grains, ghosts, before.read()}, port, picture, team);
+    compose({behind.read(), grains, ghosts, walls_before()}, port, picture, team);
     if (scene.film.transparent) divide_by_alpha(picture, port);
     watch.lap(&DrawTimes::readback);
+}
+
+// Walls before the grains, less what grains hide of them, and the marks over them.
+const std::vector<std::uint32_t>& Renderer::Impl::walls_before() {
+    const std::vector<WallPixel>& pixels = sphere_painter.wall_pixels();
+    const bool bared = std::any_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.bared > 0; });
+    if (!bared) {
+        shapes.before.shapes.append(shapes.over);
+        before.draw(shape_painter, shapes.before.shapes, {});
+        return before.read();
+    }
+    if (!marks_alone) marks_alone.emplace(context->gl(), port, clear);
+    before.draw(shape_painter, shapes.before.shapes, {});
+    marks_alone->draw(shape_painter, shapes.over, {});
+    mended = before.read();
+    for (const WallPixel& pixel : pixels) {
+        std::uint32_t& at =
+            mended[static_cast<std::size_t>(port.height - 1 - pixel.y) * port.width + pixel.x];
+        at = faded(at, 1 - pixel.bared);
+    }
+    const std::vector<std::uint32_t>& marked = marks_alone->read();
+    for (std::size_t i = 0; i < mended.size(); ++i) mended[i] = over(marked[i], mended[i]);
+    return mended;
 }
 
 const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const {
     painter.take(eye, frame);
     watch.lap(&DrawTimes::upload);
     painter.find_visible();
+    painter.find_order(eye, shapes);
     watch.lap(&DrawTimes::spheres);
     painter.find_neighbours();
     watch.lap(&DrawTimes::occlusion);

@@ -71,6 +71,16 @@ void SpherePainter::find_visible() {
     layer_.find_visible(sight_, cut_, spheres_, team_);
 }
 
+void SpherePainter::find_order(const View& view, const ContainerShapes& walls) {
+    std::vector<WallFace> faces;
+    for (const WallSide* side : {&walls.behind, &walls.before})
+        for (const WallSide::Face& face : side->faces) {
+            faces.push_back({{}, face.alpha, side == &walls.before});
+            for (const Vec3& corner : face.corners) faces.back().corners.push_back(view.to_view(corner));
+        }
+    layer_.find_order(sight_, cut_, spheres_, faces, team_);
+}
+
 void SpherePainter::find_neighbours() {
     layer_.find_neighbours(cut_, lamp_, spheres_, team_);
 }

@@ -4,6 +4,7 @@
 #include "engine/base/team.hpp"
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/draw/container_drawing.hpp"
 #include "render/draw/grain_colours.hpp"
 #include "render/draw/view.hpp"
 #include "render/spheres/sphere_layer.hpp"
@@ -22,8 +23,12 @@ class SpherePainter {
     // One after the other.
     void take(const View& view, const Frame& frame);
     void find_visible();
+    // Walls as they were painted behind and before the grains.
+    void find_order(const View& view, const ContainerShapes& walls);
     void find_neighbours();
     const Layer& light();
+    // Where the layers of walls are not right, and what is left of the one before the grains.
+    const std::vector<WallPixel>& wall_pixels() const { return layer_.wall_order().pixels(); }
 
   private:
     void open_bed(const View& view, const Frame& frame);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "render/spheres/edge_candidates.hpp"
 #include "render/spheres/sphere_layer.hpp"
 #include "render/spheres/tone.hpp"
 
@@ -80,36 +81,16 @@ void BandPainter::take_pixel(int x, int y, std::uint32_t grain) {
     soft_.push_back({x, y});
 }
 
-// The different grains that the pixel and its four neighbours show.
 void BandPainter::take_edge(const PaintJob& job, int x, int y) {
-    const Visibility& seen = job.visibility;
-    const std::uint32_t* row = seen.row(y);
-    const std::uint32_t around[5] = {row[x], row[x - 1], row[x + 1], seen.row(std::max(0, y - 1))[x],
-                                     seen.row(std::min(y + 1, seen.height() - 1))[x]};
-    const int at = block_size_;
-    int found = 0;
-    for (const std::uint32_t number : around) {
-        bool is_new = number != 0 && found < kCandidates;
-        for (int c = 0; c < found && is_new; ++c) is_new = block_who_[c][at] != number - 1;
-        if (!is_new) continue;
-        block_who_[found][at] = number - 1;
-        block_.candidate[found++][at] = job.spheres.spheres[number - 1];
-    }
-    for (int c = found; c < kCandidates; ++c) block_.candidate[c][at] = {0, 0, 1, -1};
-    block_.candidates = at == 0 ? found : std::max(block_.candidates, found);
-    block_.x[at] = static_cast<float>(x) + 0.5f;
-    block_.y[at] = static_cast<float>(y) + 0.5f;
-    block_x_[at] = x;
-    block_y_[at] = y;
+    take_candidates(job.visibility, job.spheres.spheres, x, y, block_, block_who_, block_size_);
+    block_x_[block_size_] = x;
+    block_y_[block_size_] = y;
     if (++block_size_ == kPointBlock) settle_edges(job);
 }
 
 void BandPainter::settle_edges(const PaintJob& job) {
     if (block_size_ == 0) return;
-    for (int i = block_size_; i < kPointBlock; ++i) {
-        block_.x[i] = block_.y[i] = 0;
-        for (int c = 0; c < kCandidates; ++c) block_.candidate[c][i] = {0, 0, 1, -1};
-    }
+    clear_candidates(block_, block_size_);
     sphere_kernels().settle(job.sight, job.cut, block_);
     for (int i = 0; i < block_size_; ++i) {
         bool any = false;

@@ -12,11 +12,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// The eight places of Direct3D's standard multisample pattern, in sixteenths of a pixel.
-constexpr int kPoints = 8;
-constexpr float kPointX[kPoints] = {1, -1, 5, -3, -5, -7, 3, 7};
-constexpr float kPointY[kPoints] = {-3, 3, 1, -5, 5, -1, 7, -7};
-
 HWY_INLINE F candidate_part(const ViewSphere* spheres, float ViewSphere::*part) {
     alignas(64) float values[kPointBlock];
     for (int i = 0; i < F::count; ++i) values[i] = spheres[i].*part;
@@ -27,7 +22,7 @@ template <bool orthographic, bool cut_open>
 void settle_part(const Sight& sight, const Cut& cut, EdgeBlock& block, int first) {
     const F x = load<F>(block.x + first), y = load<F>(block.y + first), scale(1 / sight.focal);
     F nearest[kPoints], owner[kPoints];
-    for (int p = 0; p < kPoints; ++p) nearest[p] = F(1e30), owner[p] = F(-1);
+    for (int p = 0; p < kPoints; ++p) nearest[p] = F(kNoGrain), owner[p] = F(-1);
     for (int c = 0; c < block.candidates; ++c) {
         const ViewSphere* who = block.candidate[c] + first;
         const F cx = candidate_part(who, &ViewSphere::x), cy = candidate_part(who, &ViewSphere::y);
@@ -42,6 +37,7 @@ void settle_part(const Sight& sight, const Cut& cut, EdgeBlock& block, int first
             owner[p] = select(nearer, F(static_cast<float>(c)), owner[p]);
         }
     }
+    for (int p = 0; p < kPoints; ++p) store(nearest[p], block.nearest[p] + first);
     for (int c = 0; c < block.candidates; ++c) {
         F hits(0), sum_x(0), sum_y(0);
         for (int p = 0; p < kPoints; ++p) {

@@ -21,13 +21,19 @@ struct DepthRows {
 
 // Sixteen pixels on edges, and who may be seen there.
 constexpr int kPointBlock = 16, kCandidates = 4;
+// Eight points in each, at the places of Direct3D's standard multisample pattern, in sixteenths of a pixel.
+constexpr int kPoints = 8;
+constexpr float kPointX[kPoints] = {1, -1, 5, -3, -5, -7, 3, 7};
+constexpr float kPointY[kPoints] = {-3, 3, 1, -5, 5, -1, 7, -7};
+constexpr float kNoGrain = 1e30f;  // m: depth where none is met
 struct alignas(64) EdgeBlock {
     float x[kPointBlock], y[kPointBlock];  // pixels, of the middle
     ViewSphere candidate[kCandidates][kPointBlock];
     // Out: share of the pixel that shows each, and the mean place of the points that do, against the middle.
     float share[kCandidates][kPointBlock];
     float mean_x[kCandidates][kPointBlock], mean_y[kCandidates][kPointBlock];
-    int candidates = 0;  // used, in the pixel that has most; unused ones have radius < 0
+    float nearest[kPoints][kPointBlock];  // m, depth of what is seen at a point
+    int candidates = 0;                   // used, in the pixel that has most; unused ones have radius < 0
 };
 
 // A grain near another one, from whose centre x, y, z are counted.

@@ -4,11 +4,17 @@
 #include <atomic>
 
 #include "engine/base/flush_denormals.hpp"
+#include "render/spheres/pixel.hpp"
 
 namespace grainreel {
 
 void SphereLayer::find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team) {
     visibility_.update(sight, cut, spheres.spheres, team);
+}
+
+void SphereLayer::find_order(const Sight& sight, const Cut& cut, const Spheres& spheres,
+                             const std::vector<WallFace>& faces, Team& team) {
+    wall_order_.update(sight, cut, spheres.spheres, faces, visibility_, team);
 }
 
 void SphereLayer::find_neighbours(const Cut& cut, const Lamp& lamp, const Spheres& spheres, Team& team) {
@@ -31,6 +37,8 @@ const Layer& SphereLayer::light(const Sight& sight, const Cut& cut, const Lamp& 
         for (int y; (y = kRows * next.fetch_add(1, std::memory_order_relaxed)) < layer_.height;)
             painter.paint(job, y, std::min(y + kRows, layer_.height), layer_);
     });
+    for (const WallPixel& pixel : wall_order_.pixels())
+        layer_.row(pixel.y)[pixel.x] = faded(layer_.row(pixel.y)[pixel.x], 1 - pixel.hidden);
     return layer_;
 }
 

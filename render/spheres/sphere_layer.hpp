@@ -1,5 +1,5 @@
-// Lit grains on nothing: who is seen (Visibility), who takes light from whom (Neighbourhood), then each pixel
-// lit once, and those on edges once for each grain that shares them.
+// Lit grains on nothing: who is seen (Visibility), what walls hide of them (WallOrder), who takes light from
+// whom (Neighbourhood), then each pixel lit once, and those on edges once for each grain that shares them.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 #include "render/spheres/layer.hpp"
 #include "render/spheres/neighbourhood.hpp"
 #include "render/spheres/visibility.hpp"
+#include "render/spheres/wall_order.hpp"
 
 namespace grainreel {
 
@@ -28,15 +29,20 @@ class SphereLayer {
 
     // One after the other. The team's size does not show in the picture.
     void find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team);
+    // Faces in view coordinates.
+    void find_order(const Sight& sight, const Cut& cut, const Spheres& spheres,
+                    const std::vector<WallFace>& faces, Team& team);
     void find_neighbours(const Cut& cut, const Lamp& lamp, const Spheres& spheres, Team& team);
     const Layer& light(const Sight& sight, const Cut& cut, const Lamp& lamp, const Spheres& spheres,
                        Team& team);
 
     const Visibility& visibility() const { return visibility_; }
     const Neighbourhood& neighbourhood() const { return neighbourhood_; }
+    const WallOrder& wall_order() const { return wall_order_; }
 
   private:
     Visibility visibility_;
+    WallOrder wall_order_;
     Neighbourhood neighbourhood_;
     Layer layer_;
     std::vector<std::uint32_t> slot_of_;  // a grain: its place among those shown

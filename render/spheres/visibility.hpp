@@ -28,6 +28,8 @@ class Visibility {
     }
     // Indices of the grains that are seen at all, rising.
     const std::vector<std::uint32_t>& shown() const { return shown_; }
+    // The pixels that a grain may be seen in; none for one that is cut away.
+    const PixelBox& box(std::size_t grain) const { return box_[grain]; }
     int width() const { return width_; }
     int height() const { return height_; }
 

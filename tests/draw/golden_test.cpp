@@ -237,6 +237,29 @@ TEST(GoldenContainers, BoxAndCylinder) {
     }
 }
 
+// A chute in a box whose top is open: grains through both, beside the box, under it and in front of it.
+TEST(GoldenContainers, GrainsThroughWalls) {
+    Scene scene = scene_for([](Film& f) { f.camera.azimuth = 35, f.camera.elevation = 25; });
+    scene.container.shape = Container::Shape::box;
+    scene.container.half_width = 0.05;
+    scene.container.height = 0.08;
+    scene.container.depth = 0.06;
+    FreeWall chute;
+    chute.point = Vec3(0, 0, 0.03);
+    chute.normal = Vec3(0, 0.4, 1).normalized();
+    scene.walls = {chute};
+    const Frame frame = frame_of({{{0, 0, 0.03}, 0.012, 1},
+                                  {{0.01, 0.03, 0.012}, 0.008, 0},
+                                  {{0.03, 0.02, 0.05}, 0.012, 1},
+                                  {{0, 0.05, 0.06}, 0.01, 0},
+                                  {{-0.01, -0.05, 0.05}, 0.012, 1},
+                                  {{0, -0.065, 0.02}, 0.008, 0},
+                                  {{0, 0.03, -0.012}, 0.008, 1}});
+    expect_golden("through_walls", Renderer(scene, 1).draw(frame, ""));
+    scene.film.width = 1440, scene.film.height = 810;
+    if (const char* at = std::getenv("GRAINREEL_LOOK")) write(at, Renderer(scene, 1).draw(frame, ""));
+}
+
 TEST(GoldenExposure, Streaks) {
     const Scene scene = scene_for([](Film&) {});
     Frame frame = bed();
