@@ -9,6 +9,9 @@ namespace {
 
 // What is drawn beside grains and walls, and how the walls' motion is shown.
 void add_film_marks(Keys& keys) {
+    keys.push_back(choice("film.words", all_of(word_place_words), literal("\"automatic\""),
+                          "Words beside the picture, on plates over it, or none; automatic: plates with a "
+                          "zoom, position or target of your own."));
     keys.push_back(entry("film.axes", KeyKind::flag, note("true where the camera moves"),
                          "Arrows along x, y and z as the camera sees them."));
     keys.push_back(entry("film.wall_ghost", KeyKind::flag, literal("false"),

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/reader_parts.hpp"
+#include "engine/scene/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -56,6 +57,7 @@ void read_camera(Document& document, Film& film) {
     read_place(document, film.camera);
     read_orbit(document, film.camera);
     read_keys(document, film.camera);
+    film.words = chosen<WordPlace>(document, "film.words", word_place_words, WordPlace::automatic);
     film.axes = document.flag("film.axes").value_or(film.camera.moves());
     film.wall_ghost = document.flag("film.wall_ghost").value_or(film.wall_ghost);
     film.exaggerate = document.quantity("film.exaggerate").value_or(film.exaggerate);

@@ -64,4 +64,9 @@ std::string Scene::where(const std::string& key) const {
     return file;
 }
 
+bool Camera::framed_by_user() const {
+    return position || target || zoom != 1 ||
+           std::any_of(keys.begin(), keys.end(), [](const CameraKey& key) { return key.zoom || key.target; });
+}
+
 }  // namespace grainreel

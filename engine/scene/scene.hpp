@@ -220,10 +220,16 @@ struct Camera {
     std::optional<double> orbit_time;  // s of film in which it does so; all the film when empty
     std::vector<CameraKey> keys;       // by rising time
     bool moves() const { return orbit != 0 || !keys.empty(); }
+    // Whether the picture's framing is the user's, not one that has the container whole.
+    bool framed_by_user() const;
     bool operator==(const Camera&) const = default;
 };
 
 enum class FilmFormat { mp4, webm, av1, gif, ffv1, png, y4m };  // docs/films.md says what each is
+
+// Where the words of a frame are: beside the picture, or over it on plates. automatic: over it with a camera
+// that the user frames.
+enum class WordPlace { automatic, gutters, plates, none };
 
 struct Film {
     int width = 1920, height = 1080;
@@ -235,6 +241,7 @@ struct Film {
     FilmLook look;
     int quality = 20;  // x264 crf; other codecs take what looks alike
     std::string preset = "veryfast";
+    WordPlace words = WordPlace::automatic;
     bool axes = false;        // x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
     double exaggerate = 1;    // of the container's motion, grains and all

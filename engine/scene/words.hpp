@@ -30,6 +30,10 @@ inline const Words<Accuracy> accuracy_words{
 
 inline const Words<FilmLook::Style> style_words{
     {"studio", FilmLook::Style::studio}, {"flat", FilmLook::Style::flat}, {"dark", FilmLook::Style::dark}};
+inline const Words<WordPlace> word_place_words{{"automatic", WordPlace::automatic},
+                                               {"gutters", WordPlace::gutters},
+                                               {"plates", WordPlace::plates},
+                                               {"none", WordPlace::none}};
 inline const Words<FilmFormat> film_format_words{{"mp4", FilmFormat::mp4},   {"webm", FilmFormat::webm},
                                                  {"av1", FilmFormat::av1},   {"gif", FilmFormat::gif},
                                                  {"ffv1", FilmFormat::ffv1}, {"png", FilmFormat::png},

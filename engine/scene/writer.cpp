@@ -325,6 +325,7 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
     if (film.sheet[0] > 0) out.put("sheet", fmt::format("[{}, {}]", film.sheet[0], film.sheet[1]));
     if (!(film.background == default_background(film.look.style)))
         out.words("background", colour_text(film.background));
+    out.words("words", word_of(film.words, word_place_words));
     // Else as the camera moves, also when a finished run is drawn again with another camera.
     if (film.axes != film.camera.moves()) out.flag("axes", film.axes);
     out.flag("wall_ghost", film.wall_ghost);

@@ -44,7 +44,9 @@ TypeScale type_scale(const Film& film) {
     return type;
 }
 
-PictureLayout plan_layout(const Scene& scene) {
+namespace {
+
+PictureLayout with_gutters(const Scene& scene) {
     const int width = scene.film.width, height = scene.film.height;
     const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette(scene.film.background);
@@ -54,7 +56,7 @@ PictureLayout plan_layout(const Scene& scene) {
     if (layout.portrait) {
         const double most = 0.32 * height;
         const int top =
-            whole(std::min(most, static_part(measure, scene, nullptr, layout, width).height + type.margin));
+            whole(std::min(most, first_part(measure, scene, nullptr, layout, width).height + type.margin));
         // Plots want room of their own.
         const double most_below = scene.film.shows.plots.empty() ? most : 0.46 * height;
         const int bottom =
@@ -75,6 +77,18 @@ PictureLayout plan_layout(const Scene& scene) {
     layout.first = {0, 0, left, height};
     layout.second = {width - right, 0, right, height};
     layout.port = {left, 0, width - left - right, height};
+    return layout;
+}
+
+}  // namespace
+
+PictureLayout plan_layout(const Scene& scene) {
+    const WordPlace words = scene.film.words;
+    if (words == WordPlace::none) return bare_layout(scene.film);
+    PictureLayout layout = with_gutters(scene);
+    layout.plates =
+        words == WordPlace::plates || (words == WordPlace::automatic && scene.film.camera.framed_by_user());
+    if (layout.plates) layout.port = bare_layout(scene.film).port;
     return layout;
 }
 

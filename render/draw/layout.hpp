@@ -19,10 +19,12 @@ struct PictureLayout {
     Rectangle first;        // left or top: title, legend, scale
     Rectangle second;       // right or bottom: time, drive, playback
     Rectangle port;         // the container
+    bool plates = false;    // the port is the whole picture, and words lie over it
 };
 // A frame whose words are as long as they get.
 Frame widest_frame();
-// Gutters are as wide as their words need, and at most about a third of the picture each.
+// As film.words has it. Gutters are as wide as their words need, and at most about a third of the picture
+// each.
 PictureLayout plan_layout(const Scene& scene);
 // The container has the whole picture, and there are no words.
 PictureLayout bare_layout(const Film& film);

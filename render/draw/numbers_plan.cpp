@@ -66,7 +66,8 @@ void plan_rows(const Writer& measure, const Scene& scene, double height, Numbers
         const TextSize disc = dial_block(measure, scene.drive, nullptr, plan.radius, 0, 0);
         plan.drive_x = plan.x + disc.width + type.gap;
         plan.arrows_x = plan.drive_x + drive_block(measure, scene, 0, 0).width + 2 * type.gap;
-        y += std::max(disc.height, drive_block(measure, scene, 0, 0).height);
+        y += std::max({disc.height, drive_block(measure, scene, 0, 0).height,
+                       arrows_block(measure, scene, nullptr, 0, 0).height});
         plan.dial_end = y + 0.2 * type.gap;
     }
     const auto count = static_cast<double>(scene.film.shows.plots.size());

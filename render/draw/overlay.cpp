@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "engine/base/error.hpp"
@@ -11,7 +12,7 @@
 #include "render/draw/captions.hpp"
 
 namespace grainreel {
-TextSize static_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
+FirstPart first_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
                      double width) {
     const TypeScale& type = writer.type;
     const double x = type.margin, inner = std::max(1.0, width - (layout.portrait ? 2.0 : 1.5) * type.margin);
@@ -28,27 +29,98 @@ TextSize static_part(const Writer& writer, const Scene& scene, const View* view,
         const TextSize axes = axes_block(writer, scene, view, right, below);
         y = std::max(y + legend.height, below - 0.4 * type.gap + axes.height);
         y += colour_bar_block(writer, scene, x, y, inner).height;
-        return {width, y + marks_block(writer, scene, scale, x, y, inner).height};
+        y += marks_block(writer, scene, scale, x, y, inner).height;
+        return {y, {{x, type.margin, inner, y - type.margin}}};
     }
-    y += legend_block(writer, scene, x, y, inner).height + type.gap;
-    y += colour_bar_block(writer, scene, x, y, inner).height + type.gap;
-    y += marks_block(writer, scene, scale, x, y, inner).height;
+    WordBox upper{x, type.margin, title.width, title.height};
+    const auto stand = [&](const TextSize& block) {
+        if (block.height <= 0) return;
+        upper.width = std::max(upper.width, block.width);
+        upper.height = y + block.height - upper.y;
+    };
+    const TextSize legend = legend_block(writer, scene, x, y, inner);
+    stand(legend);
+    y += legend.height + type.gap;
+    const TextSize bar = colour_bar_block(writer, scene, x, y, inner);
+    stand(bar);
+    y += bar.height + type.gap;
+    const TextSize marks = marks_block(writer, scene, scale, x, y, inner);
+    stand(marks);
+    y += marks.height;
     const Writer measure{nullptr, type, writer.palette};
     const double longest = 0.8 * inner;
     const double below = axes_block(measure, scene, view, 0, 0).height +
                          arrows_block(measure, scene, view, 0, 0).height + type.gap +
                          scale_block(measure, scale, 0, 0, longest).height;
     if (layout.first.height > 0) y = std::max(y, layout.first.height - type.margin - below);
-    y += axes_block(writer, scene, view, x, y).height;
-    y += arrows_block(writer, scene, view, x, y).height + type.gap;
-    y += scale_block(writer, scale, x, y, longest).height;
-    return {width, y};
+    WordBox lower{x, y, 0, below};
+    const TextSize axes = axes_block(writer, scene, view, x, y);
+    y += axes.height;
+    const TextSize arrows = arrows_block(writer, scene, view, x, y);
+    y += arrows.height + type.gap;
+    const TextSize length = scale_block(writer, scale, x, y, longest);
+    lower.width = std::max({axes.width, arrows.width, length.width});
+    return {y + length.height, {upper, lower}};
 }
 
 namespace {
 
-double ground_alpha(const Scene& scene) {
-    return scene.film.transparent ? 0 : 1;
+// Whole pixels around each box, inside the gutter.
+std::vector<Rectangle> plates_around(const std::vector<WordBox>& boxes, const TypeScale& type,
+                                     const Rectangle& gutter) {
+    const double room = 0.45 * type.margin;
+    std::vector<Rectangle> plates;
+    for (const WordBox& box : boxes) {
+        const int left = std::max(0, static_cast<int>(box.x - room)),
+                  top = std::max(0, static_cast<int>(box.y - room)),
+                  right = std::min(gutter.width, static_cast<int>(std::ceil(box.x + box.width + room))),
+                  bottom = std::min(gutter.height, static_cast<int>(std::ceil(box.y + box.height + room)));
+        plates.push_back({left, top, right - left, bottom - top});
+    }
+    return plates;
+}
+
+std::vector<WordBox> boxes_of(const NumbersPlan& plan, bool portrait) {
+    if (portrait) return {{plan.x, plan.clock, plan.inner, plan.height - plan.clock}};
+    std::vector<WordBox> boxes{{plan.x, plan.clock, plan.inner, plan.note_end - plan.clock}};
+    if (plan.plots.empty()) return boxes;
+    const Rectangle &top = plan.plots.front(), &low = plan.plots.back();
+    boxes.push_back({1.0 * top.x, 1.0 * top.y, 1.0 * top.width, 1.0 * (low.y + low.height - top.y)});
+    return boxes;
+}
+
+void rounded(cairo_t* on, const Rectangle& box, double radius) {
+    constexpr double quarter = 0.5 * std::numbers::pi;
+    cairo_new_sub_path(on);
+    cairo_arc(on, box.x + box.width - radius, box.y + radius, radius, -quarter, 0);
+    cairo_arc(on, box.x + box.width - radius, box.y + box.height - radius, radius, 0, quarter);
+    cairo_arc(on, box.x + radius, box.y + box.height - radius, radius, quarter, 2 * quarter);
+    cairo_arc(on, box.x + radius, box.y + radius, radius, 2 * quarter, 3 * quarter);
+    cairo_close_path(on);
+}
+
+// One byte of a pixel over another, with alphas of 0 to 255; the upper one is multiplied by its alpha.
+void lay_pixel(std::uint32_t upper, std::uint8_t* out) {
+    const unsigned alpha = upper >> 24;
+    if (alpha == 0) return;
+    const double left = out[3] * (255.0 - alpha) / 255, all = alpha + left;
+    for (int c = 0; c < 3; ++c) {
+        const unsigned own = (upper >> (16 - 8 * c)) & 255;
+        out[c] = static_cast<std::uint8_t>(std::min(255.0, (255 * own + out[c] * left) / all + 0.5));
+    }
+    out[3] = static_cast<std::uint8_t>(all + 0.5);
+}
+
+void lay_part(cairo_surface_t* from, const Rectangle& part, const Rectangle& gutter, Picture& picture) {
+    cairo_surface_flush(from);
+    const unsigned char* pixels = cairo_image_surface_get_data(from);
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(from));
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        const auto* row =
+            reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(y) * stride);
+        for (int x = part.x; x < part.x + part.width; ++x)
+            lay_pixel(row[x], picture.pixel(gutter.x + x, gutter.y + y));
+    }
 }
 
 }  // namespace
@@ -60,18 +132,34 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
       type_(type_scale(scene.film)),
       plan_(plan_numbers({nullptr, type_, palette_}, scene, layout.second.width, layout.second.height,
                          layout.portrait)),
-      first_(blank_surface(layout.first, palette.background, ground_alpha(scene))),
-      still_(blank_surface(layout.second, palette.background, ground_alpha(scene))),
-      second_(blank_surface(layout.second, palette.background, ground_alpha(scene))) {
+      first_plates_(plates_around(
+          first_part({nullptr, type_, palette_}, scene, &view, layout, layout.first.width).boxes, type_,
+          layout.first)),
+      second_plates_(plates_around(boxes_of(plan_, layout.portrait), type_, layout.second)),
+      first_(blank(layout.first, first_plates_)),
+      still_(blank(layout.second, second_plates_)),
+      second_(blank(layout.second, second_plates_)) {
     draw_still(view);
     make_plots();
 }
 
+CairoSurface Overlay::blank(const Rectangle& part, const std::vector<Rectangle>& plates) const {
+    const bool clear = scene_.film.transparent || layout_.plates;
+    CairoSurface surface = blank_surface(part, palette_.background, clear ? 0 : 1);
+    if (!layout_.plates) return surface;
+    const CairoContext on(cairo_create(surface.get()));
+    cairo_set_source_rgba(on.get(), palette_.background.red, palette_.background.green,
+                          palette_.background.blue, plate_strength(palette_));
+    for (const Rectangle& plate : plates) rounded(on.get(), plate, 0.3 * type_.main);
+    cairo_fill(on.get());
+    return surface;
+}
+
 void Overlay::draw_still(const View& view) {
-    first_ = blank_surface(layout_.first, palette_.background, ground_alpha(scene_));
+    first_ = blank(layout_.first, first_plates_);
     const CairoContext on(cairo_create(first_.get()));
-    static_part({on.get(), type_, palette_}, scene_, &view, layout_, layout_.first.width);
-    still_ = blank_surface(layout_.second, palette_.background, ground_alpha(scene_));
+    first_part({on.get(), type_, palette_}, scene_, &view, layout_, layout_.first.width);
+    still_ = blank(layout_.second, second_plates_);
     draw_still_numbers(view);
     drawn_for_ = view;
     written_ = false;
@@ -115,14 +203,19 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     cairo_paint(on.get());
     cairo_set_operator(on.get(), CAIRO_OPERATOR_OVER);
     draw(on.get());
-    copy_part(second_.get(), part, layout_.second.x, layout_.second.y, picture);
+    if (!layout_.plates) copy_part(second_.get(), part, layout_.second.x, layout_.second.y, picture);
 }
 
 void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback, const View& view) {
     // Axes, arrows and scale are as this view has them.
     if (view.eye != drawn_for_.eye || view.forward != drawn_for_.forward || view.focal != drawn_for_.focal)
         draw_still(view);
-    if (!written_) {
+    if (!written_ && layout_.plates) {
+        const CairoContext on(cairo_create(second_.get()));
+        cairo_set_operator(on.get(), CAIRO_OPERATOR_SOURCE);
+        cairo_set_source_surface(on.get(), still_.get(), 0, 0);
+        cairo_paint(on.get());
+    } else if (!written_) {
         copy_surface(first_.get(), layout_.first, picture);
         copy_surface(still_.get(), layout_.second, picture);
     }
@@ -162,6 +255,12 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
     note_ = note;
     angle_ = angle;
     stroke_ = stroke;
+}
+
+void Overlay::lay_over(Picture& picture) const {
+    if (!layout_.plates) return;
+    for (const Rectangle& plate : first_plates_) lay_part(first_.get(), plate, layout_.first, picture);
+    for (const Rectangle& plate : second_plates_) lay_part(second_.get(), plate, layout_.second, picture);
 }
 
 // With the values of the last row of measures until the frame.

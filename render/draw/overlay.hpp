@@ -1,5 +1,5 @@
-// The words around the picture, in gutters that no grain is drawn in. What never changes is drawn once, and
-// of the rest only what has changed since the frame before.
+// The words around the picture, in gutters that no grain is drawn in, or on plates over it. What never
+// changes is drawn once, and of the rest only what has changed since the frame before.
 #pragma once
 
 #include <cairo.h>
@@ -16,20 +16,31 @@
 
 namespace grainreel {
 
+// Pixels.
+struct WordBox {
+    double x, y, width, height;
+};
+struct FirstPart {
+    double height = 0;           // that it takes, margins left out
+    std::vector<WordBox> boxes;  // around what stands together
+};
 // Title, legend, colour bar, marks, scale bar, axes and arrows in the first gutter. view: null while
-// measuring. Returns the size that they take, margins left out.
-TextSize static_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
+// measuring.
+FirstPart first_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
                      double width);
 
 class Overlay {
   public:
     Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
 
-    // Writes the gutters into the picture: all of them the first time, then only what changes. view: before
-    // it follows anything.
+    // Writes the gutters into the picture: all of them the first time, then only what changes; or the plates,
+    // which lay_over() puts into it. view: before it follows anything.
     void write(Picture& picture, const Frame& frame, const std::string& playback, const View& view);
+    // After the picture was drawn: the plates, if there are any.
+    void lay_over(Picture& picture) const;
 
   private:
+    CairoSurface blank(const Rectangle& part, const std::vector<Rectangle>& plates) const;
     void draw_still(const View& view);
     void draw_still_numbers(const View& view);
     void make_plots();
@@ -44,6 +55,7 @@ class Overlay {
     const PictureLayout layout_;
     const TypeScale type_;
     const NumbersPlan plan_;
+    const std::vector<Rectangle> first_plates_, second_plates_;  // from the gutters' corners
     CairoSurface first_, still_, second_;
     std::vector<Plot> plots_;
     View drawn_for_;

@@ -26,14 +26,21 @@ inline Colour in_bytes(const Colour& colour) {
     return {step(colour.red), step(colour.green), step(colour.blue)};
 }
 
+// Relative luminance, 0 to 1, and contrast, 1 to 21, of WCAG 2.2.
+inline double luminance(const Colour& c) {
+    return 0.2126 * to_linear(c.red) + 0.7152 * to_linear(c.green) + 0.0722 * to_linear(c.blue);
+}
+inline double contrast(const Colour& a, const Colour& b) {
+    const double x = luminance(a) + 0.05, y = luminance(b) + 0.05;
+    return x > y ? x / y : y / x;
+}
+
 struct Palette {
     Colour background, ink, faint_ink, solid, accent;
 };
 
 inline Palette make_palette(const Colour& background) {
-    const double luminance = 0.2126 * to_linear(background.red) + 0.7152 * to_linear(background.green) +
-                             0.0722 * to_linear(background.blue);
-    const bool light = luminance > 0.18;
+    const bool light = luminance(background) > 0.18;
     Palette palette;
     palette.background = in_bytes(background);
     palette.ink = light ? Colour{0.11, 0.13, 0.16} : Colour{0.94, 0.95, 0.97};
@@ -41,6 +48,19 @@ inline Palette make_palette(const Colour& background) {
     palette.solid = mix(background, light ? Colour{0.36, 0.42, 0.50} : Colour{0.70, 0.76, 0.84}, 0.62);
     palette.accent = light ? Colour{0.72, 0.16, 0.10} : Colour{1.0, 0.55, 0.42};
     return palette;
+}
+
+// The least strength of a plate of the background's colour on which all words have a contrast of 4.5,
+// whatever is under it; 1 when there is none.
+inline double plate_strength(const Palette& palette) {
+    for (double strength = 0.7; strength < 1; strength += 0.01) {
+        bool reads = true;
+        for (const Colour& under : {Colour{0, 0, 0}, Colour{1, 1, 1}})
+            for (const Colour& ink : {palette.ink, palette.faint_ink, palette.accent})
+                reads = reads && contrast(ink, mix(under, palette.background, strength)) >= 4.6;
+        if (reads) return strength;
+    }
+    return 1;
 }
 
 }  // namespace grainreel

@@ -158,6 +158,8 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
         draw_moment(frame, nullptr, view, watch);
     else
         draw_exposed(frame, view, watch);
+    overlay.lay_over(picture);
+    watch.lap(&DrawTimes::overlay);
 }
 
 // Marks are those of the frame itself, in every moment.

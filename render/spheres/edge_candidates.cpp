@@ -12,8 +12,7 @@ constexpr ViewSphere kNobody{0, 0, 1, -1};
 void take_candidates(const Visibility& visibility, const std::vector<ViewSphere>& spheres, int x, int y,
                      EdgeBlock& block, std::uint32_t (&who)[kCandidates][kPointBlock], int at) {
     const std::uint32_t* row = visibility.row(y);
-    const std::uint32_t around[5] = {row[x], row[x - 1], row[x + 1],
-                                     visibility.row(std::max(0, y - 1))[x],
+    const std::uint32_t around[5] = {row[x], row[x - 1], row[x + 1], visibility.row(std::max(0, y - 1))[x],
                                      visibility.row(std::min(y + 1, visibility.height() - 1))[x]};
     int found = 0;
     for (const std::uint32_t number : around) {

@@ -101,8 +101,8 @@ void WallOrder::find_pixels(const Sight& sight, const std::vector<ViewSphere>& s
     all.erase(std::unique(all.begin(), all.end()), all.end());
     pixels_.clear();
     for (const std::size_t at : all)
-        pixels_.push_back({static_cast<int>(at % visibility.width()),
-                           static_cast<int>(at / visibility.width()), 0, 0});
+        pixels_.push_back(
+            {static_cast<int>(at % visibility.width()), static_cast<int>(at / visibility.width()), 0, 0});
     std::vector<Plate> active;
     for (std::size_t p = 0; p < plates_.size(); ++p)
         if (std::any_of(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.active[p]; }))
@@ -150,7 +150,8 @@ void WallOrder::update(const Sight& sight, const Cut& cut, const std::vector<Vie
             const int count = static_cast<int>(std::min<std::size_t>(kPointBlock, pixels_.size() - first));
             block.candidates = 0;
             for (int i = 0; i < count; ++i)
-                take_candidates(visibility, spheres, pixels_[first + i].x, pixels_[first + i].y, block, who, i);
+                take_candidates(visibility, spheres, pixels_[first + i].x, pixels_[first + i].y, block, who,
+                                i);
             clear_candidates(block, count);
             sphere_kernels().settle(sight, cut, block);
             judge_block(sight, block, &pixels_[first], count);

@@ -17,7 +17,7 @@ void expect_colour(const Colour& found, const Colour& expected, double within) {
     EXPECT_NEAR(found.blue, expected.blue, within);
 }
 
-double luminance(const Colour& c) {
+double light_of(const Colour& c) {
     return 0.2126 * to_linear(c.red) + 0.7152 * to_linear(c.green) + 0.0722 * to_linear(c.blue);
 }
 
@@ -43,11 +43,10 @@ TEST(ColourMaps, LightnessRisesAllTheWayOrTowardsTheMiddle) {
     for (int i = 0; i < 1000; ++i) {
         const double a = i / 1000.0, b = (i + 1) / 1000.0;
         for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis})
-            ASSERT_LT(luminance(colour_of(map, a)), luminance(colour_of(map, b))) << a;
-        ASSERT_LT(luminance(colour_of(ColourMap::vik, 0.5 * a)),
-                  luminance(colour_of(ColourMap::vik, 0.5 * b)));
-        ASSERT_LT(luminance(colour_of(ColourMap::vik, 1 - 0.5 * a)),
-                  luminance(colour_of(ColourMap::vik, 1 - 0.5 * b)));
+            ASSERT_LT(light_of(colour_of(map, a)), light_of(colour_of(map, b))) << a;
+        ASSERT_LT(light_of(colour_of(ColourMap::vik, 0.5 * a)), light_of(colour_of(ColourMap::vik, 0.5 * b)));
+        ASSERT_LT(light_of(colour_of(ColourMap::vik, 1 - 0.5 * a)),
+                  light_of(colour_of(ColourMap::vik, 1 - 0.5 * b)));
     }
 }
 

@@ -8,10 +8,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 
 #include "engine/base/error.hpp"
+#include "engine/scene/colours.hpp"
 #include "render/draw/captions.hpp"
+#include "render/draw/palette.hpp"
 #include "render/gl/objects.hpp"
 #include "support.hpp"
 
@@ -146,6 +149,82 @@ TEST(Pictures, WordsAndGrainsKeepApart) {
         expect_same(full, later, layout.first);
         EXPECT_GT(changed(full, later, layout.second).count, 20);
     }
+}
+
+// Contrast as WCAG 2.2 defines it, of bytes.
+double wcag_contrast(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    const auto light = [](const std::array<double, 3>& c) {
+        const auto linear = [](double byte) {
+            const double s = byte / 255;
+            return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+        };
+        return 0.2126 * linear(c[0]) + 0.7152 * linear(c[1]) + 0.0722 * linear(c[2]) + 0.05;
+    };
+    return std::max(light(a), light(b)) / std::min(light(a), light(b));
+}
+
+// The colour that most pixels of a part have.
+std::array<double, 3> main_colour(const Picture& picture, const Rectangle& part) {
+    std::map<std::array<double, 3>, int> counts;
+    for (int y = part.y; y < part.y + part.height; ++y)
+        for (int x = part.x; x < part.x + part.width; ++x) {
+            const std::uint8_t* p = picture.pixel(x, y);
+            ++counts[{1.0 * p[0], 1.0 * p[1], 1.0 * p[2]}];
+        }
+    return std::max_element(counts.begin(), counts.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+}
+
+TEST(Overlay, WordsOnPlatesReadOverAnyGrain) {
+    EXPECT_NEAR(wcag_contrast({0, 0, 0}, {255, 255, 255}), 21, 1e-9);
+    for (const FilmLook::Style style : {FilmLook::Style::flat, FilmLook::Style::dark})
+        for (const Colour& grain : {Colour{0, 0, 0}, Colour{1, 1, 1}}) {
+            Scene scene = wedge();
+            scene.film.look = FilmLook::of(style);
+            scene.film.background = default_background(style);
+            scene.film.exaggerate = 2;  // said in the accent's colour
+            scene.species[0].colour = grain;
+            scene.film.words = WordPlace::plates;
+            const Palette palette = make_palette(scene.film.background);
+            // The time is always at the upper end of the second gutter.
+            Rectangle clock = plan_layout(scene).second;
+            clock.height /= 5;
+            Renderer renderer(scene, 1);
+            const auto plate = main_colour(renderer.draw(frame_of({{{0, 0, 0.08}, 0.3, 0}}), ""), clock);
+            for (const Colour& ink : {palette.ink, palette.faint_ink, palette.accent})
+                EXPECT_GE(wcag_contrast(plate, {255 * ink.red, 255 * ink.green, 255 * ink.blue}), 4.5);
+        }
+}
+
+TEST(Overlay, PlatesLeaveTheRestOfThePicture) {
+    Scene scene = wedge();
+    scene.film.camera.zoom = 3;
+    const PictureLayout layout = plan_layout(scene);
+    EXPECT_TRUE(layout.plates);
+    EXPECT_EQ(layout.port.width, scene.film.width);
+    const Frame frame =
+        frame_of({{{0, 0, 0.06}, 0.02, 0}, {{0, 0.04, 0.09}, 0.03, 1}, {{0, -0.04, 0.05}, 0.03, 1}});
+    Renderer renderer(scene, 1);
+    const Picture first = renderer.draw(frame, "caption");
+    EXPECT_EQ(first.rgba, renderer.draw(frame, "caption").rgba);
+    scene.film.words = WordPlace::none;
+    const Picture bare = Renderer(scene, 1).draw(frame, "caption");
+    int changed_pixels = 0;
+    for (int y = 0; y < first.height; ++y)
+        for (int x = 0; x < first.width; ++x) {
+            const bool beside = x >= layout.first.width && x < layout.second.x;
+            if (beside) {
+                ASSERT_EQ(difference(first, bare, x, y), 0) << x << ", " << y;
+            }
+            changed_pixels += difference(first, bare, x, y) > 30;
+        }
+    EXPECT_GT(changed_pixels, 5000);
+    scene.film.words = WordPlace::gutters;
+    EXPECT_FALSE(plan_layout(scene).plates);
+    scene = wedge();
+    scene.film.camera.azimuth = 70;
+    EXPECT_FALSE(plan_layout(scene).plates);  // the container is framed by itself
 }
 
 TEST(Pictures, GuttersAndPortTileThePicture) {

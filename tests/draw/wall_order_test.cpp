@@ -38,6 +38,7 @@ Scene leaning_wall(double field_of_view, const Vec3& normal) {
     scene.container.shape = Container::Shape::none;
     scene.drive.present = false;
     scene.film.camera.field_of_view = field_of_view;
+    scene.film.words = WordPlace::gutters;
     scene.film.camera.azimuth = 20;
     scene.film.camera.elevation = 10;
     if (field_of_view > 0) {  // where it stays when the wall is taken away
@@ -91,9 +92,8 @@ TEST(WallOrder, AWallHidesAllThatIsBehindItAndNoMore) {
     for (const double field_of_view : {0.0, 40.0}) {
         const Scene scene = leaning_wall(field_of_view, {1, 0.3, 0.4});
         ASSERT_TRUE(view_of(scene).faces(scene.walls[0].point, scene.walls[0].normal));
-        expect_cut_by_the_wall(scene, [&](const RayOfSight& ray) {
-            return meet(ray, kThrough) < meet(ray, scene.walls[0]);
-        });
+        expect_cut_by_the_wall(
+            scene, [&](const RayOfSight& ray) { return meet(ray, kThrough) < meet(ray, scene.walls[0]); });
     }
 }
 
@@ -164,9 +164,13 @@ TEST(WallOrder, AGrainUnderTheFloorOrBehindASolidWallIsNotSeen) {
         Renderer renderer(scene, 1);
         const Picture empty = renderer.draw(frame_of({}), "");
         const View view = view_of(scene);
-        EXPECT_EQ(changed(empty, renderer.draw(frame_of({{{0, 0, -0.006}, 0.002}}), ""), view.port, 1).count, 0);
-        EXPECT_EQ(changed(empty, renderer.draw(frame_of({{{-0.012, -0.08, 0.12}, 0.003}}), ""), view.port, 1).count, 0);
-        EXPECT_GT(changed(empty, renderer.draw(frame_of({{{0, 0, 0.006}, 0.002}}), ""), view.port, 1).count, 20);
+        EXPECT_EQ(changed(empty, renderer.draw(frame_of({{{0, 0, -0.006}, 0.002}}), ""), view.port, 1).count,
+                  0);
+        EXPECT_EQ(
+            changed(empty, renderer.draw(frame_of({{{-0.012, -0.08, 0.12}, 0.003}}), ""), view.port, 1).count,
+            0);
+        EXPECT_GT(changed(empty, renderer.draw(frame_of({{{0, 0, 0.006}, 0.002}}), ""), view.port, 1).count,
+                  20);
     }
 }
 
