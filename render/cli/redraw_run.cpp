@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 #include "render/cli/stop_signal.hpp"
+#include "render/film/film_limits.hpp"
 #include "render/film/pacing.hpp"
 #include "render/film/sampler.hpp"
 
@@ -74,6 +75,8 @@ bool RedrawRun::work() {
     const std::optional<FilmSegment> segment = pacing_of(moments_, scene_.drive, scene_.film.rate);
     std::vector<std::string> warnings;
     if (auto warning = pacing_warning(moments_, scene_.drive)) warnings.push_back(std::move(*warning));
+    for (std::string& line : film_warnings(scene_, static_cast<std::int64_t>(chosen_.size())))
+        warnings.push_back(std::move(line));
     record_.scene_file = scene_.file;
     record_.drawn = {{run_.folder().string(), static_cast<std::int64_t>(chosen_.size()),
                       moments_.front().time, moments_.back().time}};

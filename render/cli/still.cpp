@@ -9,6 +9,7 @@
 #include "render/cli/redraw_run.hpp"
 #include "render/draw/camera_path.hpp"
 #include "render/draw/renderer.hpp"
+#include "render/film/film_limits.hpp"
 #include "render/film/picture_files.hpp"
 
 namespace grainreel {
@@ -54,6 +55,7 @@ int draw_still(const Options& options, Reporter& reporter, const FinishedRun& ru
     settle_orbit(scene.film.camera, seconds(run.trajectory().frames()));
     Renderer renderer(scene, drawing_threads(run.scene().run.threads).raster, options.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) reporter.info(note);
+    for (const std::string& line : film_warnings(scene, 1)) reporter.warning(line);
     renderer.start_from(run.trajectory().read(0));
     const std::string& title = run.scene().film.title;
     write_png(path, renderer.draw(frame, "", seconds(index)), texts_of(run.scene().name, title, frame, ""),

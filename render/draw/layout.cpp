@@ -38,7 +38,7 @@ TypeScale type_scale(const Film& film) {
     TypeScale type{};
     type.main = std::max(10.0, 0.0265 * height);
     type.minor = std::max(10.0, 0.0195 * height);
-    type.title = std::max(11.0, 0.034 * height);
+    type.title = std::max(11.0, (film.width < film.height ? 0.029 : 0.034) * height);
     type.gap = 0.6 * type.main;
     type.margin = std::max(4.0, 0.03 * std::min(film.width, film.height));
     return type;
@@ -54,13 +54,12 @@ PictureLayout with_gutters(const Scene& scene) {
     PictureLayout layout;
     layout.portrait = width < 1.15 * height;
     if (layout.portrait) {
-        const double most = 0.32 * height;
-        const int top =
-            whole(std::min(most, first_part(measure, scene, nullptr, layout, width).height + type.margin));
+        layout.first.height = static_cast<int>(0.34 * height);
+        const int top = whole(first_part(measure, scene, nullptr, layout, width).height + type.margin);
         // Plots want room of their own.
-        const double most_below = scene.film.shows.plots.empty() ? most : 0.46 * height;
+        const double most = (scene.film.shows.plots.empty() ? 0.36 : 0.49) * height;
         const int bottom =
-            whole(std::min(most_below, plan_numbers(measure, scene, width, 0, true).height + type.margin));
+            whole(std::min(most, plan_numbers(measure, scene, width, most, true).height + type.margin));
         layout.first = {0, 0, width, top};
         layout.second = {0, height - bottom, width, bottom};
         layout.port = {0, top, width, height - top - bottom};
@@ -82,10 +81,26 @@ PictureLayout with_gutters(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+std::vector<std::string> without_room(const Scene& scene, const PictureLayout& layout) {
+    const TypeScale type = type_scale(scene.film);
+    const Palette palette = make_palette(scene.film.background);
+    const Writer measure{nullptr, type, palette};
+    std::vector<std::string> names = first_part(measure, scene, nullptr, layout, layout.first.width).left_out;
+    const NumbersPlan plan =
+        plan_numbers(measure, scene, layout.second.width, layout.second.height, layout.portrait);
+    if (plan.plots.size() < scene.film.shows.plots.size()) names.emplace_back("plots");
+    return names;
+}
+
+}  // namespace
+
 PictureLayout plan_layout(const Scene& scene) {
     const WordPlace words = scene.film.words;
     if (words == WordPlace::none) return bare_layout(scene.film);
     PictureLayout layout = with_gutters(scene);
+    layout.left_out = without_room(scene, layout);
     layout.plates =
         words == WordPlace::plates || (words == WordPlace::automatic && scene.film.camera.framed_by_user());
     if (layout.plates) layout.port = bare_layout(scene.film).port;

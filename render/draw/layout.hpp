@@ -1,6 +1,9 @@
 // Who gets which part of the picture: gutters for words, the rest for the container.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/view.hpp"
@@ -15,11 +18,12 @@ struct TypeScale {
 TypeScale type_scale(const Film& film);
 
 struct PictureLayout {
-    bool portrait = false;  // gutters above and below instead of left and right
-    Rectangle first;        // left or top: title, legend, scale
-    Rectangle second;       // right or bottom: time, drive, playback
-    Rectangle port;         // the container
-    bool plates = false;    // the port is the whole picture, and words lie over it
+    bool portrait = false;              // gutters above and below instead of left and right
+    Rectangle first;                    // left or top: title, legend, scale
+    Rectangle second;                   // right or bottom: time, drive, playback
+    Rectangle port;                     // the container
+    bool plates = false;                // the port is the whole picture, and words lie over it
+    std::vector<std::string> left_out;  // words that there is no room for
 };
 // A frame whose words are as long as they get.
 Frame widest_frame();

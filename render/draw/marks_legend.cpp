@@ -31,14 +31,14 @@ TextSize marks_block(const Writer& writer, const Scene& scene, double scale, dou
     const auto entry = [&](double reach, const std::string& words, const auto& sample) {
         const double indent = std::max(reach, icon) + gap;
         const double text_wrap = std::max(1.0, wrap - indent);
-        const TextSize text = measure_text(words, writer.minor(), text_wrap, 3);
+        const TextSize text = measure_text(words, writer.minor(), text_wrap, 5);
         const double row = std::max(text.height, 1.3 * type.main);
         if (writer.on) {
             cairo_new_path(writer.on);
             sample(y + size.height + 0.5 * row);
         }
         writer.write(x + indent, y + size.height + 0.5 * (row - text.height), words, writer.minor(),
-                     writer.palette.ink, text_wrap, 3);
+                     writer.palette.ink, text_wrap, 5);
         size.height += row + gap;
     };
     const auto colour = [&](const Colour& c) { cairo_set_source_rgb(writer.on, c.red, c.green, c.blue); };
@@ -50,9 +50,10 @@ TextSize marks_block(const Writer& writer, const Scene& scene, double scale, dou
     };
     if (look.arrows.across > 0) {
         const double metre = arrow_scale(scene) * scale;  // pixels for each m/s
-        const double speed = round_length(std::max(1e-9, 0.35 * wrap / metre)), reach = speed * metre;
+        const double most = 0.28 * wrap;
+        const double speed = round_length(std::max(1e-9, most / metre)), reach = speed * metre;
         const std::string when = look.arrows.period ? "mean velocity over a period" : "mean velocity";
-        entry(reach, fmt::format("{}, {}", quantity_text(speed, Dimension::speed), when), [&](double middle) {
+        entry(most, fmt::format("{}, {}", quantity_text(speed, Dimension::speed), when), [&](double middle) {
             colour(writer.palette.ink);
             const double head = std::min(3.5 * pen, 0.5 * reach);
             line(reach - head, pen, middle);
@@ -87,7 +88,7 @@ TextSize marks_block(const Writer& writer, const Scene& scene, double scale, dou
             cairo_arc(writer.on, x + 0.5 * icon, middle, 0.5 * type.main, 0, 2 * std::numbers::pi);
             cairo_stroke(writer.on);
         });
-    if (size.height > 0) size.height += 0.6 * type.gap;
+    if (size.height > 0) size.height -= gap;
     return size;
 }
 

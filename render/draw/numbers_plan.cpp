@@ -8,8 +8,8 @@
 namespace grainreel {
 namespace {
 
-constexpr double most_plot = 0.25, least_plot = 0.16;  // heights over that of the picture
-constexpr double plot_width = 0.2;                     // in a gutter at the side, over the picture's width
+constexpr double most_plot = 0.25, least_plot = 0.16, least_row = 0.13;  // heights over that of the picture
+constexpr double plot_width = 0.2;  // in a gutter at the side, over the picture's width
 
 Rectangle whole(double x, double y, double width, double height) {
     return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};
@@ -42,23 +42,37 @@ void plan_column(const Writer& measure, const Scene& scene, double height, Numbe
     plan.caption_end = plan.note = y + 4 * line;
     plan.note_end = plan.note + note_height(measure, scene, plan.inner);
     plan.height = plan.note_end;
-    const auto count = static_cast<double>(scene.film.shows.plots.size());
-    if (count == 0) return;
+    const double free = height - type.margin - plan.note_end,
+                 least = least_plot * scene.film.height + type.gap;
+    const double count =
+        std::min(static_cast<double>(scene.film.shows.plots.size()), std::floor(free / least));
+    if (count < 1) return;
     plan.width = std::max(plan.width, plot_width * scene.film.width);
-    const double room = (height - type.margin - plan.note_end) / count - type.gap;
+    const double room = free / count - type.gap;
     const double each = std::clamp(room, least_plot * scene.film.height, most_plot * scene.film.height);
     for (double k = 0; k < count; ++k)
         plan.plots.push_back(whole(plan.x, height - type.margin - (count - k) * (each + type.gap) + type.gap,
                                    plan.inner, each));
 }
 
-// Clock and caption above, dial and numbers side by side, plots in a row.
+// Clock and caption, dial and numbers, plots: each of them in a row.
 void plan_rows(const Writer& measure, const Scene& scene, double height, NumbersPlan& plan) {
     const TypeScale& type = measure.type;
-    plan.caption = plan.clock_end;
-    // Two lines are kept for the caption, whatever it says, so that nothing moves.
-    plan.caption_lines = 2;
-    double y = plan.caption + 2.6 * type.minor + type.gap;
+    const double beside = plan.width + 2 * type.gap;
+    plan.caption_beside = plan.inner - beside > 8 * type.minor;
+    double y = plan.clock_end;
+    if (plan.caption_beside) {
+        plan.caption_x += beside;
+        plan.caption_wrap -= beside;
+        plan.caption = plan.clock + 0.3 * type.minor;
+        plan.caption_lines = 3;
+        y = std::max(y, plan.caption + 3 * 1.3 * type.minor) + 0.5 * type.gap;
+    } else {
+        // Two lines are kept for the caption, whatever it says, so that nothing moves.
+        plan.caption = y;
+        plan.caption_lines = 2;
+        y += 2.6 * type.minor + type.gap;
+    }
     plan.caption_end = plan.note = y;
     plan.note_end = y += note_height(measure, scene, plan.inner);
     if (scene.drive.present) {
@@ -72,11 +86,11 @@ void plan_rows(const Writer& measure, const Scene& scene, double height, Numbers
     }
     const auto count = static_cast<double>(scene.film.shows.plots.size());
     const double room = height > 0 ? height - type.margin - y - type.gap : least_plot * scene.film.height;
-    const double each = std::clamp(room, 0.1 * scene.film.height, least_plot * scene.film.height);
+    const double each = std::min(room, least_plot * scene.film.height);
     const double wide = (plan.inner - type.gap * (count - 1.0)) / std::max(count, 1.0);
-    for (double k = 0; k < count; ++k)
+    for (double k = 0; k < count && room >= least_row * scene.film.height; ++k)
         plan.plots.push_back(whole(plan.x + k * (wide + type.gap), y + type.gap, wide, each));
-    if (count > 0) y += type.gap + each;
+    if (!plan.plots.empty()) y += type.gap + each;
     plan.height = y;
 }
 
@@ -89,6 +103,8 @@ NumbersPlan plan_numbers(const Writer& measure, const Scene& scene, double width
     plan.x = portrait ? type.margin : 0.5 * type.margin;
     plan.inner = std::max(1.0, width - (portrait ? 2.0 : 1.5) * type.margin);
     plan.radius = portrait ? std::min(2.2 * type.main, 0.14 * plan.inner) : 2.2 * type.main;
+    plan.caption_x = plan.x;
+    plan.caption_wrap = plan.inner;
     plan.clock = type.margin;
     const TextSize clock = clock_block(measure, scene, widest_frame(), 0, 0);
     plan.clock_end = plan.clock + clock.height + 0.3 * type.gap;

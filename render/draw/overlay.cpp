@@ -12,55 +12,139 @@
 #include "render/draw/captions.hpp"
 
 namespace grainreel {
+namespace {
+
+constexpr double endless_room = 1e9;  // pixels
+
+// Blocks that are put below each other while there is room.
+class Column {
+  public:
+    Column(double x, double y, double room, FirstPart& part)
+        : box_{x, y, 0, 0}, y_(y), room_(room), part_(part) {}
+    // block(x, y, writer), with a writer that measures first. Left out whole when it does not fit.
+    template <class Block>
+    void add(const Writer& writer, const char* name, double gap_before, const Block& block) {
+        const Writer measure{nullptr, writer.type, writer.palette};
+        const TextSize size = block(measure, box_.x, y_);
+        if (size.height <= 0) return;
+        const double y = y_ > box_.y ? y_ + gap_before : y_;
+        if (y + size.height > room_) {
+            part_.left_out.emplace_back(name);
+            return;
+        }
+        block(writer, box_.x, y);
+        box_.width = std::max(box_.width, size.width);
+        y_ = y + size.height;
+    }
+    double end() const { return y_; }
+    WordBox box() const { return {box_.x, box_.y, box_.width, y_ - box_.y}; }
+
+  private:
+    WordBox box_;
+    double y_;
+    const double room_;
+    FirstPart& part_;
+};
+
+// Title; legend beside scale and axes; colour bar beside marks. Axes are the first to be left out.
+FirstPart portrait_part(const Writer& writer, const Scene& scene, const View* view, double scale,
+                        double inner, double room) {
+    const TypeScale& type = writer.type;
+    const Writer measure{nullptr, type, writer.palette};
+    const double x = type.margin, aside = 0.24 * inner;
+    const bool both = scene.film.shows.colour.by != GrainValue::species &&
+                      marks_block(measure, scene, scale, 0, 0, inner).height > 0;
+    const double half = both ? 0.5 * (inner - 2 * type.gap) : inner;
+    const auto axes = [&](const Writer& on, double at, double y) {
+        return axes_block(on, scene, view, at, y);
+    };
+    const auto colours = [&](const Writer& on, double at, double y) {
+        return colour_bar_block(on, scene, at, y, half);
+    };
+    const auto marks = [&](const Writer& on, double at, double y) {
+        return marks_block(on, scene, scale, at, y, half);
+    };
+    FirstPart part;
+    Column top(x, type.margin, room, part);
+    top.add(writer, "title", 0,
+            [&](const Writer& on, double at, double y) { return title_block(on, scene, at, y, inner); });
+    const double second = top.end() + (top.end() > type.margin ? 1.2 * type.gap : 0);
+    Column left(x, second, room, part), right(x + inner - aside, second + 0.4 * type.gap, room, part);
+    left.add(writer, "legend", 0, [&](const Writer& on, double at, double y) {
+        return legend_block(on, scene, at, y, inner - aside - type.gap);
+    });
+    right.add(writer, "scale bar", 0,
+              [&](const Writer& on, double at, double y) { return scale_block(on, scale, at, y, aside); });
+    const double last = std::max(colours(measure, 0, 0).height, marks(measure, 0, 0).height);
+    const double axes_room = right.end() + 0.4 * type.gap + axes(measure, 0, 0).height + last;
+    if (axes_room <= room)
+        right.add(writer, "axes", 0.4 * type.gap, axes);
+    else if (scene.film.axes)
+        part.left_out.emplace_back("axes");
+    const double third = std::max(left.end(), right.end());
+    Column lower_left(x, third, room, part),
+        lower_right(both ? x + half + 2 * type.gap : x, third, room, part);
+    lower_left.add(writer, "colour bar", 0, colours);
+    lower_right.add(writer, "marks", 0, marks);
+    part.height = std::max(lower_left.end(), lower_right.end());
+    part.boxes = {{x, type.margin, inner, part.height - type.margin}};
+    return part;
+}
+
+// What says what is seen at the upper end, what says where and how large at the lower one.
+FirstPart landscape_part(const Writer& writer, const Scene& scene, const View* view, double scale,
+                         double inner, double room) {
+    const TypeScale& type = writer.type;
+    const Writer measure{nullptr, type, writer.palette};
+    const double x = type.margin, longest = 0.8 * inner;
+    const auto axes = [&](const Writer& on, double at, double y) {
+        return axes_block(on, scene, view, at, y);
+    };
+    const auto arrows = [&](const Writer& on, double at, double y) {
+        return arrows_block(on, scene, view, at, y);
+    };
+    const auto length = [&](const Writer& on, double at, double y) {
+        return scale_block(on, scale, at, y, longest);
+    };
+    const auto height = [&](const auto& block) { return block(measure, 0, 0).height; };
+    double below = height(length) + (height(arrows) > 0 ? height(arrows) + type.gap : 0);
+    FirstPart part;
+    Column upper(x, type.margin, room - below, part);
+    upper.add(writer, "title", 0,
+              [&](const Writer& on, double at, double y) { return title_block(on, scene, at, y, inner); });
+    upper.add(writer, "legend", 1.2 * type.gap,
+              [&](const Writer& on, double at, double y) { return legend_block(on, scene, at, y, inner); });
+    upper.add(writer, "colour bar", type.gap, [&](const Writer& on, double at, double y) {
+        return colour_bar_block(on, scene, at, y, inner);
+    });
+    upper.add(writer, "marks", type.gap, [&](const Writer& on, double at, double y) {
+        return marks_block(on, scene, scale, at, y, inner);
+    });
+    const bool axes_fit = upper.end() + height(axes) <= room - below;
+    if (axes_fit) below += height(axes);
+    const bool endless = room >= endless_room;
+    Column lower(x, endless ? upper.end() + type.gap : room - below, room, part);
+    if (axes_fit)
+        lower.add(writer, "axes", 0, axes);
+    else
+        part.left_out.emplace_back("axes");
+    lower.add(writer, "arrows", 0, arrows);
+    lower.add(writer, "scale bar", type.gap, length);
+    part.height = lower.end();
+    part.boxes = {upper.box(), lower.box()};
+    return part;
+}
+
+}  // namespace
+
 FirstPart first_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
                      double width) {
     const TypeScale& type = writer.type;
-    const double x = type.margin, inner = std::max(1.0, width - (layout.portrait ? 2.0 : 1.5) * type.margin);
+    const double inner = std::max(1.0, width - (layout.portrait ? 2.0 : 1.5) * type.margin);
+    const double room = layout.first.height > 0 ? layout.first.height - type.margin : endless_room;
     // The scale holds at the depth of the container's middle.
     const double scale = view ? view->pixels_per_metre(extent_of(scene).middle()) : 1;
-    double y = type.margin;
-    const TextSize title = title_block(writer, scene, x, y, inner);
-    y += title.height + (title.height > 0 ? 1.2 * type.gap : 0);
-    if (layout.portrait) {
-        const TextSize legend = legend_block(writer, scene, x, y, 0.6 * inner);
-        const double right = x + 0.66 * inner;
-        const TextSize bar = scale_block(writer, scale, right, y + 0.4 * type.gap, 0.34 * inner);
-        const double below = y + bar.height + 0.8 * type.gap;
-        const TextSize axes = axes_block(writer, scene, view, right, below);
-        y = std::max(y + legend.height, below - 0.4 * type.gap + axes.height);
-        y += colour_bar_block(writer, scene, x, y, inner).height;
-        y += marks_block(writer, scene, scale, x, y, inner).height;
-        return {y, {{x, type.margin, inner, y - type.margin}}};
-    }
-    WordBox upper{x, type.margin, title.width, title.height};
-    const auto stand = [&](const TextSize& block) {
-        if (block.height <= 0) return;
-        upper.width = std::max(upper.width, block.width);
-        upper.height = y + block.height - upper.y;
-    };
-    const TextSize legend = legend_block(writer, scene, x, y, inner);
-    stand(legend);
-    y += legend.height + type.gap;
-    const TextSize bar = colour_bar_block(writer, scene, x, y, inner);
-    stand(bar);
-    y += bar.height + type.gap;
-    const TextSize marks = marks_block(writer, scene, scale, x, y, inner);
-    stand(marks);
-    y += marks.height;
-    const Writer measure{nullptr, type, writer.palette};
-    const double longest = 0.8 * inner;
-    const double below = axes_block(measure, scene, view, 0, 0).height +
-                         arrows_block(measure, scene, view, 0, 0).height + type.gap +
-                         scale_block(measure, scale, 0, 0, longest).height;
-    if (layout.first.height > 0) y = std::max(y, layout.first.height - type.margin - below);
-    WordBox lower{x, y, 0, below};
-    const TextSize axes = axes_block(writer, scene, view, x, y);
-    y += axes.height;
-    const TextSize arrows = arrows_block(writer, scene, view, x, y);
-    y += arrows.height + type.gap;
-    const TextSize length = scale_block(writer, scale, x, y, longest);
-    lower.width = std::max({axes.width, arrows.width, length.width});
-    return {y + length.height, {upper, lower}};
+    return (layout.portrait ? portrait_part : landscape_part)(writer, scene, view, scale, inner, room);
 }
 
 namespace {
@@ -219,22 +303,28 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
         copy_surface(first_.get(), layout_.first, picture);
         copy_surface(still_.get(), layout_.second, picture);
     }
+    const int width = layout_.second.width, middle = static_cast<int>(plan_.caption_x - 0.5 * type_.gap);
     const auto strip = [&](double from, double to) {
         const int top = static_cast<int>(from),
                   bottom = std::min(static_cast<int>(to), layout_.second.height);
-        return Rectangle{0, top, layout_.second.width, std::max(0, bottom - top)};
+        return Rectangle{0, top, width, std::max(0, bottom - top)};
     };
+    Rectangle clock_part = strip(0, plan_.clock_end), caption_part = strip(plan_.caption, plan_.caption_end);
+    if (plan_.caption_beside) {
+        clock_part.width = caption_part.x = middle;
+        caption_part.width = width - middle;
+    }
     const std::string clock = clock_words(scene_, frame), caption = playback_text(frame, playback);
     if (!written_ || clock != clock_)
-        renew(picture, strip(0, plan_.clock_end), [&](cairo_t* on) {
+        renew(picture, clock_part, [&](cairo_t* on) {
             clock_block({on, type_, palette_}, scene_, frame, plan_.x, plan_.clock);
         });
     if (!written_ || caption != caption_)
-        renew(picture, strip(plan_.caption, plan_.caption_end), [&](cairo_t* on) {
+        renew(picture, caption_part, [&](cairo_t* on) {
             const Writer writer{on, type_, palette_};
             if (!caption.empty())
-                writer.write(plan_.x, plan_.caption, caption, writer.minor(), palette_.faint_ink, plan_.inner,
-                             plan_.caption_lines);
+                writer.write(plan_.caption_x, plan_.caption, caption, writer.minor(), palette_.faint_ink,
+                             plan_.caption_wrap, plan_.caption_lines);
         });
     const std::string note = note_of(frame);
     if (plan_.note_end > plan_.note && (!written_ || note != note_))

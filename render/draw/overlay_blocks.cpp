@@ -75,10 +75,12 @@ TextSize title_block(const Writer& writer, const Scene& scene, double x, double 
     return writer.write(x, y, title, writer.title(), writer.palette.ink, wrap, 4);
 }
 
-TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
-    const double icon = 1.5 * writer.type.main, indent = icon + 0.5 * writer.type.gap,
-                 largest = largest_diameter(scene);
-    const bool by_species = scene.film.shows.colour.by == GrainValue::species;
+namespace {
+
+// A ball of the species' colour and relative size, its name, and how many there are.
+TextSize legend_entry(const Writer& writer, const Scene& scene, std::size_t i, double x, double y,
+                      double wrap) {
+    const double icon = 1.5 * writer.type.main, indent = icon + 0.5 * writer.type.gap;
     const double text_wrap = wrap > 0 ? std::max(1.0, wrap - indent) : 0;
     TextSize size;
     const auto line = [&](const std::string& text, const TextStyle& style, const Colour& colour) {
@@ -86,22 +88,43 @@ TextSize legend_block(const Writer& writer, const Scene& scene, double x, double
         size.width = std::max(size.width, indent + part.width);
         size.height += part.height;
     };
-    for (std::size_t i = 0; i < scene.species.size(); ++i) {
-        if (i == most_species) {
-            line(fmt::format("and {} more", scene.species.size() - i), writer.minor(),
-                 writer.palette.faint_ink);
-            break;
+    if (i == most_species) {
+        line(fmt::format("and {} more", scene.species.size() - i), writer.minor(), writer.palette.faint_ink);
+        return size;
+    }
+    const Species& species = scene.species[i];
+    line(species.name, writer.main(), writer.palette.ink);
+    line(fmt::format("{} × {}", species.count, diameter_text(species.diameter)), writer.minor(),
+         writer.palette.faint_ink);
+    const bool by_species = scene.film.shows.colour.by == GrainValue::species;
+    const double share = std::max(0.25, species.diameter.largest / std::max(largest_diameter(scene), 1e-30));
+    if (writer.on)
+        draw_lit_ball(writer.on, x + 0.5 * icon, y + 0.5 * size.height, 0.5 * icon * share,
+                      by_species ? species.colour : neutral_grain);
+    return size;
+}
+
+}  // namespace
+
+TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
+    const std::size_t count = std::min(scene.species.size(), most_species + 1);
+    const Writer measure{nullptr, writer.type, writer.palette};
+    double widest = 1;
+    for (std::size_t i = 0; i < count; ++i)
+        widest = std::max(widest, legend_entry(measure, scene, i, 0, 0, 0).width);
+    const double each = widest + writer.type.gap;
+    const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor((wrap + writer.type.gap) / each)));
+    TextSize size;
+    for (std::size_t first = 0; first < count; first += columns) {
+        double height = 0;
+        for (std::size_t i = first; i < std::min(count, first + columns); ++i) {
+            const double left = static_cast<double>(i - first) * each;
+            const TextSize entry =
+                legend_entry(writer, scene, i, x + left, y + size.height, columns > 1 ? 0 : wrap);
+            size.width = std::max(size.width, left + entry.width);
+            height = std::max(height, entry.height);
         }
-        const Species& species = scene.species[i];
-        const double top = size.height;
-        line(species.name, writer.main(), writer.palette.ink);
-        line(fmt::format("{} × {}", species.count, diameter_text(species.diameter)), writer.minor(),
-             writer.palette.faint_ink);
-        const double share = std::max(0.25, species.diameter.largest / std::max(largest, 1e-30));
-        if (writer.on)
-            draw_lit_ball(writer.on, x + 0.5 * icon, y + 0.5 * (top + size.height), 0.5 * icon * share,
-                          by_species ? species.colour : neutral_grain);
-        size.height += 0.4 * writer.type.gap;
+        size.height += height + 0.4 * writer.type.gap;
     }
     return size;
 }

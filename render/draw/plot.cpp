@@ -46,12 +46,22 @@ Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette
       palette_(palette),
       axes_(blank_surface({0, 0, frame.width, frame.height}, palette.background)) {
     const double words = line_height(type.minor);
-    const double end = measure_text(tick_text(frame.time[1], frame.time[1]), {type.minor, false}).width;
+    double end = 0;
+    for (const TimeTick& tick : time_ticks()) end = measure_text(tick.text, {type.minor, false}).width;
     left_ = std::ceil(measure_text("−0.00", {type.minor, false}).width + 0.6 * type.minor);
     right_ = std::floor(frame.width - std::max(0.5 * end, 0.4 * type.main));
     top_ = std::ceil(line_height(type.main) + 0.6 * type.minor);
     bottom_ = std::floor(frame.height - 2 * words - 0.35 * type.minor);
     forget();
+}
+
+std::vector<Plot::TimeTick> Plot::time_ticks() const {
+    const double unit = short_run() ? 1e-3 : 1;
+    const std::vector<double> times = round_ticks(frame_.time[0] / unit, frame_.time[1] / unit, most_ticks);
+    std::vector<TimeTick> ticks;
+    for (const double time : times)
+        ticks.push_back({time * unit, tick_text(time, times.size() > 1 ? times[1] - times[0] : 1)});
+    return ticks;
 }
 
 void Plot::forget() {
@@ -136,25 +146,20 @@ void Plot::draw_axes() {
         draw_text(on.get(), left_ - tick - words.width, y - 0.5 * words.height, text, minor,
                   palette_.faint_ink);
     }
-    const bool short_run = frame_.time[1] < 0.1;
-    const double second = short_run ? 1e-3 : 1;
-    const std::vector<double> times =
-        round_ticks(frame_.time[0] / second, frame_.time[1] / second, most_ticks);
     set_colour(on.get(), palette_.faint_ink);
     cairo_set_line_width(on.get(), pen);
     line(on.get(), left_, top_, left_, bottom_);
     line(on.get(), left_, bottom_, right_, bottom_);
     double below = 0;
-    for (const double time : times) {
-        const double x = x_of(time * second);
+    for (const TimeTick& at : time_ticks()) {
+        const double x = x_of(at.time);
         set_colour(on.get(), palette_.faint_ink);
         line(on.get(), x, bottom_, x, bottom_ + tick);
-        const std::string text = tick_text(time, times.size() > 1 ? times[1] - times[0] : 1);
-        const TextSize words = measure_text(text, minor);
-        draw_text(on.get(), x - 0.5 * words.width, bottom_ + tick, text, minor, palette_.faint_ink);
+        const TextSize words = measure_text(at.text, minor);
+        draw_text(on.get(), x - 0.5 * words.width, bottom_ + tick, at.text, minor, palette_.faint_ink);
         below = words.height;
     }
-    const std::string name = short_run ? "time (ms)" : "time (s)";
+    const std::string name = short_run() ? "time (ms)" : "time (s)";
     draw_text(on.get(), right_ - measure_text(name, minor).width, bottom_ + tick + below, name, minor,
               palette_.faint_ink);
     axes_fresh_ = true;

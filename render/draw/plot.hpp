@@ -47,6 +47,12 @@ class Plot {
         double first = 0, last = 0, low = 0, high = 0;
         void add(double value);
     };
+    struct TimeTick {
+        double time;  // s
+        std::string text;
+    };
+    std::vector<TimeTick> time_ticks() const;
+    bool short_run() const { return frame_.time[1] < 0.1; }  // told in ms
     void forget();
     void add(double time, double value);
     void widen(double value);

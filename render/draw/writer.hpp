@@ -32,6 +32,7 @@ struct Writer {
 
 // Each draws itself with its top left corner at (x, y), pixels, and returns its size.
 TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
+// In as many columns as `wrap` has room for; in one with wrap 0, which sets no limit.
 TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
 // Where the colours are inside the colour bar's block, whose words end at y; whole pixels.
 struct ColourBarPlace {

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/data_size.hpp"
+#include "render/draw/layout.hpp"
 
 namespace grainreel {
 namespace {
@@ -69,6 +70,10 @@ void check_max_size(const Scene& scene, std::int64_t frames) {
 std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames) {
     const Film& film = scene.film;
     std::vector<std::string> warnings;
+    if (const std::vector<std::string> names = plan_layout(scene).left_out; !names.empty())
+        warnings.push_back(fmt::format("{}: {}x{} has no room for {}, left out; make it wider or show less",
+                                       scene.where("film.size"), film.width, film.height,
+                                       fmt::join(names, ", ")));
     if (film.purpose != "journal") return warnings;
     constexpr int most_lines = 720, least_rate = 15, most_seconds = 300;
     if (film.height > most_lines)

@@ -16,7 +16,7 @@ double estimated_film_size(const Film& film, std::int64_t frames);
 // Throws UserError when film.max_size leaves so few bits for a pixel that no codec could show grains.
 void check_max_size(const Scene& scene, std::int64_t frames);
 
-// Where a film for a journal is not what the journals take.
+// Words that the picture has no room for; where a film for a journal is not what the journals take.
 std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames);
 
 }  // namespace grainreel

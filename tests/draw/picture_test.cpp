@@ -12,6 +12,7 @@
 #include <random>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/measure_table.hpp"
 #include "engine/scene/colours.hpp"
 #include "render/draw/captions.hpp"
 #include "render/draw/palette.hpp"
@@ -225,6 +226,48 @@ TEST(Overlay, PlatesLeaveTheRestOfThePicture) {
     scene = wedge();
     scene.film.camera.azimuth = 70;
     EXPECT_FALSE(plan_layout(scene).plates);  // the container is framed by itself
+}
+
+// All words and marks at once: what there is no room for is left out and named, the rest is whole.
+TEST(Pictures, NoWordIsCutOff) {
+    for (const auto& [width, height] :
+         {std::pair{1920, 1080}, {1080, 1920}, {1080, 1350}, {640, 360}, {480, 480}, {360, 640}}) {
+        Scene scene = wedge(width, height);
+        scene.run.duration = 1;
+        scene.film.axes = true;
+        scene.film.shows.colour = {GrainValue::speed, ColourMap::viridis, {0, 0.3}, "cm/s", 5};
+        scene.film.shows.arrows = {10, 0.1, true};
+        scene.film.shows.trails = {{1}, {}, 0.1};
+        scene.film.shows.force_chains = true;
+        scene.film.shows.highlighted = {0};
+        scene.film.shows.text = "mixing {lacey}";
+        scene.film.shows.live_words = {{"mixing ", "lacey", "", 1}, {"", "", "", 1}};
+        scene.film.shows.plots = {{"lacey", "mixing", std::nullopt},
+                                  {"kinetic", "kinetic energy", std::nullopt}};
+        const auto table =
+            std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey", "kinetic"});
+        for (int row = 0; row < 40; ++row) table->add({0.02 * row, 0.3 + 0.01 * row, 0.001 * row});
+        Frame frame = frame_of({{{0, 0, 0.08}, 0.01, 0}});
+        frame.measures = table;
+        frame.measure_rows = 40;
+        const PictureLayout layout = plan_layout(scene);
+        Renderer renderer(scene, 1);
+        const Picture& picture = renderer.draw(frame, "slow motion, 1/10 speed");
+        const auto blank = [&](const Rectangle& line) {
+            for (int y = line.y; y < line.y + line.height; ++y)
+                for (int x = line.x; x < line.x + line.width; ++x)
+                    if (picture.pixel(x, y)[0] < 250) return false;
+            return true;
+        };
+        for (const Rectangle& r : {layout.first, layout.second}) {
+            EXPECT_TRUE(blank({r.x, r.y, r.width, 1})) << width << "x" << height << " upper";
+            EXPECT_TRUE(blank({r.x, r.y + r.height - 1, r.width, 1})) << width << "x" << height << " lower";
+            EXPECT_TRUE(blank({r.x, r.y, 1, r.height})) << width << "x" << height << " left";
+            EXPECT_TRUE(blank({r.x + r.width - 1, r.y, 1, r.height})) << width << "x" << height << " right";
+        }
+        EXPECT_EQ(layout.left_out.empty(), width == 1920) << width << "x" << height;
+        EXPECT_GT(layout.port.height, 0.14 * height);
+    }
 }
 
 TEST(Pictures, GuttersAndPortTileThePicture) {
