@@ -9,7 +9,7 @@ SpherePainter::SpherePainter(const Scene& scene, int width, int height, Team& te
       team_(team),
       layer_(width, height),
       look_(scene.film.look),
-      lamp_(lamp_of(look_)) {
+      lamp_(lamp_of(look_, scene.film.shows.colour.by != GrainValue::species)) {
     if (!ghosts) return;
     painted_.resize(scene.species.size(), 0);
     for (const std::size_t species : scene.film.shows.ghosts) painted_[species] = 1;

@@ -2,7 +2,7 @@
 
 namespace grainreel {
 
-Lamp lamp_of(const FilmLook& look) {
+Lamp lamp_of(const FilmLook& look, bool colours_are_read) {
     Lamp lamp;
     if (look.style == FilmLook::Style::flat) {  // a hint of form, and outlines that survive a photocopier
         lamp.key = 0.22f;
@@ -18,6 +18,13 @@ Lamp lamp_of(const FilmLook& look) {
         lamp.ground = 0.20f;
         lamp.rim = 0.85f;
         lamp.shine = 0.20f;
+    }
+    if (colours_are_read && look.style != FilmLook::Style::flat) {  // half as far from the map's colours
+        lamp.key = 0.45f;
+        lamp.sky = 0.50f;
+        lamp.ground = 0.35f;
+        lamp.even = 0.32f;
+        lamp.shine = 0.05f;
     }
     lamp.occlusion = look.occlusion;
     lamp.shadows = look.shadows;

@@ -6,6 +6,7 @@
 
 namespace grainreel {
 
-Lamp lamp_of(const FilmLook& look);
+// colours_are_read: off a colour bar, so that light and shade may not stray far from them.
+Lamp lamp_of(const FilmLook& look, bool colours_are_read);
 
 }  // namespace grainreel

@@ -10,6 +10,7 @@ struct Lamp {
     float spread = 0.05f;  // tangent of half the angle that it subtends: how soft shadows are
     float sky = 0.62f;     // ambient from above ...
     float ground = 0.34f;  // ... and from below
+    float even = 0;        // of the albedo everywhere: nothing hides or turns away from it
     float up[3] = {0, 1, 0};
     float rim = 0.72f;        // what is left at the silhouette, so that grains stay separable
     float rim_width = 0.45f;  // cosine between normal and line of sight where that ends

@@ -110,7 +110,8 @@ void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGra
             shine = F(lamp.shine) * power * smaller(falls * F(4), F(1)) * (F(1) - p.cap);
         }
         const F sky = multiply_add(p.normal.dot(up), F(0.5), F(0.5));
-        const F ambient = multiply_add(sky, F(lamp.sky - lamp.ground), F(lamp.ground)) * open;
+        const F ambient =
+            multiply_add(multiply_add(sky, F(lamp.sky - lamp.ground), F(lamp.ground)), open, F(lamp.even));
         const F t = zero_to_one(size_of(p.normal.dot(p.to_eye)) * F(1 / lamp.rim_width));
         const F edge = multiply_add(t * t * less_product(F(3), F(2), t), F(1 - lamp.rim), F(lamp.rim));
         F light = multiply_add(falls, F(lamp.key), ambient) * edge;

@@ -140,6 +140,63 @@ TEST(GrainColours, MeanTheSameInEveryFrame) {
     EXPECT_NEAR(hue(pixel(before, frame.position[0])), hue(colour_of(ColourMap::viridis, 0.5)), 8);
 }
 
+// CIE L*a*b* of an sRGB colour, white D65.
+std::array<double, 3> lab(const Colour& c) {
+    const double r = to_linear(c.red), g = to_linear(c.green), b = to_linear(c.blue);
+    const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
+    const double x = f((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505);
+    const double y = f(0.2126 * r + 0.7152 * g + 0.0722 * b);
+    const double z = f((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);
+    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+double apart(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+// Every pixel of a packed bed is read off the map: the place of the colour that is nearest to it.
+TEST(GrainColours, AreReadThroughLightAndShade) {
+    std::vector<Ball> balls;
+    for (double z = 0.003; z < 0.12; z += 0.0045)
+        for (double y = -0.07; y <= 0.07; y += 0.0055)
+            for (double x = -0.017; x <= 0.017; x += 0.0055)
+                if (std::abs(y) < 0.035 + 0.35 * z) balls.push_back({{x, y, z}, 0.00255, 0});
+    for (const auto style : {FilmLook::Style::studio, FilmLook::Style::dark})
+        for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis}) {
+            Scene scene = coloured(GrainValue::speed, 0, 1, "m/s");
+            scene.film.look = FilmLook::of(style);
+            scene.film.look.ground = false;
+            scene.film.shows.colour.map = map;
+            Renderer renderer(scene, 2);
+            Frame frame = frame_of(balls);
+            const Picture empty = renderer.draw(frame_of({}), "");
+            double off = 0, colour_off = 0, pixels = 0;
+            for (const double value : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+                frame.velocity.assign(balls.size(), Vec3(0, 0, value));
+                const Picture& picture = renderer.draw(frame, "");
+                const Rectangle port = view_of(scene).port;
+                const auto own = lab(colour_of(map, value));
+                for (int y = port.y; y < port.y + port.height; y += 3)
+                    for (int x = port.x; x < port.x + port.width; x += 3) {
+                        if (difference(empty, picture, x, y) < 30) continue;
+                        const std::uint8_t* p = picture.pixel(x, y);
+                        const auto seen = lab({p[0] / 255.0, p[1] / 255.0, p[2] / 255.0});
+                        double best = 0, nearest = 1e9;
+                        for (int k = 0; k <= 100; ++k) {
+                            const double d = apart(seen, lab(colour_of(map, 0.01 * k)));
+                            if (d < nearest) nearest = d, best = 0.01 * k;
+                        }
+                        off += std::abs(best - value);
+                        colour_off += apart(seen, own);
+                        ++pixels;
+                    }
+            }
+            ASSERT_GT(pixels, 5000);
+            EXPECT_LT(off / pixels, 0.07);
+            EXPECT_LT(colour_off / pixels, 11);  // of L*a*b*; 17 to 23 in the light of plain grains
+        }
+}
+
 // Some row of the first gutter holds the whole bar: its left end, and `width` further its right end.
 TEST(ColourBar, EndsAreTheMapsEnds) {
     for (const GrainValue by : {GrainValue::speed, GrainValue::vertical_velocity, GrainValue::start_height}) {
