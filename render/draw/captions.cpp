@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/measure_table.hpp"
+#include "engine/scene/live_text.hpp"
 
 namespace grainreel {
 namespace {
@@ -64,6 +69,23 @@ ShownCycle shown_cycle(const Frame& frame) {
 std::string playback_text(const Frame& frame, const std::string& playback) {
     if (frame.time >= 0) return playback;
     return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;
+}
+
+std::string note_text(const Scene& scene, const Frame& frame) {
+    return live_text(scene.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
+        if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
+        const std::vector<std::string>& columns = frame.measures->columns();
+        const auto found = std::find(columns.begin(), columns.end(), name);
+        GRAINREEL_CHECK(found != columns.end());
+        return frame.measures
+            ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
+                     frame.measure_rows)
+            .front();
+    });
+}
+
+std::string longest_note(const Scene& scene) {
+    return live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
 }
 
 }  // namespace grainreel

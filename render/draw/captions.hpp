@@ -27,5 +27,9 @@ struct ShownCycle {
 ShownCycle shown_cycle(const Frame& frame);
 // The caption of time, which says so while the grains still settle.
 std::string playback_text(const Frame& frame, const std::string& playback);
+// The scene's own words, film.text, with values of the last row of measures until the frame; and about as
+// long as they get.
+std::string note_text(const Scene& scene, const Frame& frame);
+std::string longest_note(const Scene& scene);
 
 }  // namespace grainreel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/draw/captions.hpp"
 #include "render/draw/layout.hpp"
 
 namespace grainreel {
@@ -17,9 +18,7 @@ Rectangle whole(double x, double y, double width, double height) {
 
 double note_height(const Writer& measure, const Scene& scene, double inner) {
     if (scene.film.shows.text.empty()) return 0;
-    const std::string longest =
-        live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
-    return note_block(measure, longest, 0, 0, inner).height + measure.type.gap;
+    return note_block(measure, longest_note(scene), 0, 0, inner).height + measure.type.gap;
 }
 
 // Clock, dial, drive and caption below each other, plots at the lower end.

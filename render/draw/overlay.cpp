@@ -326,7 +326,7 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
                 writer.write(plan_.caption_x, plan_.caption, caption, writer.minor(), palette_.faint_ink,
                              plan_.caption_wrap, plan_.caption_lines);
         });
-    const std::string note = note_of(frame);
+    const std::string note = note_text(scene_, frame);
     if (plan_.note_end > plan_.note && (!written_ || note != note_))
         renew(picture, strip(plan_.note, plan_.note_end), [&](cairo_t* on) {
             note_block({on, type_, palette_}, note, plan_.x, plan_.note + 0.5 * type_.gap, plan_.inner);
@@ -351,20 +351,6 @@ void Overlay::lay_over(Picture& picture) const {
     if (!layout_.plates) return;
     for (const Rectangle& plate : first_plates_) lay_part(first_.get(), plate, layout_.first, picture);
     for (const Rectangle& plate : second_plates_) lay_part(second_.get(), plate, layout_.second, picture);
-}
-
-// With the values of the last row of measures until the frame.
-std::string Overlay::note_of(const Frame& frame) const {
-    return live_text(scene_.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
-        if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
-        const std::vector<std::string>& columns = frame.measures->columns();
-        const auto found = std::find(columns.begin(), columns.end(), name);
-        GRAINREEL_CHECK(found != columns.end());
-        return frame.measures
-            ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
-                     frame.measure_rows)
-            .front();
-    });
 }
 
 void Overlay::renew_plots(Picture& picture, const Frame& frame) {

@@ -49,7 +49,6 @@ class Overlay {
     template <class Draw>
     void renew(Picture& picture, const Rectangle& part, const Draw& draw);
     void renew_plots(Picture& picture, const Frame& frame);
-    std::string note_of(const Frame& frame) const;
 
     const Scene& scene_;
     const Palette palette_;

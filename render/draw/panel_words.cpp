@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-constexpr double longest_bar = 0.14;  // of the picture's width
+constexpr double longest_bar = 0.14, common_colour_bar = 0.2;  // of the picture's width
 
 // Only what holds for all panels; the rest is in their captions.
 TextSize common_drive(const Writer& writer, const Scene& scene, const Common& common, double x, double y) {
@@ -73,6 +73,12 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
                               legend_block(on, scene, x, y, 0);
                           }});
     }
+    if (common.colours && scene.film.shows.colour.by != GrainValue::species) {
+        const double wide = common_colour_bar * width;
+        blocks.push_back({colour_bar_block(measure, scene, 0, 0, wide), false,
+                          [scene, wide](const Writer& on, double x, double y, const Frame&,
+                                        const std::string&) { colour_bar_block(on, scene, x, y, wide); }});
+    }
     if (scale > 0) {
         // As wide as it may get: the row it stands in must not depend on the scale.
         const double longest = longest_bar * width;
@@ -108,23 +114,48 @@ double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width)
     return y - type.gap + 0.5 * type.margin;
 }
 
-double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common) {
-    if (common.species) return 0;
+double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width) {
     double height = 0;
     for (const Panel& panel : panels)
-        height = std::max(height, legend_block(measure, panel.scene, 0, 0, 0).height);
+        if (!panel.scene.film.shows.text.empty())
+            height = std::max(height, note_block(measure, longest_note(panel.scene), 0, 0, width).height);
     return height;
+}
+
+namespace {
+
+// Of a panel's width, for a scale bar and for a colour bar.
+constexpr double longest_own_bar = 0.3, own_colour_bar = 0.7;
+
+double own_bar_height(const Writer& measure, const Panel& panel, const Common& common) {
+    if (common.colours) return 0;
+    return colour_bar_block(measure, panel.scene, 0, 0, 1000).height;
+}
+
+}  // namespace
+
+double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,
+                   bool scales) {
+    double row = scales ? scale_block(measure, 1, 0, 0, 100).height : 0, bar = 0;
+    for (const Panel& panel : panels) {
+        if (!common.species) row = std::max(row, legend_block(measure, panel.scene, 0, 0, 0).height);
+        bar = std::max(bar, own_bar_height(measure, panel, common));
+    }
+    return row + bar;
 }
 
 void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, double width) {
     const Writer measure{nullptr, writer.type, writer.palette};
-    const double longest = 0.3 * width, gap = 3 * writer.type.gap;
+    const double longest = longest_own_bar * width, gap = 3 * writer.type.gap;
     const TextSize legend = common.species ? TextSize{} : legend_block(measure, panel.scene, 0, 0, 0);
-    const TextSize bar = scale > 0 ? scale_block(measure, scale, 0, 0, longest) : TextSize{};
-    const double both = legend.width + bar.width + (legend.width > 0 && bar.width > 0 ? gap : 0);
+    const TextSize length = scale > 0 ? scale_block(measure, scale, 0, 0, longest) : TextSize{};
+    const double both = legend.width + length.width + (legend.width > 0 && length.width > 0 ? gap : 0);
+    const double bar = own_bar_height(measure, panel, common);
+    if (bar > 0)
+        colour_bar_block(writer, panel.scene, 0.5 * (1 - own_colour_bar) * width, 0, own_colour_bar * width);
     const double x = 0.5 * (width - both);
-    if (!common.species) legend_block(writer, panel.scene, x, 0, 0);
-    if (scale > 0) scale_block(writer, scale, x + both - bar.width, 0, longest);
+    if (!common.species) legend_block(writer, panel.scene, x, bar, 0);
+    if (scale > 0) scale_block(writer, scale, x + both - length.width, bar, longest);
 }
 
 }  // namespace grainreel

@@ -21,7 +21,7 @@ struct WordBlock {
     double x = 0, y = 0;  // pixels, of the top left corner; where flow() has put it
 };
 
-// Clock, dial, playback, drive, legend and scale bar, as far as they are common.
+// Clock, dial, playback, drive, legend, colour bar and scale bar, as far as they are common.
 // scale: pixels a metre; 0 for no bar.
 std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
                                      const Common& common, double scale, double width);
@@ -29,8 +29,12 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
 // Puts blocks in rows across the width; returns the height they take, margins included.
 double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width);
 
-// Height of a legend and a scale bar that belong to one panel alone.
-double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common);
+// Height of the live words under panels of this width; 0 for none.
+double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width);
+
+// Height of a legend, a scale bar and a colour bar that belong to one panel alone; `scales`: bars for each.
+double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,
+                   bool scales);
 void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, double width);
 
 }  // namespace grainreel

@@ -61,13 +61,13 @@ PanelLayout grid(const std::vector<Panel>& panels, const Film& film, const WordH
     const int top = static_cast<int>(std::ceil(words.top)),
               bottom = static_cast<int>(std::ceil(words.bottom));
     const int caption = static_cast<int>(std::ceil(words.caption)),
-              foot = static_cast<int>(std::ceil(words.foot));
+              note = static_cast<int>(std::ceil(words.note)), foot = static_cast<int>(std::ceil(words.foot));
     PanelLayout layout;
     layout.top = {0, 0, film.width, top};
     layout.bottom = {0, film.height - bottom, film.width, bottom};
     const int width = (film.width - (columns + 1) * margin / 2) / columns;
     const int height = (film.height - top - bottom) / rows;
-    const int port = height - caption - foot;
+    const int port = height - caption - note - foot;
     if (width < least_panel || port < least_panel) return layout;
     for (int i = 0; i < count; ++i) {
         const int row = i / columns, in_row = std::min(columns, count - row * columns);
@@ -77,7 +77,8 @@ PanelLayout grid(const std::vector<Panel>& panels, const Film& film, const WordH
         const int y = top + row * height;
         layout.places.push_back({{x, y, width, caption},
                                  {x, y + caption, width, port},
-                                 {x, y + caption + port, width, foot},
+                                 {x, y + caption + port, width, note},
+                                 {x, y + caption + port + note, width, foot},
                                  panels[static_cast<std::size_t>(i)].scene.film.camera.zoom,
                                  row});
     }
@@ -139,7 +140,8 @@ void close_up(const std::vector<Panel>& panels, const Film& film, PanelLayout& l
         place.caption.y += down;
         place.port.y += down;
         place.port.height = height;
-        place.foot.y = place.port.y + height;
+        place.note.y = place.port.y + height;
+        place.foot.y = place.note.y + place.note.height;
         place.zoom = panels[i].scene.film.camera.zoom;
     }
     set_scales(panels, layout);
@@ -158,6 +160,7 @@ Common common_of(const std::vector<Panel>& panels) {
         common.g_level = common.g_level && driven && std::isfinite(g_level(scene)) &&
                          close(g_level(scene), g_level(first));
         common.amplitude = common.amplitude && driven && close(scene.drive.amplitude, first.drive.amplitude);
+        common.colours = common.colours && scene.film.shows.colour == first.film.shows.colour;
         common.exaggerated = common.exaggerated && scene.film.exaggerate == first.film.exaggerate;
         common.species =
             common.species && std::equal(scene.species.begin(), scene.species.end(), first.species.begin(),

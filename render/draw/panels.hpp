@@ -21,6 +21,7 @@ struct Common {
     bool frequency = true, g_level = true, amplitude = true;  // of drives that all have
     bool species = true;
     bool exaggerated = true;  // by one factor
+    bool colours = true;      // one colour bar, or none
 };
 Common common_of(const std::vector<Panel>& panels);
 
@@ -30,8 +31,8 @@ std::vector<std::string> captions_of(const std::vector<Scene>& scenes);
 
 struct PanelLayout {
     struct Place {
-        Rectangle caption, port, foot;  // foot: of no height when all is said below
-        double zoom = 1;                // of the panel's camera
+        Rectangle caption, port, note, foot;  // note: live words; foot: of no height when all is said below
+        double zoom = 1;                      // of the panel's camera
         int row = 0;
     };
     std::vector<Place> places;  // in rows from the top; empty when the picture is too small for them
@@ -43,9 +44,9 @@ constexpr int least_panel = 64;  // pixels, either way
 
 // Columns and rows are chosen so that the grains become as large as can be. Containers of which one would be
 // too small to see at the others' scale get a scale of their own each.
-// top, bottom, caption, foot: pixels, the heights of what is written there.
+// top, bottom, caption, note, foot: pixels, the heights of what is written there.
 struct WordHeights {
-    double top = 0, bottom = 0, caption = 0, foot = 0;
+    double top = 0, bottom = 0, caption = 0, note = 0, foot = 0;
 };
 PanelLayout plan_panels(const std::vector<Panel>& panels, const Film& film, const WordHeights& words);
 

@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/draw/cairo_surface.hpp"
+#include "render/draw/captions.hpp"
 #include "render/draw/container_drawing.hpp"
 #include "render/draw/panel_words.hpp"
 #include "render/draw/renderer.hpp"
@@ -67,7 +68,7 @@ PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film) {
     const Common common = common_of(panels);
     WordHeights words;
     words.top = title_height(measure, film);
-    words.foot = foot_height(measure, panels, common);
+    words.foot = foot_height(measure, panels, common, false);
     std::vector<WordBlock> blocks = common_blocks(measure, panels, common, 1, film.width);
     words.bottom = flow(blocks, type, film.width);
     // Twice, since captions wrap at the width that panels get.
@@ -75,10 +76,10 @@ PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film) {
     PanelLayout layout = plan_panels(panels, film, words);
     if (layout.places.empty()) return layout;
     words.caption = caption_height(measure, panels, layout.places[0].caption.width);
+    words.note = notes_height(measure, panels, layout.places[0].caption.width);
     layout = plan_panels(panels, film, words);
-    if (layout.scale > 0 || !common.species || layout.places.empty()) return layout;
-    const double bar = scale_block(measure, 1, 0, 0, 100).height;
-    words.foot = std::max(words.foot, bar);
+    if (layout.scale > 0 || layout.places.empty()) return layout;
+    words.foot = foot_height(measure, panels, common, true);
     return plan_panels(panels, film, words);
 }
 
@@ -87,6 +88,7 @@ struct SideBySide::Impl {
 
     void write_still_words(const std::vector<Panel>& panels, const Film& film);
     void write_changing_words(const Frame& frame, const std::string& playback);
+    void write_note(std::size_t panel, const Frame& frame);
 
     Palette palette;
     TypeScale type;
@@ -94,6 +96,8 @@ struct SideBySide::Impl {
     PanelLayout layout;
     std::vector<std::unique_ptr<Renderer>> renderers;
     std::vector<WordBlock> blocks;
+    std::vector<Scene> scenes;       // of the panels
+    std::vector<std::string> notes;  // that are in the picture now
     Picture picture;
 };
 
@@ -107,6 +111,7 @@ SideBySide::Impl::Impl(const std::vector<Panel>& panels, const Film& film, int r
     GRAINREEL_CHECK(layout.places.size() == panels.size());
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const Scene scene = panel_scene(panels[i], layout.places[i], film);
+        scenes.push_back(scene);
         renderers.push_back(
             std::make_unique<Renderer>(scene, bare_layout(scene.film), raster_threads, provider));
     }
@@ -160,6 +165,20 @@ void SideBySide::Impl::write_changing_words(const Frame& frame, const std::strin
     }
 }
 
+void SideBySide::Impl::write_note(std::size_t panel, const Frame& frame) {
+    const Rectangle& part = layout.places[panel].note;
+    notes.resize(layout.places.size());
+    std::string note = note_text(scenes[panel], frame);
+    if (part.height <= 0 || note == notes[panel]) return;
+    const CairoSurface surface = blank_surface(part, palette.background);
+    const CairoContext on(cairo_create(surface.get()));
+    const Writer writer{on.get(), type, palette}, measure{nullptr, type, palette};
+    const double width = note_block(measure, longest_note(scenes[panel]), 0, 0, part.width).width;
+    note_block(writer, note, std::max(0.0, 0.5 * (part.width - width)), 0, part.width);
+    copy_surface(surface.get(), part, picture);
+    notes[panel] = std::move(note);
+}
+
 SideBySide::SideBySide(const std::vector<Panel>& panels, const Film& film, int raster_threads,
                        gl::Provider provider)
     : impl_(std::make_unique<Impl>(panels, film, raster_threads, provider)) {}
@@ -176,6 +195,7 @@ const Picture& SideBySide::draw(const std::vector<FramePtr>& frames, const std::
         for (int y = 0; y < port.height; ++y)
             std::memcpy(m.picture.pixel(port.x, port.y + y), panel.pixel(0, y),
                         static_cast<std::size_t>(port.width) * 4);
+        m.write_note(i, *frames[i]);
     }
     m.write_changing_words(*frames[clock], playback);
     return m.picture;

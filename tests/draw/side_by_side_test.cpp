@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/measure/measure_table.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel {
@@ -57,7 +58,7 @@ TEST(SideBySide, PanelsAndWordsNeitherOverlapNorLeaveThePicture) {
             ASSERT_EQ(layout.places.size(), count);
             std::vector<Rectangle> parts = {layout.top, layout.bottom};
             for (const PanelLayout::Place& place : layout.places)
-                parts.insert(parts.end(), {place.caption, place.port, place.foot});
+                parts.insert(parts.end(), {place.caption, place.port, place.note, place.foot});
             for (std::size_t i = 0; i < parts.size(); ++i) {
                 EXPECT_TRUE(inside(parts[i], {0, 0, width, height})) << width << ' ' << count << ' ' << i;
                 for (std::size_t k = 0; k < i; ++k)
@@ -66,6 +67,45 @@ TEST(SideBySide, PanelsAndWordsNeitherOverlapNorLeaveThePicture) {
             }
         }
     }
+}
+
+// Live words under each panel follow its own measures, and change nothing else.
+TEST(SideBySide, LiveWordsAreThoseOfTheirPanel) {
+    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    for (Scene& scene : scenes) {
+        scene.film.shows.text = "mixing {lacey}";
+        scene.film.shows.live_words = {{"mixing ", "lacey", "", 1}};
+    }
+    SideBySide drawing(panels_of(scenes), film_of(960, 540), 1, gl::Provider::automatic);
+    const auto with_mixing = [](double lacey) {
+        Frame frame = frame_of({{Vec3(0, 0, 0.08), 0.01, 1}});
+        const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey"});
+        table->add({0, lacey});
+        frame.measures = table;
+        frame.measure_rows = 1;
+        return std::make_shared<const Frame>(std::move(frame));
+    };
+    const Picture before = drawing.draw({with_mixing(0.25), with_mixing(0.5)}, "");
+    const Picture after = drawing.draw({with_mixing(0.25), with_mixing(0.75)}, "");
+    const auto& places = drawing.layout().places;
+    EXPECT_EQ(changed(before, after, places[0].note, 1).count, 0);
+    EXPECT_GT(changed(before, after, places[1].note, 60).count, 10);
+    EXPECT_EQ(changed(before, after, {0, 0, 960, 540}, 1).count,
+              changed(before, after, places[1].note, 1).count);
+}
+
+TEST(SideBySide, ColourBarsAreSaidOnceOrUnderEach) {
+    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    EXPECT_EQ(layout_of(panels_of(scenes), film_of(960, 540)).places[0].foot.height, 0);
+    const int plain = layout_of(panels_of(scenes), film_of(960, 540)).bottom.height;
+    for (Scene& scene : scenes)
+        scene.film.shows.colour = {GrainValue::speed, ColourMap::viridis, {0, 0.3}, "cm/s", 5};
+    EXPECT_TRUE(common_of(panels_of(scenes)).colours);
+    EXPECT_EQ(layout_of(panels_of(scenes), film_of(960, 540)).places[0].foot.height, 0);
+    EXPECT_GE(layout_of(panels_of(scenes), film_of(960, 540)).bottom.height, plain);
+    scenes[1].film.shows.colour.range = {0, 0.6};
+    EXPECT_FALSE(common_of(panels_of(scenes)).colours);
+    EXPECT_GT(layout_of(panels_of(scenes), film_of(960, 540)).places[0].foot.height, 20);
 }
 
 TEST(SideBySide, ATooSmallPictureHasNoPlaces) {
