@@ -72,7 +72,7 @@ double share_of_stroke(const Drive& drive, const Frame& frame) {
 TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
     const std::string& title = scene.film.title.empty() ? scene.title : scene.film.title;
     if (title.empty()) return {};
-    return writer.write(x, y, title, writer.title(), writer.palette.ink, wrap, 4);
+    return writer.write(x, y, title, writer.title(), writer.palette.ink, wrap, 6);
 }
 
 namespace {
