@@ -47,7 +47,7 @@ void Marks::start_from(const Frame& frame) {
     condition_.start_from(frame);
 }
 
-void Marks::draw(const View& view, const Frame& frame, Shapes& on) {
+void Marks::draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
     const FilmShows& look = scene_.film.shows;
     if (look.force_chains) draw_chains(view, frame, on);
     if (look.trails.wanted()) {
@@ -55,13 +55,13 @@ void Marks::draw(const View& view, const Frame& frame, Shapes& on) {
         draw_trails(view, on);
     }
     if (look.arrows.across > 0) draw_arrows(view, frame, on);
-    if (!look.highlighted.empty() || look.highlight_if.wanted()) draw_rings(view, frame, on);
+    if (!look.highlighted.empty() || look.highlight_if.wanted()) draw_rings(view, frame, seen, on);
 }
 
 void Marks::outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
-                     const Colour& colour) const {
-    on.line(points, closed, width + 2 * pen_, {palette_.background, 1});
-    on.line(points, closed, width, {colour, 1});
+                     const Colour& colour, double strength) const {
+    on.line(points, closed, width + 2 * pen_, {palette_.background, strength});
+    on.line(points, closed, width, {colour, strength});
 }
 
 void Marks::draw_chains(const View& view, const Frame& frame, Shapes& on) const {
@@ -112,21 +112,26 @@ void Marks::draw_arrows(const View& view, const Frame& frame, Shapes& on) const 
     }
 }
 
-void Marks::draw_rings(const View& view, const Frame& frame, Shapes& on) {
+// Those chosen by id wherever they are, those of a condition where they are seen: in a bed that is full of
+// them rings around buried grains would lie around others.
+void Marks::draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
+    constexpr double kHidden = 0.02, kPlain = 0.2;  // shares, between which a ring fades in
     const FilmShows& look = scene_.film.shows;
     for (const std::int32_t id : look.highlighted)
         if (const auto grain = find_grain(frame, id))
-            draw_ring(view, frame.position[*grain], frame.radius[*grain], on);
+            draw_ring(view, frame.position[*grain], frame.radius[*grain], 1, on);
     if (!look.highlight_if.wanted()) return;
     const std::vector<double>& values = condition_.of(frame);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const double over = values[i] - look.highlight_if.limit;
-        if (look.highlight_if.above ? over > 0 : over < 0)
-            draw_ring(view, frame.position[i], frame.radius[i], on);
+        if (look.highlight_if.above ? over <= 0 : over >= 0) continue;
+        const double strength = std::clamp((seen(i) - kHidden) / (kPlain - kHidden), 0.0, 1.0);
+        if (strength > 0) draw_ring(view, frame.position[i], frame.radius[i], strength, on);
     }
 }
 
-void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, Shapes& on) const {
+void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, double strength,
+                      Shapes& on) const {
     constexpr int corners = 48;
     const Pixel middle = view.project(at);
     const double radius = grain_radius * view.pixels_per_metre(at) + 2.5 * pen_;
@@ -135,7 +140,7 @@ void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, Sha
         const double angle = 2 * std::numbers::pi * k / corners;
         ring.push_back(middle + radius * Pixel(std::cos(angle), std::sin(angle)));
     }
-    outlined(on, ring, true, 2 * pen_, palette_.accent);
+    outlined(on, ring, true, 2 * pen_, palette_.accent, strength);
 }
 
 }  // namespace grainreel

@@ -184,7 +184,6 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     const Frame& all = shown.of(frame);
     const Frame& opaque = ghost_painter ? solid.of(all) : all;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
-    marks.draw(eye, marked ? *marked : all, shapes.over);
     watch.lap(&DrawTimes::walls);
     if (ground) ground->update(opaque, eye);
     watch.lap(&DrawTimes::shadow);
@@ -193,6 +192,10 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     watch.lap(&DrawTimes::walls);
     const Layer& grains = draw_grains(sphere_painter, opaque, watch);
     const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, all, watch) : nullptr;
+    const SpherePainter& of_all = ghost_painter ? *ghost_painter : sphere_painter;
+    marks.draw(
+        eye, marked ? *marked : all, [&](std::size_t i) { return marked ? 1 : of_all.seen_share(i); },
+        shapes.over);
     compose({behind.read(), grains, ghosts, walls_before()}, port, picture, team);
     if (scene.film.transparent) divide_by_alpha(picture, port);
     watch.lap(&DrawTimes::readback);

@@ -27,6 +27,7 @@ class SpherePainter {
     void find_order(const View& view, const ContainerShapes& walls);
     void find_neighbours();
     const Layer& light();
+    double seen_share(std::size_t grain) const { return layer_.visibility().seen_share(grain); }
     // Where the layers of walls are not right, and what is left of the one before the grains.
     const std::vector<WallPixel>& wall_pixels() const { return layer_.wall_order().pixels(); }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "render/spheres/sphere_kernels.hpp"
 
@@ -165,6 +166,16 @@ void Visibility::update(const Sight& sight, const Cut& cut, const std::vector<Vi
             draw_band(band, worker, sight, cut, spheres);
     });
     collect_shown(spheres.size());
+}
+
+double Visibility::seen_share(std::size_t grain) const {
+    const PixelBox& box = box_[grain];
+    if (box.empty()) return 0;
+    std::ptrdiff_t seen = 0;
+    for (int y = box.y0; y < box.y1; ++y)
+        seen += std::count(row(y) + box.x0, row(y) + box.x1, static_cast<std::uint32_t>(grain) + 1);
+    const double outline = 0.25 * std::numbers::pi * (box.x1 - box.x0) * (box.y1 - box.y0);
+    return std::min(1.0, static_cast<double>(seen) / outline);
 }
 
 }  // namespace grainreel

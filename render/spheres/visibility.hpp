@@ -30,6 +30,8 @@ class Visibility {
     const std::vector<std::uint32_t>& shown() const { return shown_; }
     // The pixels that a grain may be seen in; none for one that is cut away.
     const PixelBox& box(std::size_t grain) const { return box_[grain]; }
+    // The share of a grain's outline that shows it.
+    double seen_share(std::size_t grain) const;
     int width() const { return width_; }
     int height() const { return height_; }
 

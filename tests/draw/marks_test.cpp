@@ -229,6 +229,29 @@ TEST(Rings, GoAroundThoseThatMeetTheCondition) {
     }
 }
 
+TEST(Rings, OfAConditionGoAroundGrainsThatAreSeen) {
+    Scene scene = wedge(960, 540);
+    scene.film.words = WordPlace::none;
+    scene.film.camera.azimuth = scene.film.camera.elevation = 0;
+    // One behind a larger one, and one beside it.
+    Frame frame =
+        frame_of({{{0.01, 0, 0.08}, 0.008, 0}, {{-0.01, 0, 0.08}, 0.004, 1}, {{0, 0.03, 0.08}, 0.004, 1}});
+    frame.velocity = {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}};
+    const View view = frame_container(scene, bare_layout(scene.film));
+    const auto rings = [&](std::vector<std::int32_t> ids, bool by_speed) {
+        scene.film.shows.highlighted = {};
+        scene.film.shows.highlight_if = {};
+        const Picture plain = Renderer(scene, 1).draw(frame, "");
+        scene.film.shows.highlighted = std::move(ids);
+        if (by_speed) scene.film.shows.highlight_if = {GrainValue::speed, true, 0.5, "speed"};
+        return changed(plain, Renderer(scene, 1).draw(frame, ""), view.port, 60);
+    };
+    const Extent seen = rings({}, true), beside = rings({2}, false), hidden = rings({1}, false);
+    EXPECT_GT(hidden.count, 100);  // by id it is
+    EXPECT_EQ(seen.count, beside.count);
+    EXPECT_EQ(seen.left, beside.left);
+}
+
 TEST(TrailsOfGrains, AreThePositionsOfTheLastFrames) {
     Scene scene = wedge();
     scene.film.shows.trails = {{}, {1}, 0.25};
