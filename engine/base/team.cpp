@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "engine/base/ticks.hpp"
+
 namespace grainreel {
 
 namespace {
@@ -63,7 +65,7 @@ int usable_processors() {
     return std::max(count, 1);
 }
 
-Team::Team(int members) : size_(std::max(members, 1)), timings_(size_) {
+Team::Team(int members) : size_(std::max(members, 1)), timings_(size_), seats_(size_) {
     for (int member = 1; member < size_; ++member) threads_.emplace_back([this, member] { serve(member); });
 }
 
@@ -97,24 +99,23 @@ void Team::serve(int member) {
 }
 
 void Team::work_as(int member) {
-    timings_[member].since = Clock::now();
+    timings_[member].since = ticks();
     (*work_)(member);
 }
 
+// Everyone says on a line of its own which barrier it has come to, and looks at the others' lines: one way
+// from processor to processor, where a common counter takes three. Nobody is more than one barrier ahead.
 void Team::barrier(int member) {
     if (size_ == 1) return;
     Timing& mine = timings_[member];
-    const std::chrono::duration<double> worked = Clock::now() - mine.since;
-    mine.busy.store(busy(member) + worked.count(), std::memory_order_relaxed);
-    const int generation = generation_.load(std::memory_order_relaxed);
-    if (arrived_.fetch_add(1, std::memory_order_acq_rel) == size_ - 1) {
-        arrived_.store(0, std::memory_order_relaxed);
-        generation_.fetch_add(1, std::memory_order_release);
-        generation_.notify_all();
-    } else {
-        wait_while(generation_, generation);
-    }
-    mine.since = Clock::now();
+    mine.busy.store(busy(member) + static_cast<double>(ticks() - mine.since), std::memory_order_relaxed);
+    std::atomic<int>& own = seats_[member].barrier;
+    const int last = own.load(std::memory_order_relaxed);
+    own.store(last + 1);  // in one order with the sleepers' counter, or one might be left asleep
+    own.notify_all();
+    for (int other = 0; other < size_; ++other)
+        if (other != member) wait_while(seats_[other].barrier, last);
+    mine.since = ticks();
 }
 
 }  // namespace grainreel

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
+#include <cstdint>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -27,14 +27,17 @@ class Team {
     // Waits until all members are here. Spins for some 20 us, yields for 100 us, then sleeps, so that a
     // renderer or an encoder on the same processors gets its turn.
     void barrier(int member);
-    // s, that a member has been at work, not waiting, up to its last barrier.
+    // Ticks that a member has been at work, not waiting, up to its last barrier.
     double busy(int member) const { return timings_[member].busy.load(std::memory_order_relaxed); }
 
   private:
-    using Clock = std::chrono::steady_clock;
+    // A cache line each, written by its member alone.
     struct alignas(64) Timing {
-        Clock::time_point since;  // at work since then
+        std::uint64_t since = 0;  // at work since then, ticks
         std::atomic<double> busy{0};
+    };
+    struct alignas(64) Seat {
+        std::atomic<int> barrier{0};  // the last one that the member has come to
     };
 
     void serve(int member);
@@ -42,12 +45,11 @@ class Team {
 
     const int size_;
     std::vector<Timing> timings_;
+    std::vector<Seat> seats_;
     std::vector<std::thread> threads_;
     const std::function<void(int)>* work_ = nullptr;
     std::atomic<int> round_{0};    // counts calls of run(); negative: the team is dismissed
     std::atomic<int> running_{0};  // members still at work besides member 0
-    std::atomic<int> arrived_{0};
-    std::atomic<int> generation_{0};  // of the barrier
 };
 
 }  // namespace grainreel

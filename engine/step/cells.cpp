@@ -9,7 +9,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kMostBoxesPerGrain = 8;  // an empty tall container must not cost memory or time
+constexpr std::size_t kLargeBed = 50'000;  // grains: more do not stay in a processor's own cache
+constexpr double kMostBoxesPerGrain = 8;   // an empty tall container must not cost memory or time
 
 }  // namespace
 
@@ -41,6 +42,7 @@ void Grid::lay(const std::vector<Place>& place, const std::vector<std::int32_t>&
         inverse_width_[a] = size[a] > 0 ? count_[a] / size[a] : 0.0;
     }
     origin_ = along(low);
+    tile_bits_ = n < kLargeBed ? kOneTileBits : kTileBits;
 
     const std::int64_t total = static_cast<std::int64_t>(count_[0]) * count_[1] * count_[2];
     start_.assign(total + 1, 0);

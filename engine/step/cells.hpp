@@ -63,12 +63,14 @@ class Grid {
         return static_cast<int>(std::clamp(at * inverse_width_[a] + count, 0.0, 3 * count)) - count_[a];
     }
     std::int32_t box_of(const Vec3& position) const;
-    // Rows of boxes along the fastest axis follow each other tile by tile of kTile x kTile rows, so that the
-    // rows around one are still in the processor's cache when they are wanted again.
-    static constexpr int kTile = 8;
+    // Rows of boxes along the fastest axis follow each other tile by tile, so that the rows around one are
+    // still in the processor's cache when they are wanted again. All the grid is one tile while it is small:
+    // then threads share it in slices, and few grains have partners of another thread.
+    static constexpr int kTileBits = 3, kOneTileBits = 30;
     std::int64_t index(int x, int y, int z) const {
-        const int tile_y = y / kTile * kTile, tile_z = z / kTile * kTile;
-        const int wide = std::min(kTile, count_[1] - tile_y), high = std::min(kTile, count_[2] - tile_z);
+        const int tile_y = y >> tile_bits_ << tile_bits_, tile_z = z >> tile_bits_ << tile_bits_;
+        const int wide = std::min(1 << tile_bits_, count_[1] - tile_y),
+                  high = std::min(1 << tile_bits_, count_[2] - tile_z);
         const std::int64_t row = static_cast<std::int64_t>(tile_z) * count_[1] + tile_y * high +
                                  (z - tile_z) * wide + (y - tile_y);
         return row * count_[0] + x;
@@ -77,6 +79,7 @@ class Grid {
     std::array<int, 3> axes_{0, 1, 2};
     Vec3 origin_{0, 0, 0}, inverse_width_{0, 0, 0};  // along these
     std::array<int, 3> count_{1, 1, 1};              // likewise
+    int tile_bits_ = kTileBits;                      // 2 to the power of these: rows to a tile's side
     bool periodic_ = false;
     std::vector<std::int32_t> start_;  // first member of each box, and one past the last
     std::vector<std::int32_t> in_order_;

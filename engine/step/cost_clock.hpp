@@ -3,8 +3,9 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
+
+#include "engine/base/ticks.hpp"
 
 namespace grainreel {
 
@@ -31,14 +32,6 @@ class CostClock {
     const std::array<double, kCosts>& spent() const { return spent_; }  // in ticks of no known length
 
   private:
-    static std::uint64_t ticks() {
-#if defined(__x86_64__)
-        return __builtin_ia32_rdtsc();
-#else
-        return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
-#endif
-    }
-
     bool on_ = false;
     std::uint64_t last_ = 0;
     std::array<double, kCosts> spent_{};

@@ -93,8 +93,8 @@ INSTANTIATE_TEST_SUITE_P(
         Golden{"bed10k", 400, Precision::mixed, 40000, 0xf39b7be370d8add5, 0x5fe9787d6a36dce6},
         Golden{"bed10k-walton-braun", 400, Precision::full, 40000, 0x3aaf6f157599beea, 0x326ceef7cdcbafb5},
         Golden{"frictionless", 400, Precision::full, 40000, 0x1adb6f75cf648498, 0x579447ea26aa72e2},
-        Golden{"wedge", 405, Precision::full, 40000, 0xf30a2e0ee0c82a38, 0x96bc47242dc6c045},
-        Golden{"intruder", 1000, Precision::full, 25000, 0x198bc8b6512cb9df, 0xa1ac71ca556c6f17},
+        Golden{"wedge", 405, Precision::full, 40000, 0xfeb208eb1bfbf99b, 0xe6cf70e9258953f},
+        Golden{"intruder", 1000, Precision::full, 25000, 0x4dcc4d342fd14162, 0xcd989ea00c3ad788},
         Golden{"gas", 400, Precision::full, 12000, 0xe361f9f43c8c108e, 0x26e163b7d7234687}),
     [](const auto& one) {
         std::string name = one.param.name;
