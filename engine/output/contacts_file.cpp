@@ -66,7 +66,8 @@ struct ContactsReader::Impl {
         first = file.find_variable("first");
         second = file.find_variable("second");
         normal = file.find_variable("normal");
-        const std::size_t rows = file.whole_records(file.length("row"));
+        const std::size_t written = file.length("row"), rows = file.whole_records(written);
+        cut_off = rows < written;
         frame_of.resize(rows);
         if (rows > 0) file.get(file.find_variable("frame"), {0}, {rows}, frame_of.data());
     }
@@ -74,10 +75,15 @@ struct ContactsReader::Impl {
     NetcdfFile file;
     int first = -1, second = -1, normal = -1;
     std::vector<int> frame_of;  // of each row, rising
+    bool cut_off = false;
 };
 
 ContactsReader::ContactsReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
 ContactsReader::~ContactsReader() = default;
+
+bool ContactsReader::cut_off() const {
+    return impl_->cut_off;
+}
 
 std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
     const std::vector<int>& frames = impl_->frame_of;

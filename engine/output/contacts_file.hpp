@@ -39,6 +39,8 @@ class ContactsReader {
 
     // Those of a frame of the trajectory, as they were written; none beyond the last frame.
     std::vector<Touch> touches(std::size_t frame) const;
+    // Whether the end of the file is missing, so that the last frames lack contacts.
+    bool cut_off() const;
 
   private:
     struct Impl;

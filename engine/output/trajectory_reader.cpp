@@ -25,6 +25,11 @@ void check_complete(const NetcdfFile& file, const std::string& name) {
     for (const char* variable : variables_of_ours)
         if (!file.has_variable(variable)) missing.emplace_back(variable);
     if (missing.empty()) return;
+    if (missing.size() == variables_of_ours.size())
+        throw UserError(
+            fmt::format("{}: has none of a trajectory's variables: it was cut off, or is another file; "
+                        "give the trajectory.nc of a run",
+                        name));
     throw UserError(
         fmt::format("{}: not a trajectory of grainreel: it lacks {}; give the trajectory.nc of a run", name,
                     fmt::join(missing, ", ")));

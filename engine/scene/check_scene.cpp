@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/free_space.hpp"
 #include "engine/scene/key_path.hpp"
 #include "engine/scene/reader_parts.hpp"
 
@@ -95,12 +96,18 @@ void check_grain_sizes(const Scene& scene) {
 void check_room(const Scene& scene) {
     if (scene.start.method != Start::Method::layers) return;
     const double solid = solid_volume(scene);
-    const double room = scene.container.volume();
+    const double room = FreeSpace(scene).volume();
+    if (room <= 0)
+        throw UserError(
+            fmt::format("{}: the planes leave no room in the container to start layers in; move "
+                        "them, or turn their normals towards the grains",
+                        scene.where("wall")));
     if (solid > most_solid * room)
-        throw UserError(fmt::format(
-            "{}: {} grains of {:.4g} m3 fill {:.1f} % of the container's {:.4g} m3, more than the "
-            "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
-            scene.where("species"), scene.grains(), solid, 100 * solid / room, room, 100 * most_solid));
+        throw UserError(
+            fmt::format("{}: {} grains of {:.4g} m3 fill {:.1f} % of the {}'s {:.4g} m3, more than the "
+                        "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
+                        scene.where("species"), scene.grains(), solid, 100 * solid / room,
+                        scene.walls.empty() ? "container" : "room", room, 100 * most_solid));
 }
 
 void check_drive(const Scene& scene) {

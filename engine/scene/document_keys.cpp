@@ -13,11 +13,14 @@ namespace grainreel {
 namespace {
 
 // Of each pair a scene may have one. Setting one on the command line takes the other out of the file.
-constexpr std::array<std::array<std::string_view, 2>, 4> rivals{{
+constexpr std::array<std::array<std::string_view, 2>, 7> rivals{{
     {"g_level", "amplitude"},
     {"density", "mass"},
     {"restitution", "normal_damping"},
     {"restitution", "restitution_table"},
+    {"position", "azimuth"},  // of the camera
+    {"position", "elevation"},
+    {"position", "key"},
 }};
 
 // "species[1].count" or "species.big.count" -> species, 1 or big, count

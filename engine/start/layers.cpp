@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/base/random.hpp"
+#include "engine/scene/free_space.hpp"
 
 namespace grainreel {
 
@@ -28,34 +29,14 @@ double draw_diameter(const SizeSpread& spread, Random& random) {
     }
 }
 
-// z below which the share of the container's volume lies.
-double height_of_share(const Container& container, double share) {
-    const double wanted = share * container.volume();
-    double low = 0, high = container.height;
-    for (int halving = 0; halving < 60; ++halving) {
-        const double middle = 0.5 * (low + high);
-        (container.volume_below(middle) < wanted ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
-
-Vec3 random_centre(const Container& c, double bottom, double top, double margin, Random& random) {
+Vec3 random_centre(const Container& c, const FreeSpace& space, double bottom, double top, double margin,
+                   Random& random) {
+    const double half_depth = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
     for (;;) {
         const double z = random.between(bottom, top);
-        const double half_width = c.half_width;
-        const double half_depth = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
-        const Vec3 centre(random.between(-half_depth, half_depth), random.between(-half_width, half_width),
-                          z);
-        if (z < margin || z > c.height - margin) continue;
-        if (c.shape == Container::Shape::cylinder) {
-            if (std::hypot(centre.x(), centre.y()) > c.half_width - margin) continue;
-        } else {
-            const double slope =
-                c.shape == Container::Shape::wedge && z < c.slant_height ? std::cos(c.half_angle) : 1;
-            if (std::abs(centre.y()) > c.half_width_at(z) - margin / slope) continue;
-            if (!c.periodic_depth && std::abs(centre.x()) > half_depth - margin) continue;
-        }
-        return centre;
+        const Vec3 centre(random.between(-half_depth, half_depth),
+                          random.between(-c.half_width, c.half_width), z);
+        if (space.holds(centre, margin)) return centre;
     }
 }
 
@@ -77,13 +58,14 @@ Grains place_in_layers(const Scene& scene) {
     });
     double all = 0;
     for (const Species& s : scene.species) all += solid_volume(s);
-    const double filled = std::min(1.0, all / kLooseFraction / scene.container.volume());
+    const FreeSpace space(scene);
+    const double filled = std::min(1.0, all / kLooseFraction / space.volume());
     std::vector<double> bottom(scene.species.size()), top(scene.species.size());
     double share = 0;
     for (const std::size_t s : upwards) {
-        bottom[s] = height_of_share(scene.container, filled * share);
+        bottom[s] = space.height_of_share(filled * share);
         share += solid_volume(scene.species[s]) / all;
-        top[s] = height_of_share(scene.container, filled * std::min(share, 1.0));
+        top[s] = space.height_of_share(filled * std::min(share, 1.0));
     }
 
     Random diameters(scene.run.seed, Stream::diameters), centres(scene.run.seed, Stream::centres);
@@ -95,7 +77,7 @@ Grains place_in_layers(const Scene& scene) {
         for (std::int64_t k = 0; k < species.count; ++k) {
             const double radius = 0.5 * draw_diameter(species.diameter, diameters);
             const double margin = std::min(0.25 * radius, 0.25 * (top[s] - bottom[s]));
-            const Vec3 centre = random_centre(scene.container, bottom[s], top[s], margin, centres);
+            const Vec3 centre = random_centre(scene.container, space, bottom[s], top[s], margin, centres);
             grains.add(id++, static_cast<std::int32_t>(s), centre, radius, species.density);
         }
     }

@@ -90,12 +90,49 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
         throw UserError(
             fmt::format("{}: has {} species, but scene.toml beside it has {}; they are of two runs", name,
                         species.size(), scene_.species.size()));
+    check_grains();
     for (std::size_t i = 0; i < trajectory_.frames(); ++i) moments_.push_back(trajectory_.read_moment(i));
-    if (needs_touches(scene_.film.shows))
-        contacts_.emplace(file_in(folder_, "contacts.nc",
-                                  "the run was not told to keep contacts (output.contacts = true); let "
-                                  "film.colour.by be something else and film.force_chains false"));
+    if (scene_.film.look.rotation && !trajectory_.info().orientation)
+        throw UserError(
+            fmt::format("{}: has no orientations, and the film shows rotation; run it with "
+                        "output.orientation = true, or let film.rotation be false",
+                        name));
+    if (needs_touches(scene_.film.shows)) read_contacts();
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
+}
+
+// As many as the scene grows, and of its sizes: another run's trajectory may have as many species.
+void FinishedRun::check_grains() const {
+    if (scene_.start.method != Start::Method::layers) return;
+    const std::string name = (folder_ / "trajectory.nc").string();
+    const auto grains = static_cast<std::int64_t>(trajectory_.info().capacity);
+    if (grains != scene_.grains())
+        throw UserError(
+            fmt::format("{}: has {} grains, but scene.toml beside it has {}; they are of two runs", name,
+                        grains, scene_.grains()));
+    constexpr double kRoom = 1e-4;  // of floats
+    const Frame frame = trajectory_.read(0);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const Species& species = scene_.species[static_cast<std::size_t>(frame.species[i])];
+        const double diameter = 2 * frame.radius[i];
+        if (diameter > species.diameter.smallest * (1 - kRoom) &&
+            diameter < species.diameter.largest * (1 + kRoom))
+            continue;
+        throw UserError(
+            fmt::format("{}: grain {} of '{}' is {:.4g} m wide, but not in scene.toml beside it; they "
+                        "are of two runs",
+                        name, frame.id[i], species.name, diameter));
+    }
+}
+
+void FinishedRun::read_contacts() {
+    const fs::path file = file_in(folder_, "contacts.nc",
+                                  "the run was not told to keep contacts (output.contacts = true); let "
+                                  "film.colour.by be something else and film.force_chains false");
+    contacts_.emplace(file);
+    if (contacts_->cut_off())
+        warnings_.push_back(
+            fmt::format("{}: was cut off; the last frames are drawn without contacts", file.string()));
 }
 
 void FinishedRun::read_measures_of_run() {
@@ -114,6 +151,14 @@ void FinishedRun::read_measures_of_run() {
         all = all && (part.column.empty() || known(part.column));
     if (!all) throw UserError(fmt::format("{}: lacks a column that the film shows", measures().string()));
     measured_ = measures_->values(static_cast<std::size_t>(column("time_s")), 0, measures_->rows());
+    const std::size_t rows = measured_.size();
+    const double last = rows > 0 ? measured_.back() : 0, interval = rows > 1 ? last - measured_[rows - 2] : 0;
+    const double end = moments_.back().time;
+    if (last < end - 1.5 * interval - 1e-9)
+        warnings_.push_back(
+            fmt::format("{}: ends at {:.4g} s, the trajectory at {:.4g} s; plots and live words "
+                        "stand still from there on",
+                        measures().string(), last, end));
 }
 
 Frame FinishedRun::frame(std::size_t index) const {

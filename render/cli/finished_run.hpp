@@ -31,10 +31,14 @@ class FinishedRun {
     // With what the film wants beside the grains: measures until then, contacts, and the displacements over a
     // period when the trajectory has that moment.
     Frame frame(std::size_t index) const;
+    // What the film wants and the run's files lack, a line each.
+    const std::vector<std::string>& warnings() const { return warnings_; }
     // The frame nearest in time.
     std::size_t nearest(double time) const;
 
   private:
+    void check_grains() const;
+    void read_contacts();
     void read_measures_of_run();
 
     std::filesystem::path folder_;
@@ -44,6 +48,7 @@ class FinishedRun {
     std::vector<Frame> moments_;
     std::shared_ptr<const MeasureTable> measures_;  // null unless the film plots some
     std::vector<double> measured_;                  // s, their times
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace grainreel

@@ -73,7 +73,7 @@ RedrawRun::RedrawRun(const Options& options, Reporter& reporter, const FinishedR
 bool RedrawRun::work() {
     begun_ = true;
     const std::optional<FilmSegment> segment = pacing_of(moments_, scene_.drive, scene_.film.rate);
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = run_.warnings();
     if (auto warning = pacing_warning(moments_, scene_.drive)) warnings.push_back(std::move(*warning));
     for (std::string& line : film_warnings(scene_, static_cast<std::int64_t>(chosen_.size())))
         warnings.push_back(std::move(line));

@@ -42,9 +42,32 @@ void check_free(const fs::path& path, bool force) {
                                     path.string()));
 }
 
+// The frames before `index` that trails reach back to.
+std::vector<std::size_t> within_trails(const FinishedRun& run, std::size_t index) {
+    const FilmTrails& trails = run.scene().film.shows.trails;
+    std::vector<std::size_t> frames;
+    if (!trails.wanted()) return frames;
+    const double from = run.moments()[index].time - 1.001 * trails.duration;
+    for (std::size_t i = 0; i < index; ++i)
+        if (run.moments()[i].time >= from) frames.push_back(i);
+    return frames;
+}
+
+// --at beyond the run by more than its frames are apart.
+void check_at(const FinishedRun& run, double at) {
+    const double first = run.moments().front().time, last = run.moments().back().time;
+    const double apart =
+        run.moments().size() > 1 ? (last - first) / static_cast<double>(run.moments().size() - 1) : 0;
+    if (at >= first - apart - 1e-9 && at <= last + apart + 1e-9) return;
+    throw UserError(
+        fmt::format("--at {:.6g} s: the run has frames from {:.6g} to {:.6g} s; choose a time in between", at,
+                    first, last));
+}
+
 }  // namespace
 
 int draw_still(const Options& options, Reporter& reporter, const FinishedRun& run) {
+    check_at(run, *options.render.at);
     const std::size_t index = run.nearest(*options.render.at);
     const Frame frame = run.frame(index);
     if (options.out) check_free(*options.out, options.force);
@@ -55,9 +78,12 @@ int draw_still(const Options& options, Reporter& reporter, const FinishedRun& ru
     settle_orbit(scene.film.camera, seconds(run.trajectory().frames()));
     Renderer renderer(scene, drawing_threads(run.scene().run.threads).raster, options.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) reporter.info(note);
+    for (const std::string& line : run.warnings()) reporter.warning(line);
     for (const std::string& line : film_warnings(scene, 1)) reporter.warning(line);
     renderer.start_from(run.trajectory().read(0));
     const std::string& title = run.scene().film.title;
+    for (const std::size_t earlier : within_trails(run, index))
+        renderer.remember(run.trajectory().read(earlier));
     write_png(path, renderer.draw(frame, "", seconds(index)), texts_of(run.scene().name, title, frame, ""),
               run.scene().film.transparent);
     reporter.info(fmt::format("wrote {}: frame {} of {}, at {:.6g} s", path.string(), index + 1,

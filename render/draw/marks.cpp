@@ -47,13 +47,15 @@ void Marks::start_from(const Frame& frame) {
     condition_.start_from(frame);
 }
 
+void Marks::remember(const Frame& frame) {
+    if (scene_.film.shows.trails.wanted()) trails_.take(frame);
+}
+
 void Marks::draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
     const FilmShows& look = scene_.film.shows;
     if (look.force_chains) draw_chains(view, frame, on);
-    if (look.trails.wanted()) {
-        trails_.take(frame);
-        draw_trails(view, on);
-    }
+    remember(frame);
+    if (look.trails.wanted()) draw_trails(view, on);
     if (look.arrows.across > 0) draw_arrows(view, frame, on);
     if (!look.highlighted.empty() || look.highlight_if.wanted()) draw_rings(view, frame, seen, on);
 }

@@ -25,6 +25,8 @@ class Marks {
 
     // See Renderer.
     void start_from(const Frame& frame);
+    // For trails; frames that are drawn need not be remembered.
+    void remember(const Frame& frame);
     // The share of a grain of the frame that is seen.
     using SeenShare = std::function<double(std::size_t grain)>;
     // Adds them to what is to be painted after the grains. Frames come in the order of time.

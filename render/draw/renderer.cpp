@@ -266,6 +266,10 @@ void Renderer::start_from(const Frame& frame) {
     if (impl_->ghost_painter) impl_->ghost_painter->start_from(start);
 }
 
+void Renderer::remember(const Frame& frame) {
+    impl_->marks.remember(impl_->shown.of(impl_->exaggeration.shown(frame)));
+}
+
 std::string Renderer::gl_description() const {
     return impl_->context->description();
 }

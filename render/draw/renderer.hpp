@@ -36,6 +36,8 @@ class Renderer {
     const View& view() const;  // of the last picture
     // The film's first frame, from which start heights are counted; without a call, the first one drawn.
     void start_from(const Frame& frame);
+    // A frame before the next one drawn, which leaves trails but no picture.
+    void remember(const Frame& frame);
 
     std::string gl_description() const;  // vendor, renderer and version of the context
     std::string gl_note() const;         // why it is not the context one would have expected; mostly empty
