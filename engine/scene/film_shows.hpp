@@ -34,6 +34,7 @@ struct GrainColouring {
     // Of no meaning when coloured by species.
     ColourMap map = ColourMap::viridis;
     std::array<double, 2> range{0, 1};  // of the quantity, for the whole film
+    bool fixed = false;                 // the range is the user's
     std::string unit;                   // of the colour bar; empty for pure numbers
     int layers = 5;                     // bands of start_height
     bool operator==(const GrainColouring&) const = default;

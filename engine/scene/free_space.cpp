@@ -42,7 +42,8 @@ FreeSpace::FreeSpace(const Scene& scene)
     constexpr int kPlaces = 100'000;
     const bool round = container_.shape == Container::Shape::cylinder;
     const double half_depth = round ? container_.half_width : container_.depth / 2;
-    const Vec3 low(-half_depth, -container_.half_width, 0), high(half_depth, container_.half_width, container_.height);
+    const Vec3 low(-half_depth, -container_.half_width, 0),
+        high(half_depth, container_.half_width, container_.height);
     int inside = 0;
     for (int k = 0; k < kPlaces; ++k) {
         const Vec3 place = low + evenly(k).cwiseProduct(high - low);

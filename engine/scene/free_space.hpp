@@ -9,8 +9,8 @@ namespace grainreel {
 
 class FreeSpace {
   public:
-    // With planes of its own the scene's room is measured at 100,000 evenly spread places: volumes are then good
-    // to some 0.1 % of the container's.
+    // With planes of its own the scene's room is measured at 100,000 evenly spread places: volumes are then
+    // good to some 0.1 % of the container's.
     explicit FreeSpace(const Scene& scene);
 
     double volume() const { return volume_; }  // m3

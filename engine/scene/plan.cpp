@@ -64,9 +64,10 @@ void plan_output(const Scene& scene, Plan& plan) {
     const std::int64_t period = plan.clock.steps_per_period;
     const auto every = [&](const std::optional<double>& interval, std::int64_t driven, double without,
                            const char* key) {
-        if (!interval && period > 0) return driven;
-        return std::max<std::int64_t>(1,
-                                      count_steps(scene, interval.value_or(without), plan.clock.step, key));
+        if (!interval && period > 0) return static_cast<double>(driven);
+        const double seconds = interval.value_or(without), steps = seconds / plan.clock.step;
+        const auto whole = static_cast<double>(count_steps(scene, seconds, plan.clock.step, key));
+        return std::max(1.0, std::abs(steps - whole) < 1e-9 * whole ? whole : steps);
     };
     if (output.trajectory)
         plan.trajectory_every =

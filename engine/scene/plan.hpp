@@ -70,8 +70,8 @@ struct Plan {
     double impact_speed = 0;      // m/s, v* of the stiffness rule
     double expected_overlap = 0;  // largest expected overlap over the smaller diameter
 
-    std::int64_t trajectory_every = 0;  // steps; 0: none
-    std::int64_t measures_every = 0;    // steps
+    // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.
+    double trajectory_every = 0, measures_every = 0;
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
     std::vector<std::string> warnings;  // each one line, with place and remedy
 

@@ -71,7 +71,9 @@ void read_colour(Document& document, const Scene& scene, GrainColouring& colour)
     const Dimension dimension = dimension_of(colour.by);
     colour.map = chosen(document, "film.colour.map", colour_map_words,
                         is_signed(colour.by) ? ColourMap::vik : ColourMap::viridis);
-    colour.range = document.interval("film.colour.range", dimension).value_or(usual_range(colour.by, scene));
+    const auto range = document.interval("film.colour.range", dimension);
+    colour.fixed = range.has_value();
+    colour.range = range.value_or(usual_range(colour.by, scene));
     check_range(document, colour);
     colour.layers = static_cast<int>(document.integer("film.colour.layers").value_or(colour.layers));
     if (dimension == Dimension::number) document.refuse("film.colour.unit", "it is a pure number");

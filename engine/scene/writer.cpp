@@ -273,7 +273,9 @@ void write_colour(SceneText& out, const GrainColouring& colour) {
     out.words("by", word_of(colour.by, grain_value_words));
     if (colour.by == GrainValue::species) return;
     out.words("map", word_of(colour.map, colour_map_words));
-    out.put("range", fmt::format("[{}, {}]", number(colour.range[0]), number(colour.range[1])));
+    // Else as the quantity has it, also when a finished run is drawn again in other colours.
+    if (colour.fixed)
+        out.put("range", fmt::format("[{}, {}]", number(colour.range[0]), number(colour.range[1])));
     if (!colour.unit.empty()) out.words("unit", colour.unit);
     if (colour.by == GrainValue::start_height) out.whole("layers", colour.layers);
 }

@@ -1,6 +1,7 @@
 #include "render/cli/agenda.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace grainreel {
@@ -9,15 +10,18 @@ namespace {
 
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
-// The first multiple of `every` that is not below `step` (which is not negative).
-std::int64_t next_multiple(std::int64_t every, std::int64_t step) {
-    return every > 0 ? (step + every - 1) / every * every : never;
+// The first step that is nearest to a multiple of `every` and not below `step` (which is not negative).
+std::int64_t next_multiple(double every, std::int64_t step) {
+    if (every <= 0) return never;
+    double count = std::floor(static_cast<double>(step) / every);
+    while (std::llround(count * every) < step) ++count;
+    return std::llround(count * every);
 }
 
 }  // namespace
 
-Agenda::Agenda(std::vector<Shot> shots, std::int64_t trajectory_every, std::int64_t measures_every,
-               std::int64_t first, std::int64_t last, std::set<std::int64_t> moments)
+Agenda::Agenda(std::vector<Shot> shots, double trajectory_every, double measures_every, std::int64_t first,
+               std::int64_t last, std::set<std::int64_t> moments)
     : shots_(std::move(shots)),
       moments_(std::move(moments)),
       trajectory_every_(trajectory_every),

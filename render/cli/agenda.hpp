@@ -22,9 +22,10 @@ struct Stop {
 class Agenda {
   public:
     // Steps from `first` to `last`. Shots before `first` are left out; trajectory and measures come at
-    // multiples of their interval (0: never), measures at `first` and `last` too. moments: steps.
-    Agenda(std::vector<Shot> shots, std::int64_t trajectory_every, std::int64_t measures_every,
-           std::int64_t first, std::int64_t last, std::set<std::int64_t> moments = {});
+    // the steps nearest to multiples of their interval (0: never), measures at `first` and `last` too.
+    // moments: steps.
+    Agenda(std::vector<Shot> shots, double trajectory_every, double measures_every, std::int64_t first,
+           std::int64_t last, std::set<std::int64_t> moments = {});
 
     // The next stop, in rising order of step; the last is at `last`. Empty after it.
     std::optional<Stop> next();
@@ -35,7 +36,8 @@ class Agenda {
     std::vector<Shot> shots_;
     std::size_t shot_ = 0;
     std::set<std::int64_t> moments_;
-    std::int64_t trajectory_every_, measures_every_, first_, last_;
+    double trajectory_every_, measures_every_;
+    std::int64_t first_, last_;
     std::int64_t at_;  // steps below are done with
 };
 

@@ -46,7 +46,7 @@ std::string as_json(const BenchReport& report) {
     return all.dump(2);
 }
 
-std::string as_table(const BenchReport& report) {
+std::string as_table(const BenchReport& report, bool quick) {
     std::string text = fmt::format(
         "{}: {} grains, {} thread{}, {}, vectors {}, {:.0f} bytes a grain, state "
         "{:016x}\n\n{:<10}{:>8}{:>12}{:>8}",
@@ -63,8 +63,10 @@ std::string as_table(const BenchReport& report) {
         text += fmt::format("{:>10.2f}{:>10.2f}\n", static_cast<double>(phase.listed) / n,
                             static_cast<double>(phase.touching) / n);
     }
-    return text +
-           "\nM steps/s: million grain-steps a second; ns: of a thread, a step and grain; pairs a grain";
+    text += "\nM steps/s: million grain-steps a second; ns: of a thread, a step and grain; pairs a grain";
+    if (quick)
+        text += "\n--quick: a tenth of the steps; the bed is hardly settled, and whole runs are slower";
+    return text;
 }
 
 }  // namespace
@@ -82,7 +84,9 @@ int run_bench(const Options& options, Reporter& reporter) {
         reporter.info("stopped; nothing was measured to its end");
         return signal_base + stop_signal();
     }
-    std::cout << (options.json ? as_json(outcome.report) : as_table(outcome.report)) << std::endl;
+    std::cout << (options.json ? as_json(outcome.report)
+                               : as_table(outcome.report, options.bench_request.quick))
+              << std::endl;
     return 0;
 }
 

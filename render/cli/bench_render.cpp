@@ -76,6 +76,7 @@ Frame frame_of(const SettledBed& bed) {
 // Closer, until the grains fill the height of their part of the picture, or its width; then by the zoom asked
 // for.
 void fill_picture(Scene& scene, const Frame& frame) {
+    scene.film.words = WordPlace::gutters;  // the zoom is not a user's
     const double zoom = std::exchange(scene.film.camera.zoom, 1.0);
     const View view = frame_container(scene, plan_layout(scene));
     double widest = 1, highest = 1;  // pixels from the middle

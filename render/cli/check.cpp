@@ -267,16 +267,17 @@ void print_files(const Scene& scene, const Plan& plan, const FilmCost& film, Lis
                       : ""));
     const auto grains = static_cast<double>(scene.grains());
     if (plan.trajectory_every > 0) {
-        const std::int64_t frames = plan.steps / plan.trajectory_every + 1;
+        const auto frames =
+            static_cast<std::int64_t>(static_cast<double>(plan.steps) / plan.trajectory_every) + 1;
         const double size = trajectory_bytes + (scene.keeps_orientations() ? orientation_bytes : 0);
         list.line("", fmt::format("trajectory {}, {} frames, one every {}",
                                   data_size_text(static_cast<double>(frames) * grains * size),
-                                  grouped(frames), span(plan.clock.time(plan.trajectory_every))));
+                                  grouped(frames), span(plan.trajectory_every * plan.clock.step)));
     }
-    const std::int64_t rows = plan.steps / plan.measures_every + 1;
+    const auto rows = static_cast<std::int64_t>(static_cast<double>(plan.steps) / plan.measures_every) + 1;
     list.line("", fmt::format("measures {}, {} rows, one every {}",
                               data_size_text(static_cast<double>(rows) * measures_bytes), grouped(rows),
-                              span(plan.clock.time(plan.measures_every))));
+                              span(plan.measures_every * plan.clock.step)));
 }
 
 void print_cost(const Scene& scene, const Plan& plan, const FilmCost& film, Listing& list) {

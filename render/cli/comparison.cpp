@@ -186,6 +186,7 @@ void make_panels(const Options& options, Comparison& all) {
                         "as in \"Γ = 1|Γ = 3\"",
                         captions.size(), scenes.size()));
     for (std::size_t i = 0; i < scenes.size(); ++i) all.panels.push_back({scenes[i], captions[i]});
+    share_colours(all.panels);
     if (!common_of(all.panels).exaggerated)  // then each panel has to say so
         for (Panel& panel : all.panels)
             if (panel.scene.film.exaggerate != 1)

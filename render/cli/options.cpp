@@ -251,6 +251,7 @@ void add_check(CLI::App& app, Options& options) {
     CLI::App& check =
         *app.add_subcommand("check", "Read a scene and print the plan: laws, stiffness, step, cost");
     add_scene(check, options);
+    check.footer("Exit status: 0 the scene can be run, 2 a mistake in it or in the options.");
     check.callback([&options] { options.verb = Options::Verb::check; });
 }
 
@@ -274,7 +275,8 @@ void add_chart(CLI::App& app, Options& options) {
     add_reporting(verb, options);
     verb.footer(
         "Tables (CSV) and the pictures that gnuplot makes of them (SVG, PNG). Ctrl-C stops; the same\n"
-        "command goes on.");
+        "command goes on.\n"
+        "Exit status: 0 done, 1 a measurement failed, 2 a mistake in the options, 130 Ctrl-C, 143 SIGTERM.");
     verb.callback([&options] { options.verb = Options::Verb::chart; });
 }
 
@@ -320,7 +322,8 @@ void add_bench(CLI::App& app, Options& options) {
             "double or mixed [double]")
         ->check(CLI::IsMember({"double", "mixed"}))
         ->type_name("WHICH");
-    verb.add_option("--particles", options.bench_request.particles, "Grains [by the case]")
+    verb.add_option("--particles", options.bench_request.particles,
+                    "Grains [by the case]; for render: --grains")
         ->check(CLI::Range(100, 10000000))
         ->type_name("N");
     verb.add_option("--repeat", options.bench_request.repeats, "Run it all so often and give medians [1]")
@@ -350,11 +353,29 @@ void add_bench(CLI::App& app, Options& options) {
                     "render: closer than where the grains fill the picture's height or width [1]")
         ->type_name("Z")
         ->check(CLI::Range(0.01, 100.0));
-    verb.add_flag("--quick", options.bench_request.quick, "A tenth of the steps");
+    verb.add_flag("--quick", options.bench_request.quick,
+                  "A tenth of the steps, to try it: the bed is then\nhardly settled, and its figures are not "
+                  "those of a whole run");
     verb.add_flag("--json", options.json, "One JSON object in place of a table");
     add_reporting(verb, options);
-    verb.footer("Results go to stdout, progress to stderr.");
+    verb.footer(
+        "Results go to stdout, progress to stderr.\n"
+        "Exit status: 0 done, 1 the run failed, 2 a mistake in the options, 130 Ctrl-C, 143 SIGTERM.");
     verb.callback([&options] { options.verb = Options::Verb::bench; });
+}
+
+}  // namespace
+
+namespace {
+
+void check_verb(CLI::App& app, const std::string& word) {
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+        verbs.push_back(verb->get_name());
+    if (word[0] == '-' || std::find(verbs.begin(), verbs.end(), word) != verbs.end()) return;
+    throw UserError(fmt::format("{}; there are {}; see grainreel --help",
+                                word.empty() ? "no command" : fmt::format("unknown command '{}'", word),
+                                fmt::join(verbs, ", ")));
 }
 
 }  // namespace
@@ -386,6 +407,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
         app.exit(help);  // prints to stdout
         return std::nullopt;
     } catch (const CLI::ParseError& mistake) {
+        check_verb(app, argc > 1 ? argv[1] : "");
         throw UserError(fmt::format("{}; see grainreel --help", mistake.what()));
     }
     return options;

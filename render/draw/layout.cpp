@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/bed.hpp"
+#include "render/draw/container_drawing.hpp"
 #include "render/draw/overlay.hpp"
 #include "render/draw/writer.hpp"
 
@@ -33,26 +35,30 @@ Frame widest_frame() {
     return frame;
 }
 
+// By the height, but in very narrow pictures by the width.
 TypeScale type_scale(const Film& film) {
-    const double height = film.height;
+    const double height = film.height, width = film.width;
     TypeScale type{};
-    type.main = std::max(10.0, 0.0265 * height);
-    type.minor = std::max(10.0, 0.0195 * height);
-    type.title = std::max(11.0, (film.width < film.height ? 0.029 : 0.034) * height);
+    type.main = std::max(10.0, std::min(0.0265 * height, 0.05 * width));
+    type.minor = std::max(10.0, std::min(0.0195 * height, 0.037 * width));
+    type.title = std::max(11.0, std::min((width < height ? 0.029 : 0.034) * height, 0.055 * width));
     type.gap = 0.6 * type.main;
-    type.margin = std::max(4.0, 0.03 * std::min(film.width, film.height));
+    type.margin = std::max(4.0, 0.03 * std::min(width, height));
     return type;
 }
 
 namespace {
 
-PictureLayout with_gutters(const Scene& scene) {
+constexpr double endless = 1e9;
+
+// Gutters above and below, or left and right.
+PictureLayout with_gutters(const Scene& scene, bool portrait) {
     const int width = scene.film.width, height = scene.film.height;
     const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette(scene.film.background);
     const Writer measure{nullptr, type, palette};
     PictureLayout layout;
-    layout.portrait = width < 1.15 * height;
+    layout.portrait = portrait;
     if (layout.portrait) {
         layout.first.height = static_cast<int>(0.34 * height);
         const int top = whole(first_part(measure, scene, nullptr, layout, width).height + type.margin);
@@ -67,11 +73,12 @@ PictureLayout with_gutters(const Scene& scene) {
     }
     const double most = 0.33 * width;
     const std::string& title = scene.film.title.empty() ? scene.title : scene.film.title;
-    const double words = std::max(
-        {legend_block(measure, scene, 0, 0, 0).width, arrows_block(measure, scene, nullptr, 0, 0).width,
-         longest_word(title, measure.title()), std::min(0.17 * width, 9 * type.title)});
+    const double words =
+        std::max({legend_block(measure, scene, 0, 0, 0).width,
+                  arrows_block(measure, scene, nullptr, 0, 0).width, longest_word(title, measure.title()),
+                  std::min((width < 1.4 * height ? 0.22 : 0.17) * width, 9 * type.title)});
     const int left = whole(std::min(most, words + 1.5 * type.margin));
-    const double numbers = plan_numbers(measure, scene, most, height, false).width;
+    const double numbers = plan_numbers(measure, scene, endless, height, false).width;
     const int right = whole(std::min(most, std::max(numbers, 0.12 * width) + 1.5 * type.margin));
     layout.first = {0, 0, left, height};
     layout.second = {width - right, 0, right, height};
@@ -79,19 +86,38 @@ PictureLayout with_gutters(const Scene& scene) {
     return layout;
 }
 
-}  // namespace
+struct Judged {
+    PictureLayout layout;
+    double scale = 0;  // pixels a metre of the container
+    bool fits = true;  // the words that must be there
+};
 
-namespace {
-
-std::vector<std::string> without_room(const Scene& scene, const PictureLayout& layout) {
+// With the names of what has no room in it.
+Judged judged(const Scene& scene, PictureLayout layout) {
     const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette(scene.film.background);
     const Writer measure{nullptr, type, palette};
-    std::vector<std::string> names = first_part(measure, scene, nullptr, layout, layout.first.width).left_out;
+    layout.left_out = first_part(measure, scene, nullptr, layout, layout.first.width).left_out;
     const NumbersPlan plan =
         plan_numbers(measure, scene, layout.second.width, layout.second.height, layout.portrait);
-    if (plan.plots.size() < scene.film.shows.plots.size()) names.emplace_back("plots");
-    return names;
+    if (scene.drive.present && !plan.has_dial) layout.left_out.emplace_back("dial");
+    if (scene.drive.present && layout.portrait && !plan.has_arrows) layout.left_out.emplace_back("arrows");
+    if (plan.plots.size() < scene.film.shows.plots.size()) layout.left_out.emplace_back("plots");
+    const double scale = frame_container(scene, layout).pixels_per_metre(extent_of(scene).middle());
+    return {std::move(layout), scale, plan.fits};
+}
+
+// Where the container becomes larger, of those that have room for as much.
+Judged better_of(const Scene& scene) {
+    const double shape = static_cast<double>(scene.film.width) / scene.film.height;
+    constexpr double kUpright = 0.75, kWide = 1.4;  // beyond these there is nothing to choose
+    if (shape <= kUpright || shape >= kWide) return judged(scene, with_gutters(scene, shape <= kUpright));
+    Judged upright = judged(scene, with_gutters(scene, true)),
+           wide = judged(scene, with_gutters(scene, false));
+    if (upright.fits != wide.fits) return upright.fits ? upright : wide;
+    const std::size_t lacks = upright.layout.left_out.size(), wide_lacks = wide.layout.left_out.size();
+    if (lacks != wide_lacks) return lacks < wide_lacks ? upright : wide;
+    return upright.scale > wide.scale ? upright : wide;
 }
 
 }  // namespace
@@ -99,8 +125,13 @@ std::vector<std::string> without_room(const Scene& scene, const PictureLayout& l
 PictureLayout plan_layout(const Scene& scene) {
     const WordPlace words = scene.film.words;
     if (words == WordPlace::none) return bare_layout(scene.film);
-    PictureLayout layout = with_gutters(scene);
-    layout.left_out = without_room(scene, layout);
+    Judged best = better_of(scene);
+    if (!best.fits) {
+        PictureLayout bare = bare_layout(scene.film);
+        bare.left_out = {"words"};
+        return bare;
+    }
+    PictureLayout& layout = best.layout;
     layout.plates =
         words == WordPlace::plates || (words == WordPlace::automatic && scene.film.camera.framed_by_user());
     if (layout.plates) layout.port = bare_layout(scene.film).port;

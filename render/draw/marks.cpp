@@ -76,7 +76,7 @@ void Marks::draw_chains(const View& view, const Frame& frame, Shapes& on) const 
         const Vec3 &a = frame.position[*first], &b = frame.position[*second];
         if (std::abs(a.x() - b.x()) > too_far) continue;
         const double width = widest * std::min(1.0, touch.force / force);
-        on.line({view.project(a), view.project(b)}, false, width, {palette_.accent, 1});
+        on.line({view.project(a), view.project(b)}, false, width, {palette_.force, 1});
     }
 }
 

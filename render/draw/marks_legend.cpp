@@ -73,7 +73,7 @@ TextSize marks_block(const Writer& writer, const Scene& scene, double scale, dou
     if (look.force_chains)
         entry(icon, fmt::format("{} or more", quantity_text(widest_force(scene), Dimension::force)),
               [&](double middle) {
-                  colour(writer.palette.accent);
+                  colour(writer.palette.force);
                   line(icon, widest_line(scene.film.height), middle);
               });
     std::string ringed;

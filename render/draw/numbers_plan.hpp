@@ -20,11 +20,14 @@ struct NumbersPlan {
     double arrows_x = 0;            // portrait only: gravity and drive, beside the drive's numbers
     // Where what changes is cut off from what follows below.
     double clock_end = 0, caption_end = 0, dial_end = 0;
-    std::vector<Rectangle> plots;  // as many as there is room for
-    double width = 0, height = 0;  // needed, without the outer margin
+    std::vector<Rectangle> plots;             // as many as there is room for
+    bool has_dial = true, has_arrows = true;  // else there is no room for them
+    double width = 0, height = 0;             // needed, without the outer margin
+    bool fits = true;                         // clock, drive and words have the room that they need
 };
 
-// width: of the gutter. height: of the gutter, where plots fill what is left; 0: as much as they need.
+// width: of the gutter. height: of the gutter, where plots fill what is left; 0: as much as they need. What
+// there is no room for is left out: plots, then arrows, then the dial.
 NumbersPlan plan_numbers(const Writer& measure, const Scene& scene, double width, double height,
                          bool portrait);
 

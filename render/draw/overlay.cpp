@@ -253,9 +253,10 @@ void Overlay::draw_still_numbers(const View& view) {
     if (!scene_.drive.present) return;
     const CairoContext on(cairo_create(still_.get()));
     const Writer writer{on.get(), type_, palette_};
-    dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.x, plan_.dial);
+    if (plan_.has_dial) dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.x, plan_.dial);
     drive_block(writer, scene_, plan_.drive_x, plan_.drive);
-    if (layout_.portrait) arrows_block(writer, scene_, &view, plan_.arrows_x, plan_.drive);
+    if (layout_.portrait && plan_.has_arrows)
+        arrows_block(writer, scene_, &view, plan_.arrows_x, plan_.drive);
 }
 
 void Overlay::make_plots() {
@@ -334,7 +335,7 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
     // The hand is drawn where the drive is; before the drive there is none.
     const double angle = frame.time < 0 ? -1 : frame.phase;
     const double stroke = frame.floor_offset.dot(scene_.drive.direction);
-    if (scene_.drive.present && (!written_ || angle != angle_ || stroke != stroke_))
+    if (scene_.drive.present && plan_.has_dial && (!written_ || angle != angle_ || stroke != stroke_))
         renew(picture, strip(plan_.dial - 0.4 * type_.gap, plan_.dial_end), [&](cairo_t* on) {
             dial_block({on, type_, palette_}, scene_.drive, &frame, plan_.radius, plan_.x, plan_.dial);
         });

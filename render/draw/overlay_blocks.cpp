@@ -53,6 +53,19 @@ void arrow(const Writer& writer, double x, double y, double dx, double dy, bool 
     }
 }
 
+// A direction that the camera looks along: a ring with the arrow's tip in it, or with its feathers.
+void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
+    const double radius = 0.42 * writer.type.main, width = std::max(1.0, writer.type.main / 12);
+    cairo_new_path(writer.on);
+    cairo_arc(writer.on, x, y, radius, 0, 2 * std::numbers::pi);
+    cairo_set_line_width(writer.on, width);
+    cairo_stroke(writer.on);
+    if (towards_eye) return dot(writer, x, y, 0.3 * radius);
+    const double reach = radius / std::numbers::sqrt2;
+    stroke_line(writer, x - reach, y - reach, x + reach, y + reach, width);
+    stroke_line(writer, x - reach, y + reach, x + reach, y - reach, width);
+}
+
 double largest_diameter(const Scene& scene) {
     double largest = 0;
     for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
@@ -151,8 +164,11 @@ TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view
         const double middle = y + size.height + 0.5 * row;
         if (writer.on) {
             set_colour(writer, both ? writer.palette.accent : writer.palette.ink);
-            arrow(writer, x + 0.5 * indent, middle, reach * direction.dot(view->right),
-                  -reach * direction.dot(view->up), both);
+            const double across = direction.dot(view->right), up = direction.dot(view->up);
+            if (std::hypot(across, up) < 0.2)
+                arrow_on_end(writer, x + 0.5 * indent, middle, both || direction.dot(view->forward) < 0);
+            else
+                arrow(writer, x + 0.5 * indent, middle, reach * across, -reach * up, both);
         }
         const double half_line = 0.5 * measure_text(label, writer.minor()).height;
         const TextSize text = writer.write(x + indent + 0.4 * writer.type.gap, middle - half_line, label,

@@ -1,6 +1,7 @@
 // Colours of everything that is not a grain, from the background alone, so that they read on light and dark.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/scene/scene.hpp"
@@ -36,16 +37,20 @@ inline double contrast(const Colour& a, const Colour& b) {
 }
 
 struct Palette {
-    Colour background, ink, faint_ink, solid, accent;
+    Colour background, ink, faint_ink, solid, accent, force;  // force: of lines between grains
 };
 
 inline Palette make_palette(const Colour& background) {
-    const bool light = luminance(background) > 0.18;
+    const bool light = luminance(background) > 0.18;  // where dark ink has more contrast than light ink
     Palette palette;
     palette.background = in_bytes(background);
     palette.ink = light ? Colour{0.11, 0.13, 0.16} : Colour{0.94, 0.95, 0.97};
-    palette.faint_ink = mix(palette.ink, background, light ? 0.28 : 0.22);
+    // As faint as reads: on middle tones that is hardly at all.
+    double faint = light ? 0.28 : 0.22;
+    while (faint > 0 && contrast(mix(palette.ink, background, faint), background) < 4.5) faint -= 0.02;
+    palette.faint_ink = mix(palette.ink, background, std::max(0.0, faint));
     palette.solid = mix(background, light ? Colour{0.36, 0.42, 0.50} : Colour{0.70, 0.76, 0.84}, 0.62);
+    palette.force = light ? Colour{0.40, 0.18, 0.55} : Colour{0.78, 0.62, 1.0};
     palette.accent = light ? Colour{0.72, 0.16, 0.10} : Colour{1.0, 0.55, 0.42};
     return palette;
 }

@@ -169,16 +169,35 @@ Common common_of(const std::vector<Panel>& panels) {
     return common;
 }
 
+void share_colours(std::vector<Panel>& panels) {
+    const auto colour = [](Panel& panel) -> GrainColouring& { return panel.scene.film.shows.colour; };
+    GrainColouring common = colour(panels.front());
+    for (Panel& panel : panels) {
+        const GrainColouring& own = colour(panel);
+        if (own.fixed || own.by != common.by || own.map != common.map || own.layers != common.layers) return;
+        if (own.range[1] - own.range[0] > common.range[1] - common.range[0]) common.unit = own.unit;
+        common.range = {std::min(common.range[0], own.range[0]), std::max(common.range[1], own.range[1])};
+    }
+    for (Panel& panel : panels) colour(panel) = common;
+}
+
 std::vector<std::string> captions_of(const std::vector<Scene>& scenes) {
     std::vector<std::string> titles, names;
     for (const Scene& scene : scenes) {
         titles.push_back(scene.film.title.empty() ? scene.title : scene.film.title);
         names.push_back(scene.name);
     }
+    const auto differ = [](const std::vector<std::string>& words) {
+        return std::set<std::string>(words.begin(), words.end()).size() == words.size();
+    };
     const std::vector<std::string> drives = drive_captions(scenes);
-    if (std::set<std::string>(drives.begin(), drives.end()).size() == scenes.size()) return drives;
-    if (!all_alike(titles)) return titles;
-    return all_alike(drives) ? names : drives;
+    if (differ(drives)) return drives;
+    std::vector<std::string> both = titles;
+    for (std::size_t i = 0; i < both.size() && !all_alike(drives); ++i) both[i] += ": " + drives[i];
+    if (differ(both)) return both;
+    if (differ(names)) return names;
+    for (std::size_t i = 0; i < both.size(); ++i) both[i] = fmt::format("{}, {}", i + 1, names[i]);
+    return both;
 }
 
 PanelLayout plan_panels(const std::vector<Panel>& panels, const Film& film, const WordHeights& words) {
@@ -186,7 +205,10 @@ PanelLayout plan_panels(const std::vector<Panel>& panels, const Film& film, cons
     double best_value = 0;
     for (int columns = static_cast<int>(panels.size()); columns >= 1; --columns) {
         PanelLayout layout = grid(panels, film, words, columns);
-        const double value = set_scales(panels, layout);
+        // Gaps in the grid cost a little: four panels stand two by two unless a row makes them larger.
+        const auto count = static_cast<double>(panels.size());
+        const double full = count / (columns * std::ceil(count / columns));
+        const double value = set_scales(panels, layout) * std::pow(full, 0.25);
         if (value <= 1.02 * best_value) continue;  // among equals the one with fewer rows
         best_value = value;
         best = std::move(layout);

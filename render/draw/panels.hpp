@@ -29,6 +29,10 @@ Common common_of(const std::vector<Panel>& panels);
 // titles; or their names.
 std::vector<std::string> captions_of(const std::vector<Scene>& scenes);
 
+// One range of colours for panels that show the same quantity, as wide as the widest of theirs, unless a
+// scene has a range of its own: the same colour then means the same everywhere.
+void share_colours(std::vector<Panel>& panels);
+
 struct PanelLayout {
     struct Place {
         Rectangle caption, port, note, foot;  // note: live words; foot: of no height when all is said below

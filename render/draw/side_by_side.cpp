@@ -173,8 +173,12 @@ void SideBySide::Impl::write_note(std::size_t panel, const Frame& frame) {
     const CairoSurface surface = blank_surface(part, palette.background);
     const CairoContext on(cairo_create(surface.get()));
     const Writer writer{on.get(), type, palette}, measure{nullptr, type, palette};
-    const double width = note_block(measure, longest_note(scenes[panel]), 0, 0, part.width).width;
-    note_block(writer, note, std::max(0.0, 0.5 * (part.width - width)), 0, part.width);
+    // Where the longest note stands in the middle, so that words do not move with their values.
+    const auto width_of = [&](const std::string& text) {
+        return note_block(measure, text, 0, 0, part.width - 2).width;
+    };
+    const double x = 0.5 * (part.width - std::max(width_of(longest_note(scenes[panel])), width_of(note)));
+    note_block(writer, note, std::max(1.0, x), 0, part.width - 2);
     copy_surface(surface.get(), part, picture);
     notes[panel] = std::move(note);
 }

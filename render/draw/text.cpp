@@ -42,7 +42,7 @@ Layout make_layout(const std::string& text, const TextStyle& style, double wrap,
     pango_layout_set_text(layout.get(), text.c_str(), static_cast<int>(text.size()));
     if (wrap > 0) {
         pango_layout_set_width(layout.get(), static_cast<int>(wrap * PANGO_SCALE));
-        pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD);
+        pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
         pango_layout_set_height(layout.get(), -lines);
         pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_END);
     }

@@ -49,6 +49,18 @@ TEST(Agenda, ARunThatGoesOnKeepsItsClock) {
     EXPECT_EQ(stops[2].step, 9);
 }
 
+// The step nearest to each multiple: nothing adds up.
+TEST(Agenda, AnIntervalOfStepsAndAPartDoesNotDrift) {
+    Agenda agenda({}, 2.4, 0, 0, 1000);
+    std::int64_t count = 0;
+    for (auto stop = agenda.next(); stop; stop = agenda.next()) {
+        if (!stop->trajectory) continue;
+        EXPECT_EQ(stop->step, std::llround(2.4 * static_cast<double>(count)));
+        ++count;
+    }
+    EXPECT_EQ(count, 417);  // 1000 / 2.4 = 416.7, and the first
+}
+
 TEST(Agenda, NothingWantedStillGoesToTheEnd) {
     const std::vector<Stop> stops = all_of(Agenda({}, 0, 0, 0, 1000));
     ASSERT_EQ(stops.size(), 2u);

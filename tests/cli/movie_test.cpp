@@ -73,12 +73,13 @@ TEST_F(MovieProgram, WritesTheFilmAndTheNumbers) {
     EXPECT_TRUE(fs::exists(run / "poster.png"));
 
     const TrajectoryReader trajectory(run / "trajectory.nc");
-    ASSERT_EQ(trajectory.frames(), static_cast<std::size_t>(plan.steps / plan.trajectory_every + 1));
+    ASSERT_EQ(trajectory.frames(),
+              static_cast<std::size_t>(plan.steps / std::llround(plan.trajectory_every) + 1));
     EXPECT_EQ(trajectory.info().species, (std::vector<std::string>{"small", "big"}));
     EXPECT_EQ(trajectory.read(0).size(), 50u);
     EXPECT_EQ(trajectory.read(1).step, plan.trajectory_every);
 
-    EXPECT_EQ(lines_of(run / "measures.csv"), 1 + plan.steps / plan.measures_every + 1);
+    EXPECT_EQ(lines_of(run / "measures.csv"), 1 + plan.steps / std::llround(plan.measures_every) + 1);
     const Frame end = read_grain_table(run / "final.csv");
     EXPECT_EQ(end.size(), 50u);
     const Frame last = trajectory.read(trajectory.frames() - 1);
@@ -213,8 +214,8 @@ TEST_F(MovieProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     write_text(here / "broken.toml", "title = \n");
     const std::string fifty = scene.string();
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{}, "subcommand is required"},
-        {{"draw", fifty}, "subcommand is required"},
+        {{}, "no command; there are movie, "},
+        {{"draw", fifty}, "unknown command 'draw'; there are movie, "},
         {{"movie"}, "SCENE is required"},
         {{"movie", "missing.toml"}, "missing.toml: "},
         {{"movie", "broken.toml"}, "broken.toml:1:"},

@@ -99,10 +99,12 @@ TEST_F(RenderProgram, FromToAndEveryChooseFrames) {
 
 TEST_F(RenderProgram, AnotherSizeAnotherCameraAnotherColour) {
     short_run();
-    ASSERT_EQ(program({"render", "run", "--frames", "--no-film", "--out", "plain"}).status, 0);
+    const std::string size = "480x270";
+    ASSERT_EQ(program({"render", "run", "--frames", "--no-film", "--size", size, "--out", "plain"}).status,
+              0);
     for (const char* set : {"film.camera.azimuth=70", "species.big.colour=#102030", "film.title=Other"}) {
-        const Ended ended =
-            program({"render", "run", "--frames", "--no-film", "--out", "other", "--force", "--set", set});
+        const Ended ended = program({"render", "run", "--frames", "--no-film", "--size", size, "--out",
+                                     "other", "--force", "--set", set});
         ASSERT_EQ(ended.status, 0) << ended.err;
         EXPECT_NE(text_of(here / "plain/frames/000003.png"), text_of(here / "other/frames/000003.png"))
             << set;
@@ -121,6 +123,63 @@ TEST_F(RenderProgram, AtDrawsTheNearestFrame) {
     EXPECT_THAT(text_of(here / "run-0.150s.png"), HasSubstr("0.15 s"));
     EXPECT_EQ(program({"render", "run", "--at", "0.17 s"}).out, "run-0.150s-2.png\n");
     EXPECT_EQ(text_of(here / "run-0.150s.png"), text_of(here / "run-0.150s-2.png"));
+}
+
+// Trails in one picture are those that the film of the same frames has there.
+TEST_F(RenderProgram, AtDrawsTrailsOfTheFramesBefore) {
+    short_run();
+    const std::vector<std::string> trails = {"--set", "film.trails.species=[\"big\"]", "--set",
+                                             "film.words=none"};
+    const auto with = [&](std::vector<std::string> words) {
+        words.insert(words.end(), trails.begin(), trails.end());
+        return program(words);
+    };
+    ASSERT_EQ(with({"render", "run", "--no-film", "--frames", "--out", "film"}).status, 0);
+    ASSERT_EQ(with({"render", "run", "--at", "0.3", "--out", "still.png"}).status, 0);
+    ASSERT_EQ(
+        program({"render", "run", "--at", "0.3", "--set", "film.words=none", "--out", "bare.png"}).status, 0);
+    const auto pixels = [](const std::string& png) { return png.substr(png.find("IDAT")); };
+    const std::string last = text_of(here / "film/frames/000006.png");
+    EXPECT_EQ(pixels(text_of(here / "still.png")), pixels(last));
+    EXPECT_NE(pixels(text_of(here / "bare.png")), pixels(last));
+}
+
+// The camera is put somewhere else, or back to the automatic one, whatever scene.toml says of it.
+TEST_F(RenderProgram, ThePlaceOfTheCameraTakesThePlaceOfItsAngles) {
+    short_run();
+    const Ended placed = program(
+        {"render", "run", "--at", "0", "--set", "film.camera.position=[0.2,0.1,0.1]", "--out", "a.png"});
+    EXPECT_EQ(placed.status, 0) << placed.err;
+    run("[film.camera]\nposition = [0.2, 0.1, 0.1]\n", {"--no-film", "--force"});
+    const Ended turned =
+        program({"render", "run", "--at", "0", "--set", "film.camera.azimuth=50", "--out", "b.png"});
+    EXPECT_EQ(turned.status, 0) << turned.err;
+}
+
+TEST_F(RenderProgram, FilesOfAnotherRunAreRefusedAndDamagedOnesTold) {
+    run("[[film.segment]]\nkind = \"locked\"\n", {"--no-film", "--set", "output.contacts=true"});
+    fs::copy(here / "run", here / "more", fs::copy_options::recursive);
+    const std::string text = text_of(here / "more/scene.toml");
+    std::string other = text;
+    other.replace(other.find("count = 40"), 10, "count = 41");
+    write_text(here / "more/scene.toml", other);
+    const Ended foreign = program({"render", "more", "--at", "0"});
+    EXPECT_EQ(foreign.status, 2);
+    EXPECT_THAT(foreign.err, HasSubstr("has 50 grains, but scene.toml beside it has 51"));
+    other = text;
+    other.replace(other.find("diameter = 0.006"), 16, "diameter = 0.005");
+    write_text(here / "more/scene.toml", other);
+    EXPECT_THAT(program({"render", "more", "--at", "0"}).err, HasSubstr("they are of two runs"));
+    write_text(here / "more/scene.toml", text);
+    const Ended turning = program({"render", "more", "--at", "0", "--set", "film.rotation=true"});
+    EXPECT_EQ(turning.status, 2);
+    EXPECT_THAT(turning.err, HasSubstr("has no orientations"));
+    EXPECT_EQ(program({"render", "more", "--at", "9"}).status, 2);
+    fs::resize_file(here / "more/contacts.nc", fs::file_size(here / "more/contacts.nc") / 2);
+    const Ended cut =
+        program({"render", "more", "--at", "0.1", "--set", "film.force_chains=true", "--out", "c.png"});
+    EXPECT_EQ(cut.status, 0);
+    EXPECT_THAT(cut.err, HasSubstr("contacts.nc: was cut off"));
 }
 
 TEST_F(RenderProgram, AStartFileThatIsGoneDoesNotMatter) {

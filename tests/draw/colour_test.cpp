@@ -52,7 +52,8 @@ TEST(ColourMaps, LightnessRisesAllTheWayOrTowardsTheMiddle) {
 
 Scene coloured(GrainValue by, double low, double high, const std::string& unit) {
     Scene scene = wedge(1280, 720);
-    scene.film.shows.colour = {by, is_signed(by) ? ColourMap::vik : ColourMap::viridis, {low, high}, unit, 5};
+    scene.film.shows.colour = {
+        by, is_signed(by) ? ColourMap::vik : ColourMap::viridis, {low, high}, false, unit, 5};
     return scene;
 }
 

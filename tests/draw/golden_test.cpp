@@ -147,7 +147,7 @@ void style(Film& film, FilmLook::Style style) {
 }
 
 void colour(Film& film, GrainValue by, ColourMap map, double low, double high, const char* unit) {
-    film.shows.colour = {by, map, {low, high}, unit, 5};
+    film.shows.colour = {by, map, {low, high}, false, unit, 5};
 }
 
 struct Feature {

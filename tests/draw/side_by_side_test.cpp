@@ -99,7 +99,7 @@ TEST(SideBySide, ColourBarsAreSaidOnceOrUnderEach) {
     EXPECT_EQ(layout_of(panels_of(scenes), film_of(960, 540)).places[0].foot.height, 0);
     const int plain = layout_of(panels_of(scenes), film_of(960, 540)).bottom.height;
     for (Scene& scene : scenes)
-        scene.film.shows.colour = {GrainValue::speed, ColourMap::viridis, {0, 0.3}, "cm/s", 5};
+        scene.film.shows.colour = {GrainValue::speed, ColourMap::viridis, {0, 0.3}, false, "cm/s", 5};
     EXPECT_TRUE(common_of(panels_of(scenes)).colours);
     EXPECT_EQ(layout_of(panels_of(scenes), film_of(960, 540)).places[0].foot.height, 0);
     EXPECT_GE(layout_of(panels_of(scenes), film_of(960, 540)).bottom.height, plain);
@@ -190,6 +190,32 @@ TEST(Captions, SayWhatTellsTheScenesApart) {
     Scene named = scene_with(0.06, 3);
     named.name = "second";
     EXPECT_THAT(captions_of({scene_with(0.06, 3), named}), ElementsAre("wedge", "second"));
+    Scene slow = scene_with(0.06, 3, 15), third = scene_with(0.06, 3, 15);
+    third.film.title = "Another";
+    EXPECT_THAT(captions_of({scene_with(0.06, 3), slow, third}),
+                ElementsAre("A wedge: f = 20 Hz", "A wedge: f = 15 Hz", "Another: f = 15 Hz"));
+    EXPECT_THAT(captions_of({slow, slow}), ElementsAre("1, wedge", "2, wedge"));
+}
+
+TEST(SideBySide, OneRangeOfColoursHoldsInAllPanels) {
+    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    for (std::size_t i = 0; i < 2; ++i) {
+        GrainColouring& colour = scenes[i].film.shows.colour;
+        colour.by = GrainValue::speed;
+        colour.range = {0, 0.1 + 0.2 * static_cast<double>(i)};
+        colour.unit = i == 0 ? "mm/s" : "cm/s";
+    }
+    std::vector<Panel> panels = panels_of(scenes);
+    share_colours(panels);
+    for (const Panel& panel : panels) {
+        EXPECT_EQ(panel.scene.film.shows.colour.range, (std::array<double, 2>{0, 0.1 + 0.2}));
+        EXPECT_EQ(panel.scene.film.shows.colour.unit, "cm/s");
+    }
+    panels = panels_of(scenes);
+    panels[0].scene.film.shows.colour.fixed = true;  // its own scene asks for it
+    share_colours(panels);
+    EXPECT_EQ(panels[1].scene.film.shows.colour.range[1], 0.1 + 0.2);
+    EXPECT_EQ(panels[0].scene.film.shows.colour.range[1], 0.1);
 }
 
 }  // namespace

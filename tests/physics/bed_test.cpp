@@ -5,6 +5,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/run/simulation.hpp"
+#include "engine/scene/free_space.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
@@ -83,6 +84,38 @@ TEST(Layers, PutBigGrainsBelowSmallOnesInsideTheContainer) {
             lowest_small = std::min(lowest_small, z);
     }
     EXPECT_LE(highest_big, lowest_small);
+}
+
+// A box cut by planes: the room is what formulas say, and layers fill it from below.
+TEST(FreeSpace, IsWhatPlanesLeaveOfTheContainer) {
+    Scene scene = scene_of();
+    scene.container.shape = Container::Shape::box;
+    const Container& box = scene.container;
+    const double base = 2 * box.half_width * box.depth;
+    EXPECT_EQ(FreeSpace(scene).volume(), box.volume());
+    FreeWall plane;
+    plane.point = Vec3(0, 0, 0.02);
+    scene.walls = {plane};
+    EXPECT_NEAR(FreeSpace(scene).volume(), base * (box.height - 0.02), 1e-3 * box.volume());
+    EXPECT_NEAR(FreeSpace(scene).height_of_share(0.5), 0.5 * (0.02 + box.height), 1e-3 * box.height);
+    // Through the middle of the floor at 45 degrees: half the base's width times itself, halved, is gone.
+    plane.point = Vec3(0, 0, 0);
+    plane.normal = Vec3(0, 1, 1).normalized();
+    scene.walls = {plane};
+    EXPECT_NEAR(FreeSpace(scene).volume(), box.volume() - 0.5 * box.half_width * box.half_width * box.depth,
+                1e-3 * box.volume());
+}
+
+TEST(Layers, StartInFrontOfTheScenesOwnPlanes) {
+    Scene scene = scene_of();
+    FreeWall plane;
+    plane.point = Vec3(0, 0, 0.03);
+    plane.normal = Vec3(0.1, 0.5, 1).normalized();
+    scene.walls = {plane};
+    const Grains grains = place_in_layers(scene);
+    ASSERT_EQ(grains.size(), 280u);
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        EXPECT_GT(plane.normal.dot(grains.place[i].position - plane.point), 0);
 }
 
 TEST(RadiusGrowth, EndsWithoutOverlapInsideTheAskedRange) {
