@@ -65,8 +65,8 @@ class SideLayer {
         gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
         stale_ = true;
     }
-    // Rows from the bottom.
-    const std::vector<std::uint32_t>& read() {
+    // Rows from the bottom; what is changed there stays until the layer is drawn again.
+    std::vector<std::uint32_t>& read() {
         if (!stale_) return pixels_;
         stale_ = false;
         target_.bind();
@@ -128,7 +128,8 @@ struct Renderer::Impl {
     ShapePainter shape_painter;
     SideLayer behind, before;
     std::optional<SideLayer> marks_alone;  // where grains hide parts of the walls before them
-    std::vector<std::uint32_t> mended;     // of `before` and `marks_alone`
+    std::vector<std::pair<std::size_t, std::uint32_t>> covered;  // of `before`: pixels as they were
+    std::vector<std::uint32_t> mended;                           // `marks_alone` over `before`
     std::optional<GroundPainter> ground;
     Team team;
     ShownGrains shown, solid;  // of all: those that are not hidden; of these: those that are not ghosts
@@ -197,6 +198,8 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
         eye, marked ? *marked : all, [&](std::size_t i) { return marked ? 1 : of_all.seen_share(i); },
         shapes.over);
     compose({behind.read(), grains, ghosts, walls_before()}, port, picture, team);
+    for (const auto& [index, pixel] : covered) before.read()[index] = pixel;
+    covered.clear();
     if (scene.film.transparent) divide_by_alpha(picture, port);
     watch.lap(&DrawTimes::readback);
 }
@@ -210,15 +213,17 @@ const std::vector<std::uint32_t>& Renderer::Impl::walls_before() {
         before.draw(shape_painter, shapes.before.shapes, {});
         return before.read();
     }
-    if (!marks_alone) marks_alone.emplace(context->gl(), port, clear);
     before.draw(shape_painter, shapes.before.shapes, {});
-    marks_alone->draw(shape_painter, shapes.over, {});
-    mended = before.read();
+    std::vector<std::uint32_t>& walls = before.read();
     for (const WallPixel& pixel : pixels) {
-        std::uint32_t& at =
-            mended[static_cast<std::size_t>(port.height - 1 - pixel.y) * port.width + pixel.x];
-        at = faded(at, 1 - pixel.bared);
+        const std::size_t index = static_cast<std::size_t>(port.height - 1 - pixel.y) * port.width + pixel.x;
+        covered.emplace_back(index, walls[index]);
+        walls[index] = faded(walls[index], 1 - pixel.bared);
     }
+    if (shapes.over.vertices().empty()) return walls;
+    if (!marks_alone) marks_alone.emplace(context->gl(), port, clear);
+    marks_alone->draw(shape_painter, shapes.over, {});
+    mended = walls;
     const std::vector<std::uint32_t>& marked = marks_alone->read();
     for (std::size_t i = 0; i < mended.size(); ++i) mended[i] = over(marked[i], mended[i]);
     return mended;

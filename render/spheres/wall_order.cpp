@@ -7,7 +7,9 @@
 namespace grainreel {
 namespace {
 
-constexpr double kUnseen = 0.05;  // pixels: grains press into walls by less than that
+// Pixels by which grains in contact press into walls. Through glass, which tints by a twentieth, more goes
+// unseen.
+constexpr double kUnseen = 0.1, kUnseenThroughGlass = 0.4;
 
 }  // namespace
 
@@ -85,10 +87,11 @@ void WallOrder::find_pixels(const Sight& sight, const std::vector<ViewSphere>& s
         for (std::size_t k = member; k < shown.size(); k += static_cast<std::size_t>(team.size())) {
             const ViewSphere& s = spheres[shown[k]];
             const Vec3 centre(s.x, s.y, s.z);
-            const double radius = s.radius - kUnseen * (sight.orthographic ? 1 : s.z) / sight.focal;
+            const double pixel = (sight.orthographic ? 1 : s.z) / sight.focal;
             bool disordered = false;
             for (std::size_t p = 0; p < plates_.size(); ++p) {
-                if (!plates_[p].disorders(centre, radius)) continue;
+                const double unseen = plates_[p].before ? kUnseenThroughGlass : kUnseen;
+                if (!plates_[p].disorders(centre, s.radius - unseen * pixel)) continue;
                 finding.active[p] = disordered = true;
             }
             if (disordered) note_grain(shown[k], visibility, finding);
