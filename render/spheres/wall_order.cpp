@@ -9,7 +9,7 @@ namespace {
 
 // Pixels by which grains in contact press into walls. Through glass, which tints by a twentieth, more goes
 // unseen.
-constexpr double kUnseen = 0.1, kUnseenThroughGlass = 0.4;
+constexpr double kUnseen = 0.25, kUnseenThroughGlass = 0.5;
 
 }  // namespace
 
