@@ -5,7 +5,8 @@
 
 #include "engine/scene/bed.hpp"
 #include "render/draw/container_drawing.hpp"
-#include "render/draw/overlay.hpp"
+#include "render/draw/first_gutter.hpp"
+#include "render/draw/numbers_plan.hpp"
 #include "render/draw/writer.hpp"
 
 namespace grainreel {

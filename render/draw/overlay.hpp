@@ -16,20 +16,6 @@
 
 namespace grainreel {
 
-// Pixels.
-struct WordBox {
-    double x, y, width, height;
-};
-struct FirstPart {
-    double height = 0;                  // that it takes, margins left out
-    std::vector<WordBox> boxes;         // around what stands together
-    std::vector<std::string> left_out;  // what there was no room for
-};
-// Title, legend, colour bar, marks, scale bar, axes and arrows in the first gutter, as far as its height
-// goes; 0: however much they need. view: null while measuring.
-FirstPart first_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
-                     double width);
-
 class Overlay {
   public:
     Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
