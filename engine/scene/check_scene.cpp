@@ -46,8 +46,11 @@ void check_wedge(const Scene& scene) {
     if (c.shape != Container::Shape::wedge) return;
     if (c.half_angle >= std::numbers::pi / 2)
         fail(scene, "container.half_angle",
-             fmt::format("must be less than 90 deg, but is {:.6g} deg",
-                         c.half_angle * 180 / std::numbers::pi));
+             fmt::format("must be less than 90 deg, but is {:.6g} deg{}",
+                         c.half_angle * 180 / std::numbers::pi,
+                         c.half_angle > 2 * std::numbers::pi && c.half_angle < 90
+                             ? fmt::format("; a bare number is in rad, write \"{:.6g} deg\"", c.half_angle)
+                             : ""));
     if (c.slant_height > c.height)
         fail(scene, "container.slant_height",
              fmt::format(

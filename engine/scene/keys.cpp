@@ -86,9 +86,8 @@ void add_pair_keys(Keys& keys, const std::string& table, const char* inherited) 
 }
 
 void add_contact(Keys& keys) {
-    keys.push_back(
-        choice("contact.arms", {"contact-plane", "radius"}, literal("\"contact-plane\""),
-               "Lever arms of the tangential force; radius, as in the seed, loses angular momentum."));
+    keys.push_back(choice("contact.arms", {"contact-plane", "radius"}, literal("\"contact-plane\""),
+                          "Lever arms of the tangential force; radius loses angular momentum."));
     add_pair_keys(keys, "contact", nullptr);
     add_pair_keys(keys, "contact.wall", "as in [contact]");
     keys.push_back(entry("contact.pair[].between", KeyKind::species_pair, required(),

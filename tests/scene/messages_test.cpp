@@ -177,6 +177,10 @@ INSTANTIATE_TEST_SUITE_P(
              "19:1: 'slant_height' is 0.19 m, more than the height of the container, 0.18 m; lower it or "
              "raise the height"},
         Case{"\"20 deg\"", "\"95 deg\"", "18:1: 'half_angle' must be less than 90 deg, but is 95 deg"},
+        Case{
+            "\"20 deg\"", "20",
+            "18:1: 'half_angle' must be less than 90 deg, but is 1145.92 deg; a bare number is in rad, write "
+            "\"20 deg\""},
         Case{"depth = \"45 mm\"", "depth = \"39 mm\"\nperiodic_depth = true",
              "21:1: 'depth' of 0.039 m is too short to be periodic, less than 4 diameters of \"big\", 0.04 "
              "m; lengthen it"},
