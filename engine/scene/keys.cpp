@@ -159,7 +159,8 @@ void add_drive(Keys& keys) {
 
 void add_run(Keys& keys) {
     keys.push_back(choice("start.method", {"layers", "file", "grains"}, note("layers; grains with [[grain]]"),
-                          "Grow and settle layers, the first species of the largest grains at the bottom; go "
+                          "Grow and settle layers in the room before all planes, the first species of the "
+                          "largest grains at the bottom; go "
                           "on from a file; or the grains as listed, at once."));
     keys.push_back(entry("start.file", KeyKind::text, note("required; file"),
                          "Checkpoint or final.csv of an earlier run, relative to the scene's folder."));
