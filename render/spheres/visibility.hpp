@@ -28,6 +28,8 @@ class Visibility {
     }
     // Indices of the grains that are seen at all, rising.
     const std::vector<std::uint32_t>& shown() const { return shown_; }
+    // The pixels that a sphere covers, of this picture.
+    PixelBox bounds(const Sight& sight, const ViewSphere& sphere) const;
     // The pixels that a grain may be seen in; none for one that is cut away.
     const PixelBox& box(std::size_t grain) const { return box_[grain]; }
     // The share of a grain's outline that shows it.
@@ -46,7 +48,6 @@ class Visibility {
         RowBits changes;
     };
 
-    PixelBox bounds(const Sight& sight, const ViewSphere& sphere) const;
     void place(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team);
     void sort_nearest_first(const std::vector<ViewSphere>& spheres);
     void fill_bands();

@@ -21,6 +21,18 @@ bool WallOrder::Plate::disorders(const Vec3& centre, double radius) const {
     return true;
 }
 
+// Of a cap less than half of the grain, around its circle in the plane.
+ViewSphere WallOrder::Plate::wrong_part(const Vec3& centre, double radius) const {
+    const double height = plane.height(centre), inside = before ? -height : height;
+    const auto sphere = [](const Vec3& c, double r) {
+        return ViewSphere{static_cast<float>(c.x()), static_cast<float>(c.y()), static_cast<float>(c.z()),
+                          static_cast<float>(r)};
+    };
+    if (inside <= 0) return sphere(centre, radius);
+    return sphere(centre - height * plane.normal,
+                  std::sqrt(std::max(0.0, radius * radius - height * height)));
+}
+
 double WallOrder::Plate::meet(double x, double y, bool orthographic) const {
     const double across = plane.normal.x() * x + plane.normal.y() * y;
     const double z = orthographic ? (plane.distance - across) / plane.normal.z()
@@ -61,9 +73,9 @@ void WallOrder::prepare(const Sight& sight, const std::vector<WallFace>& faces) 
     }
 }
 
-// The pixels that show the grain, in their middle or next to it.
-void WallOrder::note_grain(std::uint32_t grain, const Visibility& visibility, Finding& finding) const {
-    const PixelBox& box = visibility.box(grain);
+// The pixels of the box that show the grain, in their middle or next to it.
+void WallOrder::note_grain(std::uint32_t grain, const PixelBox& box, const Visibility& visibility,
+                           Finding& finding) const {
     const std::uint32_t number = grain + 1;
     const int width = visibility.width(), height = visibility.height();
     for (int y = std::max(0, box.y0 - 1); y < std::min(height, box.y1 + 1); ++y) {
@@ -88,13 +100,13 @@ void WallOrder::find_pixels(const Sight& sight, const std::vector<ViewSphere>& s
             const ViewSphere& s = spheres[shown[k]];
             const Vec3 centre(s.x, s.y, s.z);
             const double pixel = (sight.orthographic ? 1 : s.z) / sight.focal;
-            bool disordered = false;
             for (std::size_t p = 0; p < plates_.size(); ++p) {
                 const double unseen = plates_[p].before ? kUnseenThroughGlass : kUnseen;
                 if (!plates_[p].disorders(centre, s.radius - unseen * pixel)) continue;
-                finding.active[p] = disordered = true;
+                finding.active[p] = true;
+                const PixelBox part = visibility.bounds(sight, plates_[p].wrong_part(centre, s.radius));
+                note_grain(shown[k], part, visibility, finding);
             }
-            if (disordered) note_grain(shown[k], visibility, finding);
         }
     });
     std::vector<std::size_t> all;

@@ -52,6 +52,8 @@ class WallOrder {
         bool before;
 
         bool disorders(const Vec3& centre, double radius) const;
+        // A sphere around the part of a grain that is on the wrong side.
+        ViewSphere wrong_part(const Vec3& centre, double radius) const;
         // z of where it meets the line of sight to a point (slopes, or m for an orthographic camera), or < 0.
         double meet(double x, double y, bool orthographic) const;
     };
@@ -63,7 +65,8 @@ class WallOrder {
     void prepare(const Sight& sight, const std::vector<WallFace>& faces);
     void find_pixels(const Sight& sight, const std::vector<ViewSphere>& spheres, const Visibility& visibility,
                      Team& team);
-    void note_grain(std::uint32_t grain, const Visibility& visibility, Finding& finding) const;
+    void note_grain(std::uint32_t grain, const PixelBox& box, const Visibility& visibility,
+                    Finding& finding) const;
     void judge_block(const Sight& sight, const EdgeBlock& block, WallPixel* pixels, int count) const;
 
     std::vector<Plate> plates_;
