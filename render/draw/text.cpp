@@ -1,6 +1,8 @@
 #include "render/draw/text.hpp"
 
+#include <fontconfig/fontconfig.h>
 #include <pango/pangocairo.h>
+#include <pango/pangofc-fontmap.h>
 
 namespace grainreel {
 namespace {
@@ -14,25 +16,56 @@ struct FreeOptions {
     void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
 };
 
-// One a thread, as font maps want it; to make one costs more than to write a word with it.
-PangoContext* text_context() {
-    thread_local const std::unique_ptr<PangoFontMap, Unref> map(
+struct DestroyConfig {
+    void operator()(FcConfig* config) const { FcConfigDestroy(config); }
+};
+using Config = std::unique_ptr<FcConfig, DestroyConfig>;
+
+// The two files that all words are written with, where distributions have them; null when they are not there.
+Config own_fonts() {
+    for (const std::string folder :
+         {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu-sans-fonts/", "/usr/share/fonts/TTF/",
+          "/usr/share/fonts/dejavu/"}) {
+        Config config(FcConfigCreate());
+        const auto add = [&](const char* name) {
+            const std::string file = folder + name;
+            return FcConfigAppFontAddFile(config.get(), reinterpret_cast<const FcChar8*>(file.c_str())) ==
+                   FcTrue;
+        };
+        if (add("DejaVuSans.ttf") && add("DejaVuSans-Bold.ttf")) return config;
+    }
+    return nullptr;
+}
+
+// One a thread, as font maps want it; to make one costs more than to write a word with it. `own`: of the
+// fonts by file, so that words do not depend on what else is installed; else of all the system's.
+PangoContext* make_context(bool own) {
+    const std::unique_ptr<PangoFontMap, Unref> map(
         pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
-    thread_local const std::unique_ptr<PangoContext, Unref> context = [] {
-        std::unique_ptr<PangoContext, Unref> made(pango_font_map_create_context(map.get()));
-        const std::unique_ptr<cairo_font_options_t, FreeOptions> options(cairo_font_options_create());
-        cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
-        cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
-        cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
-        pango_cairo_context_set_font_options(made.get(), options.get());
-        pango_context_set_round_glyph_positions(made.get(), FALSE);
-        return made;
-    }();
+    if (const Config config = own ? own_fonts() : nullptr)
+        pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map.get()), config.get());
+    PangoContext* made = pango_font_map_create_context(map.get());
+    const std::unique_ptr<cairo_font_options_t, FreeOptions> options(cairo_font_options_create());
+    cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+    cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+    pango_cairo_context_set_font_options(made, options.get());
+    pango_context_set_round_glyph_positions(made, FALSE);
+    return made;
+}
+using Context = std::unique_ptr<PangoContext, Unref>;
+PangoContext* own_context() {
+    thread_local const Context context(make_context(true));
+    return context.get();
+}
+PangoContext* system_context() {
+    thread_local const Context context(make_context(false));
     return context.get();
 }
 
-Layout make_layout(const std::string& text, const TextStyle& style, double wrap, int lines) {
-    Layout layout(pango_layout_new(text_context()));
+Layout layout_in(PangoContext* context, const std::string& text, const TextStyle& style, double wrap,
+                 int lines) {
+    Layout layout(pango_layout_new(context));
     PangoFontDescription* font = pango_font_description_new();
     pango_font_description_set_family(font, "DejaVu Sans");
     pango_font_description_set_weight(font, style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
@@ -47,6 +80,13 @@ Layout make_layout(const std::string& text, const TextStyle& style, double wrap,
         pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_END);
     }
     return layout;
+}
+
+// Letters that the fonts by file lack, as in a title in Chinese, come from the system's.
+Layout make_layout(const std::string& text, const TextStyle& style, double wrap, int lines) {
+    Layout layout = layout_in(own_context(), text, style, wrap, lines);
+    if (pango_layout_get_unknown_glyphs_count(layout.get()) == 0) return layout;
+    return layout_in(system_context(), text, style, wrap, lines);
 }
 
 TextSize size_of(PangoLayout* layout) {
