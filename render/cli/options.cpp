@@ -1,9 +1,7 @@
 #include "render/cli/options.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
-#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,17 +12,15 @@
 
 #include "engine/base/error.hpp"
 #include "engine/chart/chart.hpp"
-#include "engine/scene/colours.hpp"
 #include "engine/scene/purposes.hpp"
 #include "engine/scene/units.hpp"
 #include "engine/scene/words.hpp"
+#include "render/cli/option_groups.hpp"
 #include "render/cli/version.hpp"
 
 namespace grainreel {
 
 namespace {
-
-using Form = ReporterOptions::Form;
 
 // A word as the shell would need it typed.
 std::string quoted(const std::string& word) {
@@ -33,16 +29,6 @@ std::string quoted(const std::string& word) {
     std::string result = "'";
     for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
     return result + "'";
-}
-
-Form progress_form(const std::string& word) {
-    const std::map<std::string, Form> forms = {
-        {"auto", Form::automatic}, {"json", Form::json}, {"none", Form::none}};
-    const auto found = forms.find(word);
-    if (found == forms.end()) {
-        throw UserError(fmt::format("--progress {}: no such form; choose auto, json or none", word));
-    }
-    return found->second;
 }
 
 gl::Provider provider_of(const std::string& word, const std::string& said_by) {
@@ -126,17 +112,6 @@ void add_scene(CLI::App& verb, Options& options) {
         ->required()
         ->type_name("FILE");
     add_scene_keys(verb, options);
-}
-
-void add_reporting(CLI::App& verb, Options& options) {
-    verb.add_option_function<std::string>(
-            "--progress", [&options](const std::string& word) { options.report.form = progress_form(word); },
-            "auto (a line that redraws on a terminal and comes now and then in a pipe), json (an object a "
-            "line) or "
-            "none [auto]")
-        ->type_name("FORM");
-    verb.add_flag("--quiet", options.report.quiet, "Say nothing on stderr but errors");
-    verb.add_flag("--verbose", options.report.verbose, "Say more on stderr");
 }
 
 constexpr const char* exit_statuses =
@@ -278,90 +253,6 @@ void add_chart(CLI::App& app, Options& options) {
         "command goes on.\n"
         "Exit status: 0 done, 1 a measurement failed, 2 a mistake in the options, 130 Ctrl-C, 143 SIGTERM.");
     verb.callback([&options] { options.verb = Options::Verb::chart; });
-}
-
-void read_bench_size(const std::string& size, Film& film) {
-    int end = 0;
-    const bool read = std::sscanf(size.c_str(), "%dx%d%n", &film.width, &film.height, &end) == 2;
-    if (!read || end != static_cast<int>(size.size()) || std::min(film.width, film.height) < 64 ||
-        std::max(film.width, film.height) > 8192)
-        throw UserError(
-            fmt::format("--size {}: must be width x height, each from 64 to 8192, as in 1920x1080", size));
-}
-
-void set_bench_style(const std::string& style, BenchRenderRequest& request) {
-    request.style = style;
-    Film& film = request.film;
-    const bool bare = style == "plain" || style == "flat";
-    film.look.occlusion = film.look.shadows = film.look.ground = !bare;
-    film.look.style = style == "flat"   ? FilmLook::Style::flat
-                      : style == "dark" ? FilmLook::Style::dark
-                                        : FilmLook::Style::studio;
-    film.background = default_background(film.look.style);
-}
-
-void add_bench(CLI::App& app, Options& options) {
-    CLI::App& verb = *app.add_subcommand("bench", "Time the engine on a bed of known kind");
-    std::string about;
-    std::vector<std::string> names;
-    for (const BenchCase& bench : bench_cases()) {
-        names.push_back(bench.name);
-        about += fmt::format("{}{} ({})", about.empty() ? "" : "; ", bench.name, bench.about);
-    }
-    names.push_back("render");
-    about += "; render (the drawing of the peers' bed at rest, by stage)";
-    verb.add_option("CASE", options.bench, about)->required()->check(CLI::IsMember(names))->type_name("CASE");
-    verb.add_option("--threads", options.bench_request.threads, "Threads [as many as there are processors]")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
-    verb.add_option_function<std::string>(
-            "--precision",
-            [&options](const std::string& word) {
-                options.bench_request.precision = word == "mixed" ? Precision::mixed : Precision::full;
-            },
-            "double or mixed [double]")
-        ->check(CLI::IsMember({"double", "mixed"}))
-        ->type_name("WHICH");
-    verb.add_option("--particles", options.bench_request.particles,
-                    "Grains [by the case]; for render: --grains")
-        ->check(CLI::Range(100, 10000000))
-        ->type_name("N");
-    verb.add_option("--repeat", options.bench_request.repeats, "Run it all so often and give medians [1]")
-        ->check(CLI::Range(1, 1000))
-        ->type_name("K");
-    verb.add_option("--grains", options.bench_render.grains, "render: grains in the bed [10125]")
-        ->check(CLI::Range(100, 10000000))
-        ->type_name("N");
-    verb.add_option_function<std::string>(
-            "--size",
-            [&options](const std::string& size) { read_bench_size(size, options.bench_render.film); },
-            "render: of the picture in pixels [1920x1080]")
-        ->type_name("WxH");
-    verb.add_option_function<std::string>(
-            "--out", [&options](const std::string& file) { options.out = file; },
-            "render: keep the picture, and the grains and camera for other renderers, in this folder")
-        ->type_name("DIR");
-    verb.add_option_function<std::string>(
-            "--style", [&options](const std::string& style) { set_bench_style(style, options.bench_render); },
-            "render: studio, flat, dark or plain (lit spheres alone) [studio]")
-        ->check(CLI::IsMember({"studio", "flat", "dark", "plain"}))
-        ->type_name("WHICH");
-    verb.add_flag_callback(
-        "--orthographic", [&options] { options.bench_render.film.camera.field_of_view = 0; },
-        "render: with an orthographic camera");
-    verb.add_option("--zoom", options.bench_render.film.camera.zoom,
-                    "render: closer than where the grains fill the picture's height or width [1]")
-        ->type_name("Z")
-        ->check(CLI::Range(0.01, 100.0));
-    verb.add_flag("--quick", options.bench_request.quick,
-                  "A tenth of the steps, to try it: the bed is then\nhardly settled, and its figures are not "
-                  "those of a whole run");
-    verb.add_flag("--json", options.json, "One JSON object in place of a table");
-    add_reporting(verb, options);
-    verb.footer(
-        "Results go to stdout, progress to stderr.\n"
-        "Exit status: 0 done, 1 the run failed, 2 a mistake in the options, 130 Ctrl-C, 143 SIGTERM.");
-    verb.callback([&options] { options.verb = Options::Verb::bench; });
 }
 
 }  // namespace
