@@ -14,14 +14,24 @@ DrivenContact::DrivenContact(const PairPlan& pair)
     }
 }
 
+// Cayley's vector: from the last normal to this one on the shortest way, then the twist, of which the step
+// loop takes the half for tan(twist / 2).
+Vec3 DrivenContact::turn_of(const Move& move) const {
+    const Vec3& k = move.normal;
+    const Vec3 tilt = normal_.cross(k) / (1 + normal_.dot(k));
+    return tilt + 0.5 * move.twist * (k + k.cross(tilt));
+}
+
 void DrivenContact::move(const Move& move) {
+    const Vec3 turn = turn_of(move);
+    normal_ = move.normal;
     constexpr double step = 1;  // s, that turns slips into velocities; laws without a dashpot do not see it
     for (int axis = 0; axis < 3; ++axis) {
         touch_.normal[axis].set(0, move.normal[axis], law_.number_size);
         touch_.velocity[axis].set(0, move.slip[axis] / step, law_.number_size);
+        touch_.turn[axis].set(0, turn[axis], law_.number_size);
     }
     touch_.overlap.set(0, move.overlap, law_.number_size);
-    touch_.twist.set(0, move.twist, law_.number_size);
     touch_.touching = 1;
     LawInput in{};
     in.count = 1;

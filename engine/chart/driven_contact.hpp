@@ -23,11 +23,14 @@ class DrivenContact {
     Vec3 tangential() const;      // N, on j
 
   private:
+    Vec3 turn_of(const Move& move) const;
+
     const LawKernel& law_;
     LawParameters parameters_;
     Histories history_;
     TouchChunk touch_;
     ForceChunk force_;
+    Vec3 normal_{0, 0, 0};  // of the last move
 };
 
 }  // namespace grainreel

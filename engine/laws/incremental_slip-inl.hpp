@@ -43,13 +43,13 @@ struct IncrementalSlip {
 
     template <class R>
     struct History {
-        Triple<R> force;   // N, on j, perpendicular to `normal`
-        Triple<R> normal;  // k of the last step, -k while |T| shrinks; zero for a new contact
-        R turning_ratio;   // T* / N: T* grows and falls with N
+        Triple<R> force;  // N, on j, perpendicular to k
+        R turning_ratio;  // T* / N: T* grows and falls with N
+        R shrinks;        // 1 while |T| does, else 0
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit.turning(force), visit.turning(normal), visit(turning_ratio);
+            visit.turning(force), visit(turning_ratio), visit(shrinks);
         }
     };
 
@@ -58,9 +58,8 @@ struct IncrementalSlip {
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal&, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {
         const R pushing = larger(R(0), normal_force), limit = p.friction * pushing;
-        const auto shrank = h.normal.dot(touch.normal) < R(0);
-        const Triple<R> normal_before = select(shrank, -h.normal, h.normal);
-        const Triple<R> old = carry_along(h.force, normal_before, touch.normal, touch.twist);
+        const auto shrank = h.shrinks > R(0);
+        const Triple<R> old = carry_along(h.force, touch.turn, touch.normal);
 
         // The friction direction: of the old force, or of the slip where there is no force yet.
         const R old_squared = old.squared();
@@ -84,7 +83,7 @@ struct IncrementalSlip {
         const auto through_zero = parallel < R(0);  // the direction flips, and what shrank now grows
         const R ratio = select(pushing > R(0), select(turns, old_size / pushing, ratio_before), R(0));
         h.turning_ratio = select(through_zero, -ratio, ratio);
-        h.normal = select(shrinks, select(through_zero, touch.normal, -touch.normal), touch.normal);
+        h.shrinks = select(shrinks, select(through_zero, R(0), R(1)), R(0));
         h.force = capped_at(now, limit);
         return h.force;
     }

@@ -106,8 +106,8 @@ HWY_INLINE Touch<L> touch_at(const LawInput& in, int c) {
     Touch<L> t;
     t.normal = triple_at<L, Number>(chunk.normal, c);
     t.overlap = row_at<L, Number>(chunk.overlap, c);
-    t.twist = L(0.0);
-    if constexpr (Law::rubs) t.twist = row_at<L, Number>(chunk.twist, c);
+    t.turn = {L(0.0), L(0.0), L(0.0)};
+    if constexpr (Law::rubs) t.turn = triple_at<L, Number>(chunk.turn, c);
     t.inverse_mass = t.effective_mass = t.effective_radius = L(0.0);
     if constexpr (Law::uses_mass) {
         t.inverse_mass = row_at<L, Number>(chunk.inverse_mass, c);

@@ -37,11 +37,10 @@ struct LinearSpring {
     template <class R>
     struct History {
         Triple<R> spring_force;  // N, on j, the spring's part of it, k_t s
-        Triple<R> normal;        // k of the last step; zero for a new contact
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit.turning(spring_force), visit.turning(normal);
+            visit.turning(spring_force);
         }
     };
 
@@ -49,9 +48,8 @@ struct LinearSpring {
     template <class R, class Normal>
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal& normal, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {
-        h.spring_force = carry_along(h.spring_force, h.normal, touch.normal, touch.twist);
-        h.normal = touch.normal;
-        h.spring_force = h.spring_force.plus(touch.slip, p.stiffness);
+        const Triple<R> old = carry_along(h.spring_force, touch.turn, touch.normal);
+        h.spring_force = old.plus(touch.slip, p.stiffness);
         const Triple<R> damping = dashpot(normal, touch);
         const Triple<R> whole = h.spring_force + damping;
         const Triple<R> capped = capped_at(whole, p.friction * size_of(normal_force));

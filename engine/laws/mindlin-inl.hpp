@@ -38,12 +38,11 @@ struct Mindlin {
     template <class R>
     struct History {
         Triple<R> spring_force;  // N, on j
-        Triple<R> normal;        // k of the last step; zero for a new contact
         R stiffness;             // N/m, K_t of the last step
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit.turning(spring_force), visit.turning(normal), visit(stiffness);
+            visit.turning(spring_force), visit(stiffness);
         }
     };
 
@@ -53,8 +52,7 @@ struct Mindlin {
                                       const Touch<R>& touch, R normal_force) {
         const R stiffness = p.ratio * normal.tangent_stiffness(touch);
         const R shrunk = select(stiffness < h.stiffness, stiffness / h.stiffness, R(1));
-        h.spring_force = carry_along(h.spring_force, h.normal, touch.normal, touch.twist) * shrunk;
-        h.normal = touch.normal;
+        h.spring_force = carry_along(h.spring_force, touch.turn, touch.normal) * shrunk;
         h.stiffness = stiffness;
         h.spring_force += touch.slip * stiffness;
         const Triple<R> damping = touch.slip_velocity * normal.sideways_damping(touch);

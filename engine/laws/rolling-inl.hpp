@@ -37,20 +37,20 @@ struct RollingSpring {
     template <class R>
     struct History {
         Triple<R> torque;  // N m, on j
-        Triple<R> normal;  // k of the last step; zero for a new contact
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit.turning(torque), visit.turning(normal);
+            visit.turning(torque);
         }
     };
 
-    // N m, on j. `angle`: rad, that i has turned against j across k in this step; `twist` as in Touch.
+    // N m, on j. `angle`: rad, that i has turned against j across k in this step; `normal`, `turn` as in
+    // Touch.
     template <class R>
     static HWY_INLINE Triple<R> torque(const Parameters<R>& p, History<R>& h, const Triple<R>& normal,
-                                       R twist, const Triple<R>& angle, R effective_radius, R normal_force) {
-        const Triple<R> old = carry_along(h.torque, h.normal, normal, twist);
-        h.normal = normal;
+                                       const Triple<R>& turn, const Triple<R>& angle, R effective_radius,
+                                       R normal_force) {
+        const Triple<R> old = carry_along(h.torque, turn, normal);
         h.torque = capped_at(old + angle * (p.stiffness * effective_radius * effective_radius),
                              p.friction * effective_radius * larger(R(0), normal_force));
         return h.torque;

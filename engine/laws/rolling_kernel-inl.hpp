@@ -24,7 +24,7 @@ void step_rolling(const LawInput& in, void* history, ForceChunk& out) {
         const Triple<L> angle = triple_at<L, Number>(in.rolling->rate, c) * L(in.step);
         const Triple<L> torque = RollingSpring::torque(
             parameters_at<RollingSpring, L>(in, c), h, triple_at<L, Number>(in.touch->normal, c),
-            row_at<L, Number>(in.touch->twist, c), angle, row_at<L, Number>(in.touch->effective_radius, c),
+            triple_at<L, Number>(in.touch->turn, c), angle, row_at<L, Number>(in.touch->effective_radius, c),
             row_at<L, Number>(out.normal, c));
         h.each(StoreHistory<L>(touching, kept));
         put_where<Number>(touching, torque, in.rolling->torque, c);

@@ -1,5 +1,5 @@
 // What a contact law is told of a touching pair (or of a grain and a wall), all at consistent time levels:
-// geometry and velocities at the end of the step, slip and twist over the step.
+// geometry and velocities at the end of the step, slip and turn over the step.
 #if defined(GRAINREEL_LAWS_TOUCH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_TOUCH_INL
 #undef GRAINREEL_LAWS_TOUCH_INL
@@ -21,7 +21,8 @@ struct Touch {
     R effective_radius;  // m; likewise
     R closing_speed;     // m/s, k . (v_i - v_j), > 0 when approaching; set only for laws that use velocity
     Triple<R> slip;      // m, of i over j at the contact during this step; set only for laws that rub
-    R twist;             // rad, mean rotation of the two bodies about k during this step; likewise
+    Triple<R> turn;      // Cayley's vector, tan(angle / 2) along the axis, of the contact's turn during this
+                         // step: as k has turned, and about k by the mean of the two bodies; likewise
     Triple<R> slip_velocity;  // m/s; set only for laws that rub and have a dashpot
     R step;                   // s, between two forces; set only for laws that use velocity
 };

@@ -45,7 +45,7 @@ struct TouchChunk {
     Row normal[3];
     Row overlap;                 // m
     Row velocity[3];             // m/s, of i's surface against j's
-    Row twist;                   // rad
+    Row turn[3];                 // Cayley's vector: a pure number
     Row first_arm, second_arm;   // m, from the centres to where T acts
     Row inverse_distance;        // 1/m, of the centres of a pair
     Row inverse_mass;            // 1/kg, of the effective mass

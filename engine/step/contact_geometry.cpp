@@ -36,6 +36,15 @@ HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spi
     return velocity.less(change, k.dot(velocity)) + spins.cross(k + change);
 }
 
+// Cayley's vector of a contact's turn: what took k + 2 `back`, scaled to unit length, to k, then a turn about
+// k of which `twist` is the half. That is tan(angle) / 2 along the axis of the first, off by the angle's cube
+// / 4; of the two together a + b + b x a. (The displacements between two forces are the velocities times the
+// step, so that k need not be kept.)
+template <class L>
+HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist) {
+    return back.cross(k).plus(k + back, twist);
+}
+
 std::uint64_t pairs_within(const Grains& grains, const std::int32_t* i, const std::int32_t* j, int count,
                            double period, double gap) {
     const double* place = numbers(grains.place);
@@ -113,7 +122,7 @@ void sweep_rounded_places(const GeometryInput& in, const Places& at, double peri
     }
 }
 
-// Normals, inverse distances and, for sweep_spins(), distances where the twist will be.
+// Normals, inverse distances and, for sweep_spins(), distances where the turn will be.
 template <class L>
 void sweep_distances(const GeometryInput& in, TouchChunk& out) {
     using Number = NumberOf<L>;
@@ -128,7 +137,7 @@ void sweep_distances(const GeometryInput& in, TouchChunk& out) {
         const L inverse = L(1.0) / distance;
         put<Number>(apart * inverse, out.normal, c);
         put<Number>(inverse, out.inverse_distance, c);
-        if (in.wants >= Wants::spin) put<Number>(distance, out.twist, c);
+        if (in.wants >= Wants::spin) put<Number>(distance, out.turn[0], c);
     }
 }
 
@@ -193,13 +202,16 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
         else
             first_arm = row_at<L>(out.first_arm, c), second_arm = row_at<L>(out.second_arm, c);
         if (in.arms == LeverArms::contact_plane)
-            to_contact_plane(row_at<L>(out.twist, c), inverse, first_arm, second_arm);
+            to_contact_plane(row_at<L>(out.turn[0], c), inverse, first_arm, second_arm);
         put<Number>(first_arm, out.first_arm, c);
         put<Number>(second_arm, out.second_arm, c);
-        const Triple<L> change = velocity.across(k) * (turn * inverse);
+        const L closing = k.dot(velocity), in_half = half_step * inverse;
+        const Triple<L> across = velocity.less(k, closing);
         const Triple<L> spins = (one * first_arm).plus(two, second_arm);
-        put<Number>(of_surfaces(velocity, spins, k, change), out.velocity, c);
-        put<Number>(half_step * (one + two).dot(k), out.twist, c);
+        put<Number>(of_surfaces(velocity, spins, k, across * (turn * inverse)), out.velocity, c);
+        const L farther = less_product(L(1.0), L(2.0) * in_half, closing);  // it was, before the step
+        put<Number>(turn_of(k, across * (in_half * farther), L(0.5) * half_step * (one + two).dot(k)),
+                    out.turn, c);
         if (in.wants == Wants::rolling) put<Number>((one - two).across(k), in.rolling->rate, c);
     }
 }
@@ -260,7 +272,7 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
     const double* place = numbers(in.grains->place);
     const double* motion = numbers(in.grains->motion);
     out.touching = 0;
-    const Lanes turn(0.5 * in.turns_for);
+    const Lanes turn(0.5 * in.turns_for), half_step(0.5 * in.step);
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         const std::int32_t *i = in.first + c, *face = in.second + c;
         Triple<Lanes> into;
@@ -286,11 +298,14 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
             const Triple<Lanes> rate = triple(load_records(motion + 4, 8, i));
             // Along a cylinder's wall k turns with the grain about the axis; a plane's does not turn.
-            Triple<Lanes> change = velocity.across(k) * select(round, -turn * inverse, Lanes(0.0));
-            change.z = Lanes(0.0);
-            velocity = of_surfaces(velocity, rate * arm, k, change);
+            const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
+            Triple<Lanes> across = velocity.less(k, closing) * select(round, Lanes(-1.0), Lanes(0.0));
+            across.z = Lanes(0.0);
+            const Lanes nearer = multiply_add(Lanes(2.0) * in_half, closing, Lanes(1.0));
+            put<Number>(turn_of(k, across * (in_half * nearer), Lanes(0.5) * half_step * rate.dot(k)),
+                        out.turn, c);
+            velocity = of_surfaces(velocity, rate * arm, k, across * (turn * inverse));
             put<Number>(arm, out.first_arm, c);
-            put<Number>(Lanes(0.5 * in.step) * rate.dot(k), out.twist, c);
             if constexpr (wants == Wants::rolling) put<Number>(rate.across(k), in.rolling->rate, c);
         }
         put<Number>(velocity, out.velocity, c);

@@ -38,7 +38,7 @@ TEST(Silo, TheFloorCarriesWhatJanssenSays) {
     EXPECT_LT(fit.residual, 0.03);
     EXPECT_NEAR(fitted, from_forces, 0.2 * from_forces);  // single columns scatter by a tenth
     EXPECT_LT(loads.back().apparent, 0.6 * loads.back().filling);
-    EXPECT_GT(loads.back().mobilised, 0.85);
+    EXPECT_GT(loads.back().mobilised, 0.77);  // of 60 columns 0.863 in the mean, each off by 0.03
 }
 
 }  // namespace

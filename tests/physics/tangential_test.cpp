@@ -78,7 +78,7 @@ TEST(IncrementalSlip, UnloadsFromItsTurningPointThroughZero) {
     const double bottom = std::abs(s.history.force.x);
     s.slip(1e-9, 1);
     EXPECT_NEAR(s.history.turning_ratio * kNormal, bottom, 1e-9);
-    EXPECT_EQ(s.history.normal.z, -1) << "shrinking";
+    EXPECT_EQ(s.history.shrinks, 1);
 }
 
 TEST(IncrementalSlip, NeverPassesCoulombsLimit) {
@@ -115,15 +115,14 @@ TEST(IncrementalSlip, TurnsWithTheContact) {
     const int steps = 2000;
     const double angle = 2.5;  // rad
     s.touch.slip = {0, 0, 0};
+    s.touch.turn = along(std::tan(0.5 * angle / steps) * axis);
     for (int k = 1; k <= steps; ++k) {
         s.touch.normal = along(Eigen::AngleAxisd(angle * k / steps, axis) * normal);
-        s.touch.twist =
-            angle / steps * axis.dot(Vec3(Eigen::AngleAxisd(angle * (k - 0.5) / steps, axis) * normal));
         IncrementalSlip::force(s.parameters, s.normal, s.history, s.touch, kNormal);
         ASSERT_NEAR(size(s.history.force), force.norm(), 1e-12 * force.norm());
     }
     const Vector expected = along(Eigen::AngleAxisd(angle, axis) * force);
-    EXPECT_LT(size(s.history.force - expected), 1e-5 * force.norm());
+    EXPECT_LT(size(s.history.force - expected), 1e-12 * force.norm());
 }
 
 TEST(IncrementalSlip, GivesTheSameForceWhenTheBodiesChangePlaces) {
@@ -131,7 +130,6 @@ TEST(IncrementalSlip, GivesTheSameForceWhenTheBodiesChangePlaces) {
     s.slip(1e-6, 10);
     Sheared other = s;
     other.history.force = -s.history.force;
-    other.history.normal = -s.history.normal;
     other.touch.normal = -s.touch.normal;
     s.touch.slip = {-3e-7, 2e-7, 0};
     other.touch.slip = -s.touch.slip;

@@ -101,8 +101,8 @@ class Crowd {
             const bool apart = (n / 20 + c) % 9 == 0;
             set(touch.overlap, c, apart ? -1e-6 : 1e-5 * (1.1 + one()));
             touch.touching = (touch.touching & ~(std::uint64_t{1} << c)) | std::uint64_t{!apart} << c;
-            set(touch.twist, c, 1e-3 * one());
             for (int a = 0; a < 3; ++a) {
+                set(touch.turn[a], c, 1e-3 * one());
                 set(touch.normal[a], c, k[a]);
                 set(touch.velocity[a], c, one());
             }
@@ -113,7 +113,7 @@ class Crowd {
         Touch<R> t{};
         t.normal = triple<R>(touch.normal, c);
         t.overlap = R::of(get(touch.overlap, c));
-        t.twist = R::of(get(touch.twist, c));
+        t.turn = triple<R>(touch.turn, c);
         t.inverse_mass = R::of(get(touch.inverse_mass, c));
         t.effective_mass = R(1) / t.inverse_mass;
         t.effective_radius = R::of(get(touch.effective_radius, c));
@@ -238,8 +238,9 @@ TEST(VectorLaws, AContactAtRestKeepsItsForceInSinglePrecision) {
         using Lane = OneLane<float, true>;
         const auto rounded = [](const Vec3& v) { return Triple<Lane>{v.x(), v.y(), v.z()}; };
         const Triple<Lane> normal = rounded(k), before = rounded(t);
+        const Triple<Lane> none{Lane(0), Lane(0), Lane(0)};
         Triple<Lane> force = before;
-        for (int step = 0; step < 100000; ++step) force = carry_along(force, normal, normal, Lane(0));
+        for (int step = 0; step < 100000; ++step) force = carry_along(force, none, normal);
         const float off = (force - before).squared().value;
         EXPECT_LT(off, 1e-10f * before.squared().value) << "contact " << contact;
     }
