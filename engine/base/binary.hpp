@@ -21,8 +21,8 @@ void read_value(std::istream& in, T& value) {
     in.read(reinterpret_cast<char*>(&value), sizeof value);
 }
 
-template <class T>
-void write_vector(std::ostream& out, const std::vector<T>& values) {
+template <class T, class Memory>
+void write_vector(std::ostream& out, const std::vector<T, Memory>& values) {
     static_assert(std::is_trivially_destructible_v<T>);
     write_value(out, static_cast<std::uint64_t>(values.size()));
     out.write(reinterpret_cast<const char*>(values.data()),
@@ -30,8 +30,8 @@ void write_vector(std::ostream& out, const std::vector<T>& values) {
 }
 
 // Sets the stream's failbit instead of taking in more than 2^31 entries, which only a damaged file asks for.
-template <class T>
-void read_vector(std::istream& in, std::vector<T>& values) {
+template <class T, class Memory>
+void read_vector(std::istream& in, std::vector<T, Memory>& values) {
     std::uint64_t size = 0;
     read_value(in, size);
     if (!in || size > (std::uint64_t{1} << 31)) return in.setstate(std::ios::failbit);
@@ -46,8 +46,8 @@ struct Writing {
     void operator()(const T& value) const {
         write_value(out, value);
     }
-    template <class T>
-    void operator()(const std::vector<T>& values) const {
+    template <class T, class Memory>
+    void operator()(const std::vector<T, Memory>& values) const {
         write_vector(out, values);
     }
 };
@@ -57,8 +57,8 @@ struct Reading {
     void operator()(T& value) const {
         read_value(in, value);
     }
-    template <class T>
-    void operator()(std::vector<T>& values) const {
+    template <class T, class Memory>
+    void operator()(std::vector<T, Memory>& values) const {
         read_vector(in, values);
     }
 };

@@ -87,20 +87,32 @@ class BenchRun {
 
   private:
     // Many copies at once take too long to run through it all: they take over a bed in the middle of the
-    // phase, and as many grain-steps are timed as the one bed would make.
+    // phase, and, once lists and histories have come to be, about as many grain-steps are timed as the one
+    // bed would make; beside them those of a single copy that does the same.
     bool time_phase(Running& run, const BenchPhase& phase, PhaseReport& report) {
         if (copies_ == 1) return advance(run, phase.steps, phase.name, 0, &report);
         if (!advance(run, phase.steps / 2, phase.name, 0, nullptr)) return false;
+        const std::int64_t least = request_.quick ? 100 : 400;
+        const std::int64_t steps = std::max(least, phase.steps / (copies_ * copies_)), lead = steps / 2;
+        for (int times = 0; times < 5; ++times) {
+            Running one = copies_of(run, 1);
+            one.run(lead);
+            const double work = static_cast<double>(steps) * static_cast<double>(one.bed.grains.size());
+            report.of_one_copy.push_back(work / one.run(steps));
+        }
         const double before = heap_in_use();
         {
-            Running whole(copied(run.bed, run.bed.grains, case_.side_of_copies(run.bed), copies_),
-                          report_.threads, run.step);
-            const std::int64_t steps = std::max<std::int64_t>(50, phase.steps / (copies_ * copies_));
-            whole.run(steps / 5);  // lists and histories come to be
+            Running whole = copies_of(run, copies_);
+            whole.run(lead);
             if (!advance(whole, steps, phase.name, 0, &report)) return false;
             note_end(whole, heap_in_use() - before);
         }
         return advance(run, phase.steps - phase.steps / 2, phase.name, 0, nullptr);
+    }
+
+    Running copies_of(const Running& run, int copies) const {
+        return Running(copied(run.bed, run.bed.grains, case_.side_of_copies(run.bed), copies),
+                       report_.threads, run.step);
     }
 
     // Timed, where there is a report. The clock of the stages slows the loop down, so that every fourth look
@@ -155,10 +167,21 @@ class BenchRun {
 
 }  // namespace
 
+namespace {
+
+double median_of(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0 : 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+}
+
+}  // namespace
+
 double PhaseReport::median() const {
-    std::vector<double> sorted = particle_steps;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted.empty() ? 0 : 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
+    return median_of(particle_steps);
+}
+
+double PhaseReport::median_of_one_copy() const {
+    return median_of(of_one_copy);
 }
 
 double PhaseReport::spread() const {

@@ -24,12 +24,15 @@ struct PhaseReport {
     std::string name;
     std::int64_t steps = 0;              // timed
     std::vector<double> particle_steps;  // a second, of each repetition
+    // Where grains are copies of a bed: those of a single copy in the same steps.
+    std::vector<double> of_one_copy;
     std::int64_t listed = 0;             // pairs in the neighbour lists at its end
     std::int64_t touching = 0;           // pairs
     std::array<double, kCosts> stage{};  // ns of a thread for a step of a grain, of the median repetition
 
     double median() const;  // particle steps a second
     double spread() const;  // (largest - smallest) / median
+    double median_of_one_copy() const;
 };
 
 struct BenchReport {

@@ -154,6 +154,7 @@ void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
     if constexpr (one_kind) p.each(SameParameters<L>(*in.parameters));
     const L step(in.step), ahead(in.ahead);
     for (int c = 0; c < in.count; c += L::count) {
+        in.touch->fetch_some();
         NumberOf<L>* kept = history + place_in_history(c, in.history_stride);
         if (!in.touch->any_touching(c, L::count)) {
             put_nothing<Law, L>(c, out);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "engine/base/ahead.hpp"
+
 namespace grainreel {
 
 constexpr int kBlock = 16;  // histories are kept in blocks of 16 contacts
@@ -51,8 +53,12 @@ struct TouchChunk {
     Row inverse_mass;            // 1/kg, of the effective mass
     Row effective_radius;        // m
     std::uint64_t touching = 0;  // a bit a contact: overlap > 0
+    Ahead* ahead = nullptr;      // fetched by all that works on the chunk meanwhile
 
     bool touches(int c) const { return touching >> c & 1; }
+    [[gnu::always_inline]] inline void fetch_some() const {
+        if (ahead) ahead->fetch_some();
+    }
     // Of `count` contacts from c on.
     bool any_touching(int c, int count) const {
         return (touching >> c & ((std::uint64_t{2} << (count - 1)) - 1)) != 0;

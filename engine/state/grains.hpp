@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/large_array.hpp"
 #include "engine/base/vector.hpp"
 
 namespace grainreel {
@@ -46,11 +47,11 @@ struct Derivatives {
 struct Grains {
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> species;
-    std::vector<Place> place;
-    std::vector<Motion> motion;
-    std::vector<Load> load;
-    std::vector<RoundedMotion> rounded;    // empty unless a law wants it
-    std::vector<double> wall_work;         // J, done by moving walls on this grain since the drive started
+    LargeArray<Place> place;
+    LargeArray<Motion> motion;
+    LargeArray<Load> load;
+    LargeArray<RoundedMotion> rounded;     // empty unless a law wants it
+    LargeArray<double> wall_work;          // J, done by moving walls on this grain since the drive started
     std::vector<Quaternion> orientation;   // empty unless asked for
     std::vector<Derivatives> derivatives;  // empty unless the integrator has them
 

@@ -14,7 +14,7 @@ constexpr double kMostBoxesPerGrain = 8;   // an empty tall container must not c
 
 }  // namespace
 
-void Grid::lay(const std::vector<Place>& place, const std::vector<std::int32_t>& members, double width,
+void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
                const std::array<int, 3>& axes, double period) {
     const std::size_t n = members.size();
     Vec3 low = place[members[0]].position, high = low;
@@ -63,7 +63,7 @@ std::int32_t Grid::box_of(const Vec3& position) const {
 }
 
 // Octave by octave of radii, from the smallest up.
-void Cells::sort_into_levels(const std::vector<Place>& place) {
+void Cells::sort_into_levels(const LargeArray<Place>& place) {
     double smallest = std::numeric_limits<double>::infinity(), largest = 0;
     for (const Place& p : place) {
         smallest = std::min(smallest, p.radius);
@@ -79,7 +79,7 @@ void Cells::sort_into_levels(const std::vector<Place>& place) {
     std::erase_if(levels_, [](const Level& level) { return level.members.empty(); });
 }
 
-const std::vector<std::int32_t>& Cells::order(const std::vector<Place>& place, double skin, double period) {
+const std::vector<std::int32_t>& Cells::order(const LargeArray<Place>& place, double skin, double period) {
     sort_into_levels(place);
     const auto fewer = [](const Level& a, const Level& b) { return a.members.size() < b.members.size(); };
     Level& most = *std::max_element(levels_.begin(), levels_.end(), fewer);
@@ -97,7 +97,7 @@ const std::vector<std::int32_t>& Cells::order(const std::vector<Place>& place, d
     return most.grid.in_order();
 }
 
-void Cells::lay(const std::vector<Place>& place, double skin, double period) {
+void Cells::lay(const LargeArray<Place>& place, double skin, double period) {
     sort_into_levels(place);
     for (Level& level : levels_) {
         level.grid.lay(place, level.members, 2 * level.largest + skin, axes_, period);

@@ -18,7 +18,7 @@ class Grid {
     // Boxes over the members (indices of grains, rising) of edge >= width (m), at most a few for each of
     // them: those of an empty tall container grow. `axes`: along which boxes follow each other, fastest
     // first. `period` (m): of x, centred on 0, which is then the fastest; 0 for none.
-    void lay(const std::vector<Place>& place, const std::vector<std::int32_t>& members, double width,
+    void lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
              const std::array<int, 3>& axes, double period);
 
     // The members by box; within a box by rising index.
@@ -91,10 +91,10 @@ class Cells {
     // order[new] = old: grains sorted by the boxes of the most frequent size, slowest along the bed's longest
     // side, so that what touches lies close in memory and few contacts cross from thread to thread. m: skin,
     // period as for Grid. Stays until lay().
-    const std::vector<std::int32_t>& order(const std::vector<Place>& place, double skin, double period);
+    const std::vector<std::int32_t>& order(const LargeArray<Place>& place, double skin, double period);
 
     // The grids, for grains in that order.
-    void lay(const std::vector<Place>& place, double skin, double period);
+    void lay(const LargeArray<Place>& place, double skin, double period);
 
     struct Level {
         std::vector<std::int32_t> members;
@@ -105,7 +105,7 @@ class Cells {
     const std::vector<Level>& levels() const { return levels_; }
 
   private:
-    void sort_into_levels(const std::vector<Place>& place);
+    void sort_into_levels(const LargeArray<Place>& place);
 
     std::vector<Level> levels_;  // those that have members
     std::array<int, 3> axes_{0, 1, 2};

@@ -10,8 +10,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-template <class Record>
-HWY_INLINE const double* numbers(const std::vector<Record>& records) {
+template <class Records>
+HWY_INLINE const double* numbers(const Records& records) {
     return reinterpret_cast<const double*>(records.data());
 }
 
@@ -89,6 +89,7 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
     const double* place = numbers(in.grains->place);
     out.touching = 0;
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
+        out.fetch_some();
         const auto one = load_records(place, 1, at.first + c), two = load_records(place, 1, at.second + c);
         Triple<Lanes> apart = triple(two) - triple(one);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
@@ -111,6 +112,7 @@ void sweep_rounded_places(const GeometryInput& in, const Places& at, double peri
     const double* place = numbers(in.grains->place);
     out.touching = 0;
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
+        out.fetch_some();
         const auto between = load_relative(place, 1, at.second + c, at.first + c);
         Triple<Lanes> apart = triple(between);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
@@ -127,6 +129,7 @@ template <class L>
 void sweep_distances(const GeometryInput& in, TouchChunk& out) {
     using Number = NumberOf<L>;
     for (int c = 0; c < in.count; c += L::count) {
+        out.fetch_some();
         const Triple<L> apart = triple_at<L>(out.normal, c);
         L distance = row_at<L>(out.inverse_distance, c);
         if constexpr (std::is_same_v<L, FloatLanes>) {
@@ -171,6 +174,7 @@ void sweep_velocities(const GeometryInput& in, const Places& at, TouchChunk& out
     using Number = NumberOf<L>;
     const Number* from = velocities<L>(*in.grains);
     for (int c = 0; c < in.count; c += L::count) {
+        out.fetch_some();
         const auto relative = load_relative<typename L::Tag>(from, 2, at.first + c, at.second + c);
         put<Number>(triple(relative), out.velocity, c);
         if (in.mass) put<Number>(L(relative.d), out.inverse_mass, c);
@@ -191,6 +195,7 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
     const Number* from = velocities<L>(*in.grains) + 4;
     const L turn(0.5 * in.turns_for), half_step(0.5 * in.step);
     for (int c = 0; c < in.count; c += L::count) {
+        out.fetch_some();
         const auto first = load_records<typename L::Tag>(from, 2, at.first + c);
         const auto second = load_records<typename L::Tag>(from, 2, at.second + c);
         const Triple<L> one = triple(first), two = triple(second);

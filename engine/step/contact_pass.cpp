@@ -250,20 +250,10 @@ namespace {
 // Beds larger than the caches wait for second bodies, which lie far from the first in no order that the
 // processor foresees. So all grains are brought to the second-level cache in their order, a while before a
 // contact wants them, and second bodies to the first level a chunk ahead: a fifth of the time of a million.
-// Small beds lose by it. (Inlined by force: GCC 12 takes a function that only prefetches for one without
-// effect, and leaves out its calls.)
+// Small beds lose by it.
 constexpr std::int32_t kLargeBed = 50'000, kAhead = 1000;  // grains; a tile of boxes has some 2,000
 
-template <int level>
-[[gnu::always_inline]] inline void fetch(const Grains& grains, bool rounded, std::int32_t i) {
-    constexpr int locality = 4 - level;
-    __builtin_prefetch(&grains.place[i], 0, locality);
-    if (rounded) __builtin_prefetch(&grains.rounded[i], 0, locality);
-    if (!rounded || level > 1) __builtin_prefetch(&grains.motion[i], 1, locality);
-    __builtin_prefetch(&grains.load[i], 1, locality);
-}
-
-// Of candidates, the second places of the next chunk.
+// Of candidates, the second places of the next chunk. (Inlined by force, as Ahead::fetch_some.)
 [[gnu::always_inline]] inline void fetch_places(const Grains& grains, const ContactTable& table,
                                                 std::int32_t c) {
     const std::int32_t begin = std::min(table.candidates(), c + kChunk);
@@ -271,16 +261,39 @@ template <int level>
     for (std::int32_t k = begin; k < end; ++k) __builtin_prefetch(&grains.place[table.near_second()[k]]);
 }
 
-[[gnu::always_inline]] inline void fetch_ahead(const Grains& grains, bool rounded, const ContactTable& table,
-                                               std::int32_t c, int count) {
-    const auto size = static_cast<std::int32_t>(grains.size());
-    const std::int32_t begin = table.first()[c] + kAhead, end = table.first()[c + count - 1] + 1 + kAhead;
-    for (std::int32_t i = begin; i < std::min(size, end); ++i) fetch<2>(grains, rounded, i);
-    for (std::int32_t k = c + kChunk; k < std::min(table.sorted(), c + 2 * kChunk); ++k)
-        fetch<1>(grains, rounded, table.second()[k]);
+// Of contacts, the second bodies of the next chunk.
+[[gnu::always_inline]] inline void fetch_second(const Grains& grains, bool rounded, const ContactTable& table,
+                                                std::int32_t c) {
+    for (std::int32_t k = c + kChunk; k < std::min(table.sorted(), c + 2 * kChunk); ++k) {
+        const std::int32_t j = table.second()[k];
+        __builtin_prefetch(&grains.place[j]);
+        if (rounded)
+            __builtin_prefetch(&grains.rounded[j]);
+        else
+            __builtin_prefetch(&grains.motion[j]);
+        __builtin_prefetch(&grains.load[j], 1);
+    }
 }
 
 }  // namespace
+
+// What the chunks after this one will want. Where contacts are few, a chunk has its grains from so far that
+// the processor does as well by itself, with grains that go on with the next step one after the other.
+void ContactPass::look_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t c,
+                             int count) {
+    constexpr std::int32_t kMost = 300;
+    fetch_second(grains, rounded, table, c);
+    const auto later = [&](std::int32_t i) {
+        return std::min(i + kAhead, static_cast<std::int32_t>(grains.size()));
+    };
+    const std::int32_t begin = later(table.first()[c]), end = later(table.first()[c + count - 1] + 1);
+    ahead_.start(rounded ? 28 : 44);  // registers that a chunk takes on its way, all sweeps together
+    if (end - begin > kMost) return;
+    ahead_.add(grains.place, begin, end);
+    ahead_.add(grains.motion, begin, end);
+    ahead_.add(grains.load, begin, end);
+    if (rounded) ahead_.add(grains.rounded, begin, end);
+}
 
 // work(c, bits): of the 64 candidates from c on, those that touch.
 template <class Work>
@@ -327,8 +340,9 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
     const ContactGroup& group = in.group;
     const Chunk chunk{table.first() + c, table.second() + c, count};
     const bool rounded = group.number_size() == sizeof(float);
-    if (in.grains.size() >= kLargeBed && group.of_pairs && c < table.sorted())
-        fetch_ahead(in.grains, rounded, table, c, count);
+    const bool large = in.grains.size() >= kLargeBed && group.of_pairs && c < table.sorted();
+    touch_.ahead = large ? &ahead_ : nullptr;
+    if (large) look_ahead(in.grains, rounded, table, c, count);
     const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, rounded);
     table.note_touching(c, touch_.touching);
     void* history = table.histories().of_block(c);

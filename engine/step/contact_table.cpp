@@ -67,7 +67,7 @@ void ContactTable::fill_up() {
 }
 
 void ContactTable::sort() {
-    std::vector<std::int32_t>& order = near_first_;  // candidates are void
+    LargeArray<std::int32_t>& order = near_first_;  // candidates are void
     order_contacts(order);
     const auto stay = static_cast<std::int32_t>(order.size());
     permute(order);
@@ -84,7 +84,7 @@ void ContactTable::sort() {
 }
 
 // The contacts that touch, sorted, into `order`. The few that began lately are merged into the others.
-void ContactTable::order_contacts(std::vector<std::int32_t>& order) {
+void ContactTable::order_contacts(LargeArray<std::int32_t>& order) {
     const auto less = [this](std::int32_t a, std::int32_t b) { return before(a, b); };
     order.clear();
     young_.clear();
@@ -102,7 +102,7 @@ void ContactTable::order_contacts(std::vector<std::int32_t>& order) {
 
 // Puts contact order[c] at c, for all c of `order`, in place: along the cycles of the permutation that has
 // the rest behind them.
-void ContactTable::permute(std::vector<std::int32_t>& order) {
+void ContactTable::permute(LargeArray<std::int32_t>& order) {
     for (std::int32_t c = 0; c < size_; ++c) {
         if (!touches(c)) order.push_back(c);
     }

@@ -100,17 +100,17 @@ class ContactTable {
     bool before(std::int32_t a, std::int32_t b) const {
         return first_[a] != first_[b] ? first_[a] < first_[b] : second_[a] < second_[b];
     }
-    void order_contacts(std::vector<std::int32_t>& order);
-    void permute(std::vector<std::int32_t>& order);
+    void order_contacts(LargeArray<std::int32_t>& order);
+    void permute(LargeArray<std::int32_t>& order);
     void fill_up();
 
     std::int32_t size_ = 0, sorted_ = 0;
-    std::vector<std::int32_t> first_, second_;
+    LargeArray<std::int32_t> first_, second_;
     Histories histories_;
     std::vector<std::uint64_t> touching_;  // a bit a contact
 
     std::int32_t candidates_ = 0;
-    std::vector<std::int32_t> near_first_, near_second_;
+    LargeArray<std::int32_t> near_first_, near_second_;
     std::vector<std::uint64_t> admitted_;  // a bit a candidate
     std::int32_t cursor_ = 0;              // where offered pairs are looked for
 
@@ -120,7 +120,7 @@ class ContactTable {
     std::vector<Batch> batches_;  // of contacts that began since the last sort
     std::int32_t step_ = 0;
 
-    std::vector<std::int32_t> young_;  // contacts that began since the last sort, while sorting
+    LargeArray<std::int32_t> young_;  // contacts that began since the last sort, while sorting
 };
 
 }  // namespace grainreel

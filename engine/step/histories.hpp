@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/large_array.hpp"
 #include "engine/laws/law_kernel.hpp"
 
 namespace grainreel {
@@ -80,7 +80,7 @@ class Histories {
 
     int numbers_ = 0;
     std::size_t size_ = sizeof(double);
-    std::vector<Line> lines_;
+    LargeArray<Line> lines_;
 };
 
 }  // namespace grainreel

@@ -93,6 +93,7 @@ HWY_INLINE void add_each(const ChunkOfContacts& chunk, const First& first, const
     constexpr int size = rubs ? 8 : 4;
     const std::int32_t *const firsts = chunk.first, *const seconds = chunk.second;
     for (int c = 0; c < chunk.count; c += L::count) {
+        chunk.touch->fetch_some();
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
         ByContact<L, rubs> lost, gained;
         lost.set(p.force, p.first_loses);

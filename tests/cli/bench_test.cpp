@@ -69,6 +69,17 @@ TEST(Bench, HashTellsRunsApartAndThreadsNot) {
     EXPECT_GE(one["phases"][0]["pairs_listed"], 50);
 }
 
+TEST(Bench, CopiesAreTimedBesideASingleOne) {
+    const auto r = json_of({"bed10k", "--particles", "30000", "--quick"});
+    EXPECT_EQ(r["particles"], 4 * 10125);
+    ASSERT_EQ(r["phases"].size(), 3u);
+    for (const auto& phase : r["phases"]) {
+        const double all = phase["particle_steps_per_s"], one = phase["particle_steps_per_s_of_one_copy"];
+        EXPECT_GT(all, 0.1 * one);
+        EXPECT_LT(all, 10 * one);
+    }
+}
+
 TEST(Bench, RefusesWhatItDoesNotKnow) {
     const Ended no_case = bench({"bed11k"});
     EXPECT_EQ(no_case.status, 2);
