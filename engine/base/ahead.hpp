@@ -1,5 +1,6 @@
 // What is wanted soon of arrays larger than the caches, fetched to the second level a few lines at a time
-// between other work: the processor has room for some 16 lines under way, and waits when it is asked for more.
+// between other work: the processor has room for some 16 lines under way, and waits when it is asked for
+// more.
 #pragma once
 
 #include <array>

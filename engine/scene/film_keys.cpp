@@ -106,7 +106,7 @@ void add_film(Keys& keys) {
     keys.push_back(choice(
         "film.preset",
         {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
-        literal("\"veryfast\""), "x264's preset: slower makes smaller files."));
+        literal("\"veryfast\""), "x264's preset (veryfast with subme=1): slower makes smaller files."));
     keys.push_back(choice("film.for", purpose_names(), note("none"),
                           "Defaults for what the film is for: size, rate, format, quality, max_size."));
     keys.push_back(choice("film.format", all_of(film_format_words), literal("\"mp4\""),
