@@ -44,6 +44,9 @@ struct Derivatives {
     Vec3 spin_acceleration{0, 0, 0}, spin_jerk{0, 0, 0};  // rad/s2, rad/s3
 };
 
+// Grains: from so many on they do not stay in a processor's own cache.
+constexpr std::size_t kLargeBed = 50'000;
+
 struct Grains {
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> species;

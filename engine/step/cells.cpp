@@ -9,8 +9,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::size_t kLargeBed = 50'000;  // grains: more do not stay in a processor's own cache
-constexpr double kMostBoxesPerGrain = 8;   // an empty tall container must not cost memory or time
+constexpr double kMostBoxesPerGrain = 8;  // an empty tall container must not cost memory or time
 
 }  // namespace
 

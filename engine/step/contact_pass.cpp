@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/step/large_bed.hpp"
+
 namespace grainreel {
 
 namespace {
@@ -245,56 +247,6 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
     return touching & bits_of_first(chunk.count);
 }
 
-namespace {
-
-// Beds larger than the caches wait for second bodies, which lie far from the first in no order that the
-// processor foresees. So all grains are brought to the second-level cache in their order, a while before a
-// contact wants them, and second bodies to the first level a chunk ahead: a fifth of the time of a million.
-// Small beds lose by it.
-constexpr std::int32_t kLargeBed = 50'000, kAhead = 1000;  // grains; a tile of boxes has some 2,000
-
-// Of candidates, the second places of the next chunk. (Inlined by force, as Ahead::fetch_some.)
-[[gnu::always_inline]] inline void fetch_places(const Grains& grains, const ContactTable& table,
-                                                std::int32_t c) {
-    const std::int32_t begin = std::min(table.candidates(), c + kChunk);
-    const std::int32_t end = std::min(table.candidates(), c + 2 * kChunk);
-    for (std::int32_t k = begin; k < end; ++k) __builtin_prefetch(&grains.place[table.near_second()[k]]);
-}
-
-// Of contacts, the second bodies of the next chunk.
-[[gnu::always_inline]] inline void fetch_second(const Grains& grains, bool rounded, const ContactTable& table,
-                                                std::int32_t c) {
-    for (std::int32_t k = c + kChunk; k < std::min(table.sorted(), c + 2 * kChunk); ++k) {
-        const std::int32_t j = table.second()[k];
-        __builtin_prefetch(&grains.place[j]);
-        if (rounded)
-            __builtin_prefetch(&grains.rounded[j]);
-        else
-            __builtin_prefetch(&grains.motion[j]);
-        __builtin_prefetch(&grains.load[j], 1);
-    }
-}
-
-}  // namespace
-
-// What the chunks after this one will want. Where contacts are few, a chunk has its grains from so far that
-// the processor does as well by itself, with grains that go on with the next step one after the other.
-void ContactPass::look_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t c,
-                             int count) {
-    constexpr std::int32_t kMost = 300;
-    fetch_second(grains, rounded, table, c);
-    const auto later = [&](std::int32_t i) {
-        return std::min(i + kAhead, static_cast<std::int32_t>(grains.size()));
-    };
-    const std::int32_t begin = later(table.first()[c]), end = later(table.first()[c + count - 1] + 1);
-    ahead_.start(rounded ? 28 : 44);  // registers that a chunk takes on its way, all sweeps together
-    if (end - begin > kMost) return;
-    ahead_.add(grains.place, begin, end);
-    ahead_.add(grains.motion, begin, end);
-    ahead_.add(grains.load, begin, end);
-    if (rounded) ahead_.add(grains.rounded, begin, end);
-}
-
 // work(c, bits): of the 64 candidates from c on, those that touch.
 template <class Work>
 void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
@@ -303,7 +255,7 @@ void ContactPass::each_touching_candidate(const ContactRules& rules, const Conta
     for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
         const Chunk chunk{table.near_first() + c, table.near_second() + c,
                           std::min(kChunk, table.candidates() - c)};
-        if (group.of_pairs && grains.size() >= kLargeBed) fetch_places(grains, table, c);
+        if (group.of_pairs && is_large_bed(grains)) fetch_places(grains, table, c);
         work(c, which_touch(rules, group, grains, state, chunk));
     }
 }
@@ -340,9 +292,9 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
     const ContactGroup& group = in.group;
     const Chunk chunk{table.first() + c, table.second() + c, count};
     const bool rounded = group.number_size() == sizeof(float);
-    const bool large = in.grains.size() >= kLargeBed && group.of_pairs && c < table.sorted();
+    const bool large = group.of_pairs && c < table.sorted() && is_large_bed(in.grains);
     touch_.ahead = large ? &ahead_ : nullptr;
-    if (large) look_ahead(in.grains, rounded, table, c, count);
+    if (large) look_ahead(in.grains, rounded, table, c, count, ahead_);
     const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, rounded);
     table.note_touching(c, touch_.touching);
     void* history = table.histories().of_block(c);

@@ -103,7 +103,6 @@ class ContactPass {
                                         const WallState& state, const Work& work);
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                      const WallState& state, const Times& times, const Chunk& chunk, bool rounded) const;
-    void look_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t c, int count);
     void compute_stretch(const Step& in, ContactTable& table, std::int32_t begin, std::int32_t end,
                          Vanguard* vanguard, CostClock& clock);
     void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, int count, CostClock& clock);

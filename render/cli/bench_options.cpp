@@ -36,15 +36,12 @@ void set_bench_style(const std::string& style, BenchRenderRequest& request) {
 
 void add_bench(CLI::App& app, Options& options) {
     CLI::App& verb = *app.add_subcommand("bench", "Time the engine on a bed of known kind");
-    std::string about;
-    std::vector<std::string> names;
-    for (const BenchCase& bench : bench_cases()) {
-        names.push_back(bench.name);
-        about += fmt::format("{}{} ({})", about.empty() ? "" : "; ", bench.name, bench.about);
-    }
-    names.push_back("render");
-    about += "; render (the drawing of the peers' bed at rest, by stage)";
-    verb.add_option("CASE", options.bench, about)->required()->check(CLI::IsMember(names))->type_name("CASE");
+    Choices cases(bench_cases());
+    cases.add("render", "the drawing of the peers' bed at rest, by stage");
+    verb.add_option("CASE", options.bench, cases.about)
+        ->required()
+        ->check(CLI::IsMember(cases.names))
+        ->type_name("CASE");
     verb.add_option("--threads", options.bench_request.threads, "Threads [as many as there are processors]")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");

@@ -232,15 +232,10 @@ void add_check(CLI::App& app, Options& options) {
 
 void add_chart(CLI::App& app, Options& options) {
     CLI::App& verb = *app.add_subcommand("chart", "Measure the methods themselves: errors, costs, limits");
-    std::string about;
-    std::vector<std::string> names;
-    for (const Chart& chart : charts()) {
-        names.push_back(chart.name);
-        about += fmt::format("{}{} ({})", about.empty() ? "" : "; ", chart.name, chart.about);
-    }
-    verb.add_option("CHART", options.chart, about)
+    const Choices all(charts());
+    verb.add_option("CHART", options.chart, all.about)
         ->required()
-        ->check(CLI::IsMember(names))
+        ->check(CLI::IsMember(all.names))
         ->type_name("WHICH");
     verb.add_option_function<std::string>(
             "--out", [&options](const std::string& folder) { options.out = folder; },
