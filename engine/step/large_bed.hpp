@@ -1,7 +1,7 @@
-// What beds larger than the caches fetch before it is wanted: they wait for second bodies, which lie far from the
-// first in no order that the processor foresees. So all grains are brought to the second-level cache in their
-// order, a while before a contact wants them, and second bodies to the first level a chunk ahead: a fifth of the
-// time of a million. Small beds lose by it.
+// What beds larger than the caches fetch before it is wanted: they wait for second bodies, which lie far from
+// the first in no order that the processor foresees. So all grains are brought to the second-level cache in
+// their order, a while before a contact wants them, and second bodies to the first level a chunk ahead: a
+// fifth of the time of a million. Small beds lose by it.
 #pragma once
 
 #include <algorithm>
@@ -40,11 +40,11 @@ inline bool is_large_bed(const Grains& grains) {
     }
 }
 
-// Second bodies now, and into `ahead` the grains that the chunks after this one, of `count` contacts at c, will
-// have in their order. Where contacts are few, a chunk has its grains from so far that the processor does as well
-// by itself, with grains that go on with the next step one after the other.
-inline void look_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t c, int count,
-                       Ahead& ahead) {
+// Second bodies now, and into `ahead` the grains that the chunks after this one, of `count` contacts at c,
+// will have in their order. Where contacts are few, a chunk has its grains from so far that the processor
+// does as well by itself, with grains that go on with the next step one after the other.
+inline void look_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t c,
+                       int count, Ahead& ahead) {
     constexpr std::int32_t kAhead = 1000, kMost = 300;  // grains; a tile of boxes has some 2,000
     fetch_second(grains, rounded, table, c);
     const auto later = [&](std::int32_t i) {
