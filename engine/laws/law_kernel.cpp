@@ -3,9 +3,6 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
-#include "engine/vector/targets.hpp"
-//
-#include <hwy/highway.h>
 
 namespace grainreel {
 
@@ -31,13 +28,6 @@ const LawKernel& law_kernel(const ContactModel& model) {
 
 const LawKernel& rolling_kernel(Precision precision) {
     return precision == Precision::mixed ? *mixed_rolling_kernel() : *double_rolling_kernel();
-}
-
-std::string vector_instructions() {
-    const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
-    const std::string name = hwy::TargetName(usable & -usable);  // the lowest bit is the best of them
-    if (name == "AVX3") return "AVX-512";
-    return name == "SCALAR" || name == "EMU128" ? "none (plain x86-64)" : name;
 }
 
 }  // namespace grainreel

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -62,8 +61,5 @@ struct LawKernel {
 const LawKernel& law_kernel(const ContactModel& model);
 // Resistance to rolling: runs after the law, on the normal force that this has put into `out`.
 const LawKernel& rolling_kernel(Precision precision);
-
-// "AVX-512", "AVX2", ...: what the kernels chosen on this machine are compiled for.
-std::string vector_instructions();
 
 }  // namespace grainreel

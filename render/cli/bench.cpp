@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/bench/bench_run.hpp"
+#include "engine/vector/instructions.hpp"
 #include "render/cli/bench_render.hpp"
 #include "render/cli/share_watcher.hpp"
 

@@ -7,9 +7,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
-#include "engine/laws/law_kernel.hpp"
 #include "engine/scene/writer.hpp"
 #include "engine/start/grain_table.hpp"
+#include "engine/vector/instructions.hpp"
 
 namespace grainreel {
 

@@ -21,8 +21,8 @@ extern "C" {
 }
 
 #include "build_info.hpp"
-#include "engine/laws/law_kernel.hpp"
 #include "engine/output/netcdf_file.hpp"
+#include "engine/vector/instructions.hpp"
 
 namespace grainreel {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "engine/laws/law_kernel.hpp"
+#include "engine/vector/instructions.hpp"
 
 namespace grainreel {
 namespace {
@@ -16,19 +16,26 @@ class Width : public testing::Environment {
         const char* wanted = std::getenv("GRAINREEL_TEST_WIDTH");
         if (!wanted) return;
         const std::string width = wanted;
-        constexpr std::int64_t avx512 = HWY_AVX3 | HWY_AVX3_DL, vectors = HWY_AVX2 | HWY_SSE4 | HWY_SSSE3;
         ASSERT_TRUE(width == "AVX2" || width == "SSE4" || width == "plain") << width;
-        const std::int64_t wanted_target = width == "AVX2" ? HWY_AVX2 : width == "SSE4" ? HWY_SSE4 : 0;
-        const bool here = wanted_target == 0 || (hwy::SupportedTargets() & wanted_target);
-        hwy::DisableTargets(width == "AVX2"   ? avx512
-                            : width == "SSE4" ? avx512 | HWY_AVX2
-                                              : avx512 | vectors);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        // A processor without it goes on with the best it has below.
-        if (here) {
-            ASSERT_NE(vector_instructions().find(width), std::string::npos) << vector_instructions();
+        std::int64_t target = width == "AVX2" ? HWY_AVX2 : width == "SSE4" ? HWY_SSE4 : kPlain;
+        // A processor without it goes on with the plain ones.
+        if (!(hwy::SupportedTargets() & target)) target = kPlain;
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(target);
+        used_ = vector_instructions();
+        ASSERT_NE(used_.find(target == kPlain ? "plain" : width), std::string::npos) << used_;
+    }
+
+    // Nothing between has chosen otherwise: a look at what the processor supports does so.
+    void TearDown() override {
+        if (!used_.empty()) {
+            EXPECT_EQ(vector_instructions(), used_);
         }
     }
+
+  private:
+    static constexpr std::int64_t kPlain = HWY_EMU128 | HWY_SCALAR;
+    std::string used_;
 };
 
 [[maybe_unused]] const auto* const width = testing::AddGlobalTestEnvironment(new Width);
