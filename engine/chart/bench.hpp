@@ -23,10 +23,11 @@ inline double bench_mass() {
 }
 
 // Walton-Braun with a constant restitution, and incremental slip where it rubs.
-inline PairPlan latching_pair(double stiffness, double restitution, double friction = 0) {
+inline PairPlan latching_pair(double stiffness, double restitution, double friction = 0,
+                              Precision precision = Precision::full) {
     PairPlan pair;
     pair.model = {NormalForce::walton_braun,
-                  friction > 0 ? TangentialLaw::incremental_slip : TangentialLaw::none};
+                  friction > 0 ? TangentialLaw::incremental_slip : TangentialLaw::none, false, precision};
     pair.restitution = restitution;
     pair.loading_stiffness = stiffness;
     pair.unloading_stiffness = stiffness / (restitution * restitution);

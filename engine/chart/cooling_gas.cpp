@@ -14,8 +14,8 @@ using std::numbers::pi;
 constexpr double radius = bench_radius, density = bench_density, diameter = 2 * radius;
 constexpr double speed = 0.3;  // m/s, of each component at first
 
-PairPlan smooth_pair(double stiffness, double restitution) {
-    PairPlan pair = latching_pair(stiffness, restitution);
+PairPlan smooth_pair(const CoolingGas& gas, double restitution) {
+    PairPlan pair = latching_pair(gas.stiffness, restitution, 0, gas.precision);
     pair.model.normal = NormalForce::walton_braun_corrected;
     return pair;
 }
@@ -30,9 +30,9 @@ struct Gas {
         : count(gas.side * gas.side * gas.side),
           mass(density * sphere_volume(radius)),
           free(std::cbrt(count * sphere_volume(radius) / gas.solid_fraction)),
-          bench(smooth_pair(gas.stiffness, gas.restitution),
+          bench(smooth_pair(gas, gas.restitution),
                 pi / 2 * (1 + gas.restitution) * std::sqrt(mass / 2 / gas.stiffness) / 14) {
-        bench.plan.wall = {smooth_pair(gas.stiffness, 1)};  // elastic
+        bench.plan.wall = {smooth_pair(gas, 1)};  // elastic
         const double edge = free + diameter;
         for (int axis = 0; axis < 3; ++axis) {
             bench.add_plane(Vec3(0, 0, 0), Vec3::Unit(axis));

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/scene/plan.hpp"
+
 namespace grainreel {
 
 struct CoolingGas {
@@ -12,6 +14,7 @@ struct CoolingGas {
     int side = 9;            // cube root of the number of grains
     double stiffness = 1e4;  // N/m, of 4 mm grains of 2,500 kg/m3
     std::uint64_t seed = 1;
+    Precision precision = Precision::full;
 };
 
 // T over its first value, at times counted in Haff's tau from when the lattice has become a gas. `times`

@@ -22,8 +22,9 @@ struct Crowd {
     double edge = 0;
 
     explicit Crowd(const JammedPacking& packing)
-        : setting(packing), bench(latching_pair(stiffness, 1, packing.friction), 0.1 / natural_frequency()) {
-        bench.plan.wall = {latching_pair(stiffness, 1)};
+        : setting(packing),
+          bench(latching_pair(stiffness, 1, packing.friction, packing.precision), 0.1 / natural_frequency()) {
+        bench.plan.wall = {latching_pair(stiffness, 1, 0, packing.precision)};
         edge = std::cbrt(setting.grains * sphere_volume(diameter / 2) / setting.solid_fraction);
         const double room = edge / 2 - diameter / 2;
         Random centres(setting.seed, Stream::centres);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/plan.hpp"
 
 namespace grainreel {
 
@@ -20,6 +21,7 @@ struct JammedPacking {
     double margin = 3;              // diameters: what is nearer to a wall is left out of the measures
     double share = 0.4;             // of the distance to jamming, that each decompression takes away
     std::uint64_t seed = 1;
+    Precision precision = Precision::full;
 };
 
 // At one pressure, away from the walls.

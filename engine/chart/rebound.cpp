@@ -18,7 +18,7 @@ constexpr int steps_per_contact = 200;
 PairPlan pair_of(const ImpactLaw& law, double effective_mass, double effective_radius) {
     const double e = law.restitution;
     PairPlan pair;
-    pair.model = {law.normal, law.tangential, false};
+    pair.model = {law.normal, law.tangential, false, law.precision};
     pair.restitution = e;
     pair.friction = law.friction;
     pair.loading_stiffness = effective_mass * std::pow(speed / depth, 2);

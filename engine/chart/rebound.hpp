@@ -11,6 +11,7 @@ struct ImpactLaw {
     double restitution = 1;
     double friction = 0;
     double stiffness_ratio = 0.8;  // tangential over normal
+    Precision precision = Precision::full;
 };
 
 // After the impact, over the speed of approach. Along the plane and for equal spheres, the slip at the

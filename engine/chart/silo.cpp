@@ -109,8 +109,8 @@ struct Sums {
 SiloLoad load_of(const SiloColumn& column) {
     const Cylinder cylinder(column);
     const int grains = cylinder.grains(column.aspect * cylinder.bore);
-    Bench bench(latching_pair(stiffness, 0.7, column.friction), step_length());
-    bench.plan.wall = {latching_pair(stiffness, 0.7, column.wall_friction)};
+    Bench bench(latching_pair(stiffness, 0.7, column.friction, column.precision), step_length());
+    bench.plan.wall = {latching_pair(stiffness, 0.7, column.wall_friction, column.precision)};
     cylinder.surround(bench);
     bench.grains = crowd(cylinder, grains, column.seed);
     for (Motion& m : bench.grains.motion) m.velocity.setZero();

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/scene/plan.hpp"
+
 namespace grainreel {
 
 struct SiloColumn {
@@ -16,6 +18,7 @@ struct SiloColumn {
     double friction = 0.5;  // among grains
     double wall_friction = 0.2;  // lower, so that grains slide down the wall instead of rolling
     std::uint64_t seed = 1;
+    Precision precision = Precision::full;
 };
 
 struct SiloLoad {

@@ -5,8 +5,8 @@
 
 namespace grainreel {
 
-// "AVX-512", "AVX2", "SSE4" or "none (plain x86-64)"; as the kernels themselves are chosen, not as the processor
-// would have it.
+// "AVX-512", "AVX2", "SSE4" or "none (plain x86-64)"; as the kernels themselves are chosen, not as the
+// processor would have it.
 std::string vector_instructions();
 
 }  // namespace grainreel

@@ -48,7 +48,7 @@ duration = "1 s"
 // Most tests need a crowd in motion, not one at rest: settling is cut short unless a test asks for more.
 Scene scene_of(std::vector<std::string> sets = {}) {
     sets.insert(sets.begin(), "start.settle_limit=\"0.05 s\"");
-    return read_scene_text(kWedge, "test.toml", sets);
+    return read_scene_text(kWedge, "test.toml", with_tested_precision(sets));
 }
 
 const std::string kPeriodic = "container.periodic_depth=true", kDeeper = "container.depth=\"40 mm\"";

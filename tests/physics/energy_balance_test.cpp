@@ -99,9 +99,9 @@ duration = "1 s"
 // A bed of the scene with steps of `share` times the standard one, let fall for `fall` seconds with a drag of
 // 20 1/s. `vibrated` or not, the walls start to move at step 0.
 World bed(std::vector<std::string> sets, double share, double fall, bool vibrated) {
-    const double step = make_plan(read_scene_text(kBed, "bed.toml", sets)).clock.step;
+    const double step = make_plan(read_scene_text(kBed, "bed.toml", with_tested_precision(sets))).clock.step;
     sets.push_back(fmt::format("run.step={:.17g}", share * step));
-    const Scene scene = read_scene_text(kBed, "bed.toml", sets);
+    const Scene scene = read_scene_text(kBed, "bed.toml", with_tested_precision(sets));
     World w;
     w.plan = make_plan(scene);
     w.around.faces = container_faces(scene.container, scene.drive);

@@ -4,6 +4,7 @@
 #include "engine/base/error.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/reader.hpp"
+#include "tests/physics/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -18,7 +19,7 @@ Frame end_of(const Scene& scene) {
 }
 
 Scene scene_of(const std::string& text, const std::vector<std::string>& sets = {}) {
-    return read_scene_text(text, "test.toml", sets);
+    return read_scene_text(text, "test.toml", with_tested_precision(sets));
 }
 
 // Two balls and a plane that rises at w: the first ball hits the second, which stands still, then the plane

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/physics/world.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -13,6 +15,7 @@ TEST(Gas, CoolsAsHaffSays) {
     std::vector<double> mean(times.size());
     CoolingGas gas;
     gas.stiffness = 4e4;
+    gas.precision = tested_precision();
     constexpr int seeds = 3;
     for (gas.seed = 1; gas.seed <= seeds; ++gas.seed) {
         const std::vector<double> is = cool(gas, times);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/physics/world.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -30,6 +32,7 @@ TEST(Packing, VolumesOfCutSpheresAreExact) {
 // scatter of seeds in a packing as small as this.
 TEST(Packing, SmoothSpheresJamAtRandomClosePacking) {
     JammedPacking packing;
+    packing.precision = tested_precision();
     packing.grains = 1500;
     packing.margin = 2.5;
     const JammingPoint point = jamming_point(decompress(packing, 9));
@@ -44,6 +47,7 @@ TEST(Packing, SmoothSpheresJamAtRandomClosePacking) {
 // Liniger 1990, Phys. Rev. Lett. 64, 2727), and from about six contacts to four.
 TEST(Packing, RoughSpheresJamLooser) {
     JammedPacking packing;
+    packing.precision = tested_precision();
     packing.grains = 1000;
     packing.margin = 2;
     packing.friction = 0.5;

@@ -6,6 +6,7 @@
 
 #include "engine/chart/kharaz.hpp"
 #include "engine/chart/rebound.hpp"
+#include "tests/physics/world.hpp"
 
 namespace grainreel {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using std::numbers::pi;
 
 ImpactLaw incremental_slip(double e, double mu, double ratio) {
-    return {NormalForce::walton_braun, TangentialLaw::incremental_slip, e, mu, ratio};
+    return {NormalForce::walton_braun, TangentialLaw::incremental_slip, e, mu, ratio, tested_precision()};
 }
 
 // Kharaz, Gorham & Salman (2001, Powder Technol. 120, 281): 5 mm alumina on thick glass, e = 0.98, mu = 0.092

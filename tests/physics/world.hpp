@@ -69,6 +69,15 @@ inline bool mixed_precision() {
     return wanted && std::string(wanted) == "mixed";
 }
 
+inline Precision tested_precision() {
+    return mixed_precision() ? Precision::mixed : Precision::full;
+}
+// What a scene's own settings, which go first, leave to the test's.
+inline std::vector<std::string> with_tested_precision(std::vector<std::string> sets) {
+    if (mixed_precision()) sets.insert(sets.begin(), "run.precision=mixed");
+    return sets;
+}
+
 // What rounding leaves of a quantity: in doubles, or with laws in floats.
 inline double of_rounding(double in_doubles, double in_floats) {
     return mixed_precision() ? in_floats : in_doubles;
@@ -80,7 +89,7 @@ inline World make_world(PairPlan pair, double step, NormalForce normal = NormalF
     World w;
     pair.model.normal = normal;
     pair.model.tangential = tangential;
-    if (mixed_precision()) pair.model.precision = Precision::mixed;
+    pair.model.precision = tested_precision();
     w.plan.grain.assign(1, pair);
     w.plan.wall.assign(1, pair);
     w.plan.clock.step = step;
