@@ -1,7 +1,6 @@
 #include "engine/step/contact_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 namespace grainreel {
@@ -47,6 +46,8 @@ void ContactTable::reserve(std::size_t room) {
     first_.reserve(room);
     second_.reserve(room);
     histories_.reserve(static_cast<std::int32_t>(room));
+    moved_.reserve(room);
+    near_second_.reserve(room);
     near_first_.reserve(room);  // which has the order of the contacts while they are sorted
     young_.reserve(room / 8);
     touching_.reserve(room / 64 + 1);
@@ -100,30 +101,17 @@ void ContactTable::order_contacts(LargeArray<std::int32_t>& order) {
         order[to] = old >= 0 && less(young_[young], order[old]) ? order[old--] : young_[young--];
 }
 
-// Puts contact order[c] at c, for all c of `order`, in place: along the cycles of the permutation that has
-// the rest behind them.
-void ContactTable::permute(LargeArray<std::int32_t>& order) {
-    for (std::int32_t c = 0; c < size_; ++c) {
-        if (!touches(c)) order.push_back(c);
+// Puts contact order[c] at c, for all c of `order`: array by array, so that what has kept its neighbourhood
+// is read line after line. (In place, along the cycles of the permutation, a million's took a tenth of its
+// time.)
+void ContactTable::permute(const LargeArray<std::int32_t>& order) {
+    moved_.resize(order.size());
+    near_second_.resize(std::max(near_second_.size(), order.size()));  // void, too
+    for (auto* bodies : {&first_, &second_}) {
+        for (std::size_t c = 0; c < order.size(); ++c) near_second_[c] = (*bodies)[order[c]];
+        std::copy_n(near_second_.begin(), order.size(), bodies->begin());
     }
-    std::array<double, Histories::kMostNumbers> lifted{};
-    for (std::int32_t begin = 0; begin < size_; ++begin) {
-        if (order[begin] == begin) continue;
-        const std::int32_t i = first_[begin], j = second_[begin];
-        for (int k = 0; k < histories_.numbers(); ++k) lifted[k] = histories_.get(begin, k);
-        std::int32_t to = begin;
-        for (std::int32_t from = order[to]; from != begin; from = order[to]) {
-            first_[to] = first_[from];
-            second_[to] = second_[from];
-            histories_.copy(from, to);
-            order[to] = to;
-            to = from;
-        }
-        first_[to] = i;
-        second_[to] = j;
-        for (int k = 0; k < histories_.numbers(); ++k) histories_.set(to, k, lifted[k]);
-        order[to] = to;
-    }
+    histories_.permute(order.data(), static_cast<std::int32_t>(order.size()), moved_.data());
 }
 
 void ContactTable::begin_candidates() {

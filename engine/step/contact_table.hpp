@@ -101,7 +101,7 @@ class ContactTable {
         return first_[a] != first_[b] ? first_[a] < first_[b] : second_[a] < second_[b];
     }
     void order_contacts(LargeArray<std::int32_t>& order);
-    void permute(LargeArray<std::int32_t>& order);
+    void permute(const LargeArray<std::int32_t>& order);
     void fill_up();
 
     std::int32_t size_ = 0, sorted_ = 0;
@@ -120,7 +120,9 @@ class ContactTable {
     std::vector<Batch> batches_;  // of contacts that began since the last sort
     std::int32_t step_ = 0;
 
-    LargeArray<std::int32_t> young_;  // contacts that began since the last sort, while sorting
+    // While sorting: contacts that began since the last one; a number of each contact in the new order.
+    LargeArray<std::int32_t> young_;
+    LargeArray<double> moved_;
 };
 
 }  // namespace grainreel

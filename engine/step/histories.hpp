@@ -2,6 +2,7 @@
 // by number. The numbers are doubles, or floats with mixed precision.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -37,8 +38,11 @@ class Histories {
     void clear(std::int32_t contact) {
         for (int k = 0; k < numbers_; ++k) set(contact, k, 0);
     }
-    void copy(std::int32_t from, std::int32_t to) {
-        size_ == sizeof(float) ? copy_numbers<float>(from, to) : copy_numbers<double>(from, to);
+    // Puts contact order[c] at c, for all c < count; in `room` there is a double for each.
+    void permute(const std::int32_t* order, std::int32_t count, double* room) {
+        for (int k = 0; k < numbers_; ++k)
+            size_ == sizeof(float) ? permute_number<float>(order, count, k, room)
+                                   : permute_number<double>(order, count, k, room);
     }
 
     // What LawKernel takes, for the block that starts with `contact`.
@@ -70,12 +74,18 @@ class Histories {
         std::memcpy(bytes() + place(contact, k), &value, sizeof(Number));
     }
     template <class Number>
-    void copy_numbers(std::int32_t from, std::int32_t to) {
-        const std::byte* source = bytes() + place(from, 0);
-        std::byte* target = bytes() + place(to, 0);
-        for (int k = 0; k < numbers_; ++k)
-            std::memcpy(target + k * kBlock * sizeof(Number), source + k * kBlock * sizeof(Number),
-                        sizeof(Number));
+    void permute_number(const std::int32_t* order, std::int32_t count, int k, void* room) {
+        auto* moved = static_cast<std::byte*>(room);
+        const auto copy = [](std::byte* to, const std::byte* from, std::int32_t many) {
+            std::memcpy(to, from, many * sizeof(Number));
+        };
+        constexpr std::int32_t ahead = 128;  // contacts: lines of one number lie too far apart to be foreseen
+        for (std::int32_t c = 0; c < count; ++c) {
+            __builtin_prefetch(bytes() + place(order[std::min(c + ahead, count - 1)], k));
+            copy(moved + c * sizeof(Number), bytes() + place(order[c], k), 1);
+        }
+        for (std::int32_t c = 0; c < count; c += kBlock)
+            copy(bytes() + place(c, k), moved + c * sizeof(Number), std::min(kBlock, count - c));
     }
 
     int numbers_ = 0;
