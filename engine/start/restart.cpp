@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '7'};
+constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '8'};
 
 // What must be equal for a continuation to be the same run: laws, stiffness, step, drive.
 std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {

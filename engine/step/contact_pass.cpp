@@ -170,6 +170,21 @@ void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const
     list_candidates(rules, grains, lists, faces, pose, skin);
 }
 
+std::int64_t ContactPass::parted() const {
+    std::int64_t count = 0;
+    for (const ContactTable& table : tables_) {
+        table.each_stretch([&](std::int32_t begin, std::int32_t end) {
+            for (std::int32_t c = begin; c < end; c += kChunk) {
+                const std::uint64_t all = ~table.touching(c) & bits_of_first(end - c);
+                if (begin_ == 0) count += std::popcount(all);
+                for (std::uint64_t left = begin_ == 0 ? 0 : all; left != 0; left &= left - 1)
+                    count += table.first()[c + std::countr_zero(left)] >= begin_;
+            }
+        });
+    }
+    return count;
+}
+
 void ContactPass::keep(std::vector<KeptContacts>& kept) const {
     kept.resize(tables_.size());
     for (std::size_t g = 0; g < tables_.size(); ++g) {

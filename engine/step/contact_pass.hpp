@@ -45,6 +45,9 @@ class ContactPass {
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                  const std::vector<Face>& faces, const Pose& pose, double skin);
 
+    // Contacts under own grains that no longer touch, and are computed all the same until the next refresh.
+    std::int64_t parted() const;
+
     // For checkpoints: the contacts under own grains by group, and how many steps ago their order began.
     void keep(std::vector<KeptContacts>& kept) const;
     std::int32_t steps_since_refresh() const { return tables_[0].step(); }

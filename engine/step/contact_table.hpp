@@ -41,6 +41,7 @@ class ContactTable {
     const Histories& histories() const { return histories_; }
     // Of the 64 from c on, a multiple of 64: those that touch.
     void note_touching(std::int32_t c, std::uint64_t touching) { touching_[c / 64] = touching; }
+    std::uint64_t touching(std::int32_t c) const { return touching_[c / 64]; }
 
     // Drops what does not touch and sorts the rest; candidates are void.
     void sort();

@@ -15,19 +15,23 @@ namespace grainreel::HWY_NAMESPACE {
 struct Numbers {
     double *place, *motion, *load;
     RoundedMotion* rounded;
+    bool large;
     explicit Numbers(Grains& g)
         : place(reinterpret_cast<double*>(g.place.data())),
           motion(reinterpret_cast<double*>(g.motion.data())),
           load(reinterpret_cast<double*>(g.load.data())),
-          rounded(g.rounded.empty() ? nullptr : g.rounded.data()) {}
+          rounded(g.rounded.empty() ? nullptr : g.rounded.data()),
+          large(g.size() >= kLargeBed) {}
 
-    // Some grains ahead, which shortens a step of large beds by up to a tenth and costs others nothing.
-    HWY_INLINE void fetch_ahead(std::ptrdiff_t i) const {
+    // Some grains ahead of i, for writing: of the stretch, as those behind it may be another thread's; but
+    // large beds, whose step takes up to a tenth less time by it, go on from stretch to stretch.
+    HWY_INLINE void fetch_ahead(std::ptrdiff_t i, std::ptrdiff_t end) const {
         constexpr std::ptrdiff_t ahead = 32;
-        __builtin_prefetch(place + 4 * (i + ahead), 1);
-        __builtin_prefetch(motion + 8 * (i + ahead), 1);
-        __builtin_prefetch(load + 8 * (i + ahead), 1);
-        if (rounded) __builtin_prefetch(rounded + i + ahead, 1);
+        const std::ptrdiff_t later = large ? i + ahead : std::min(i + ahead, end - 1);
+        __builtin_prefetch(place + 4 * later, 1);
+        __builtin_prefetch(motion + 8 * later, 1);
+        __builtin_prefetch(load + 8 * later, 1);
+        if (rounded) __builtin_prefetch(rounded + later, 1);
     }
 };
 
@@ -65,7 +69,7 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
     const Record<size> frame = Whole::of(record_of(in.frame), zero);
     Record<4> fastest = zero;
     for (std::ptrdiff_t i = begin; i < end; ++i) {
-        at.fetch_ahead(i);
+        at.fetch_ahead(i, end);
         double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
         const Record<size> gains = record_at<size>(load) * Whole::fourths(motion) + gravity;
         Record<size> now = record_at<size>(motion);

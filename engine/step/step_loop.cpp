@@ -164,6 +164,7 @@ void StepLoop::begin_evaluation(int member, const Evaluation& at, double step, c
     Member& mine = members_[member];
     mine.clock.lap(Cost::integrate);
     mine.walls.set(around_.faces, at.before, at.now, at.since);
+    mine.parted = mine.contacts.parted();
     team_.barrier(member);
     mine.clock.lap(Cost::other);
     renew_contacts(member, at, step, kicks);
@@ -228,15 +229,20 @@ double farthest_face(const std::vector<Face>& faces, const Pose& before, const P
 
 }  // namespace
 
+// Lists reach no longer far enough, or contacts that have parted have cost about as much as a refresh would.
 // All threads come to the same answer: they add up the same numbers.
 bool StepLoop::contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double passed) const {
+    constexpr std::int64_t kRefresh = 16;  // contacts a grain that take as long as it
     Reach& reach = mine.reach;
     Vec3 largest(0, 0, 0);  // the diagonal is the same however the grains are shared out
-    for (const Member& m : members_) largest = largest.cwiseMax(m.fastest);
+    for (const Member& m : members_) {
+        largest = largest.cwiseMax(m.fastest);
+        reach.parted += m.parted;
+    }
     reach.fastest = largest.norm();
     reach.moved += reach.fastest * passed;
     const Vec3 flown = drift - reach.drift;
-    return 2 * reach.moved > reach.skin ||
+    return 2 * reach.moved > reach.skin || reach.parted > kRefresh * std::ssize(grains_.id) ||
            reach.moved + farthest_face(around_.faces, reach.pose, now, flown) > reach.skin;
 }
 
@@ -268,6 +274,7 @@ void StepLoop::set_reach(Member& mine, const Pose& now, const Vec3& drift, const
     const double wanted = kStepsPerRefresh * step * (reach.fastest + std::max(reach.fastest, wall));
     reach.skin = std::clamp(wanted, kLeastShare * skin_, kMostShare * skin_);
     reach.moved = 0;
+    reach.parted = 0;
     reach.drift = drift;
     reach.pose = now;
 }

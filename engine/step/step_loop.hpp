@@ -86,11 +86,12 @@ class StepLoop {
     // How far the contact lists reach, and what has used that up since their last refresh. Every thread keeps
     // its own, and all are alike.
     struct Reach {
-        double skin = 0;      // m
-        double moved = 0;     // m, that no grain has surpassed against the bed's free flight
-        double fastest = 0;   // m/s, of the last step
-        Vec3 drift{0, 0, 0};  // m, of the free flight at the refresh
-        Pose pose;            // likewise
+        double skin = 0;          // m
+        double moved = 0;         // m, that no grain has surpassed against the bed's free flight
+        double fastest = 0;       // m/s, of the last step
+        std::int64_t parted = 0;  // contacts that were computed in vain, summed over the steps
+        Vec3 drift{0, 0, 0};      // m, of the free flight at the refresh
+        Pose pose;                // likewise
     };
 
     // What a thread writes; a cache line apart from the next thread's.
@@ -103,11 +104,12 @@ class StepLoop {
         Reach reach;
         Vanguard ahead;  // its grains that go on before the others
         CostClock clock;
-        Vec3 fastest{0, 0, 0};   // m/s, largest components of its grains against the bed's free flight
-        double farthest = 0;     // m, from where they were listed
-        double work = 0;         // of its share of the grains, in units of a listed pair
-        double busy_before = 0;  // s, when the grains were shared out
-        double speed = 1;        // lately, against the mean of all
+        Vec3 fastest{0, 0, 0};    // m/s, largest components of its grains against the bed's free flight
+        std::int64_t parted = 0;  // contacts of its grains that no longer touched in the last step
+        double farthest = 0;      // m, from where they were listed
+        double work = 0;          // of its share of the grains, in units of a listed pair
+        double busy_before = 0;   // s, when the grains were shared out
+        double speed = 1;         // lately, against the mean of all
     };
 
     // The forces of a stage: when (in steps), where the walls are then, and what went before.
