@@ -267,7 +267,7 @@ double StepLoop::farthest_of(std::int32_t begin, std::int32_t end, const Vec3& d
 // The contact lists are to last for about kStepsPerRefresh steps at the speeds of now.
 void StepLoop::set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame,
                          double step) const {
-    constexpr double kStepsPerRefresh = 64, kLeastShare = 1e-3, kMostShare = 0.4;
+    constexpr double kStepsPerRefresh = 48, kLeastShare = 1e-3, kMostShare = 0.4;
     Reach& reach = mine.reach;
     double wall = 0;
     for (const Face& face : around_.faces) wall = std::max(wall, (face.velocity_at(now) - frame).norm());

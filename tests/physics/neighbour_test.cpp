@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/step/neighbours.hpp"
+#include "tests/physics/world.hpp"
 
 namespace grainreel {
 namespace {
@@ -77,6 +78,34 @@ TEST_P(Neighbours, AreAllPairsThatAreNear) {
 
 // Periods: none; that of the bed; one of which the largest grain's neighbourhood takes most.
 INSTANTIATE_TEST_SUITE_P(Periods, Neighbours, testing::Values(0.0, 0.1, 0.06));
+
+// Pairs that part slowly after a fast impact: lists that are made for the speed of before would last hundreds
+// of steps, and contacts that are none any more be computed in each of them.
+TEST(Lists, DropContactsThatHaveParted) {
+    constexpr int pairs = 60, patience = 40;  // steps: of half a contact a grain, 16 are worth a refresh
+    for (const int threads : {1, 3}) {
+        World w = make_world(walton_braun_pair(0.1, 0.3), 2e-6);
+        w.team = std::make_unique<Team>(threads);
+        for (int k = 0; k < pairs; ++k) {
+            const Vec3 one(0, 0, 0.01 * k), two(2.001 * kRadius, 0, 0.01 * k);
+            for (const auto& [at, speed] : {std::pair{one, 0.3}, std::pair{two, -0.3}}) {
+                w.grains.add(static_cast<std::int32_t>(w.grains.size()), 0, at, kRadius, kDensity);
+                w.grains.motion.back().velocity = Vec3(speed, 0, 0);
+            }
+        }
+        w.start();
+        const auto touching = [&] {
+            int count = 0;
+            w.loop->visit_contacts(w.step, [&](const ContactView&) { ++count; });
+            return count;
+        };
+        while (touching() == 0) w.run(1);
+        while (touching() > 0) w.run(1);
+        const std::int64_t before = w.loop->refreshes();
+        w.run(patience);
+        EXPECT_EQ(w.loop->refreshes(), before + 1) << threads;
+    }
+}
 
 }  // namespace
 }  // namespace grainreel
