@@ -44,19 +44,27 @@ TEST(Packing, SmoothSpheresJamAtRandomClosePacking) {
 }
 
 // Silbert (2010, Soft Matter 6, 2918): with friction from close to loose random packing, 0.555 (Onoda &
-// Liniger 1990, Phys. Rev. Lett. 64, 2727), and from about six contacts to four.
+// Liniger 1990, Phys. Rev. Lett. 64, 2727), and from about six contacts to four. Means of packings: the
+// contacts of one as small as these scatter by 0.13 (40 of them: 3.86 to 4.53).
 TEST(Packing, RoughSpheresJamLooser) {
-    JammedPacking packing;
-    packing.precision = tested_precision();
-    packing.grains = 1000;
-    packing.margin = 2;
-    packing.friction = 0.5;
-    const JammingPoint point = jamming_point(decompress(packing, 9));
-    std::printf("[ measured ] solid fraction %.4f, contacts %.3f\n", point.solid_fraction, point.contacts);
-    EXPECT_GT(point.solid_fraction, 0.55);
-    EXPECT_LT(point.solid_fraction, 0.60);
-    EXPECT_GT(point.contacts, 4);
-    EXPECT_LT(point.contacts, 4.8);
+    constexpr int packings = 4;
+    double solid_fraction = 0, contacts = 0;
+    for (int seed = 1; seed <= packings; ++seed) {
+        JammedPacking packing;
+        packing.precision = tested_precision();
+        packing.grains = 1000;
+        packing.margin = 2;
+        packing.friction = 0.5;
+        packing.seed = seed;
+        const JammingPoint point = jamming_point(decompress(packing, 9));
+        std::printf("[ measured ] solid fraction %.4f, contacts %.3f\n", point.solid_fraction,
+                    point.contacts);
+        solid_fraction += point.solid_fraction / packings, contacts += point.contacts / packings;
+    }
+    EXPECT_GT(solid_fraction, 0.55);
+    EXPECT_LT(solid_fraction, 0.60);
+    EXPECT_GT(contacts, 4);
+    EXPECT_LT(contacts, 4.8);
 }
 
 }  // namespace
