@@ -159,6 +159,7 @@ GroundPainter::GroundPainter(const gl::Functions& gl, const Scene& scene)
       texture_(gl, ShadowMap::kSide, ShadowMap::kSide, {GL_R8, GL_RED, GL_UNSIGNED_BYTE}),
       strength_(scene.film.look.style == FilmLook::Style::dark ? 0.75f : 0.30f),
       bytes_(ShadowMap::kSide * ShadowMap::kSide) {
+    for (int cell = 0; cell < ShadowMap::kSide; ++cell) rim_[static_cast<std::size_t>(cell)] = rim(cell);
     gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         gl_.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
@@ -176,12 +177,19 @@ void GroundPainter::update(const Frame& frame, const View& view) {
     const Vec3 to_key =
         lamp.to_key[0] * view.right + lamp.to_key[1] * view.up + lamp.to_key[2] * view.forward;
     map_.cast(frame, to_key);
+    int left = ShadowMap::kSide, right = 0, low = ShadowMap::kSide, high = 0;
     for (int j = 0; j < ShadowMap::kSide; ++j)
         for (int i = 0; i < ShadowMap::kSide; ++i) {
             const auto cell = static_cast<std::size_t>(j * ShadowMap::kSide + i);
             bytes_[cell] =
-                static_cast<std::uint8_t>(255 * strength_ * rim(i) * rim(j) * map_.cells()[cell] + 0.5f);
+                static_cast<std::uint8_t>(255 * strength_ * rim_[static_cast<std::size_t>(i)] *
+                                              rim_[static_cast<std::size_t>(j)] * map_.cells()[cell] +
+                                          0.5f);
+            if (bytes_[cell] == 0) continue;
+            left = std::min(left, i), right = std::max(right, i + 1);
+            low = std::min(low, j), high = std::max(high, j + 1);
         }
+    dark_ = {left, low, std::max(0, right - left), std::max(0, high - low)};
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
     gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -189,14 +197,43 @@ void GroundPainter::update(const Frame& frame, const View& view) {
                       bytes_.data());
 }
 
+Vec3 GroundPainter::on_ground(double u, double v) const {
+    return {map_.low().x() + u * map_.side(), map_.low().y() + v * map_.side(), map_.height()};
+}
+
+// From below there is no ground, nor where a corner of the map lies behind the eye.
+bool GroundPainter::is_seen(const View& view) const {
+    if (view.eye.z() < map_.height()) return false;
+    for (int corner = 0; corner < 4 && !view.orthographic; ++corner)
+        if (view.to_view(on_ground(corner & 1, corner >> 1)).z() <= 0) return false;
+    return true;
+}
+
+Rectangle GroundPainter::where(const View& view) const {
+    if (dark_.width == 0 || !is_seen(view)) return {};
+    constexpr int kMargin = 1;     // cells, as far as the filter reaches
+    constexpr double kMost = 1e6;  // pixels
+    constexpr double side = ShadowMap::kSide;
+    Eigen::Vector2d low(kMost, kMost), high = -low;
+    for (const int i :
+         {std::max(0, dark_.x - kMargin), std::min(ShadowMap::kSide, dark_.x + dark_.width + kMargin)})
+        for (const int j :
+             {std::max(0, dark_.y - kMargin), std::min(ShadowMap::kSide, dark_.y + dark_.height + kMargin)}) {
+            const Eigen::Vector2d pixel = view.project(on_ground(i / side, j / side));
+            low = low.cwiseMin(pixel.cwiseMax(-kMost));
+            high = high.cwiseMax(pixel.cwiseMin(kMost));
+        }
+    const Eigen::Vector2i from = low.array().floor().cast<int>(), to = high.array().ceil().cast<int>();
+    return {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()};
+}
+
 void GroundPainter::paint(const View& view) const {
+    if (!is_seen(view)) return;
     std::vector<float> corners;
     for (int corner = 0; corner < 4; ++corner) {
         const double u = corner & 1, v = corner >> 1;
-        const Vec3 at(map_.low().x() + u * map_.side(), map_.low().y() + v * map_.side(), map_.height());
-        const Vec3 seen = view.to_view(at);
+        const Vec3 seen = view.to_view(on_ground(u, v));
         const double w = view.orthographic ? 1 : seen.z();
-        if (w <= 0 || view.eye.z() < map_.height()) return;  // from below there is no ground
         for (const double value : {2 * view.focal * seen.x() / view.port.width,
                                    2 * view.focal * seen.y() / view.port.height, 0.0, w, u, v})
             corners.push_back(static_cast<float>(value));

@@ -1,6 +1,7 @@
 // The shadow that container and grains throw on a ground under them.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/frame.hpp"
@@ -46,10 +47,15 @@ class GroundPainter {
     GroundPainter(const gl::Functions& gl, const Scene& scene);
 
     void update(const Frame& frame, const View& view);
+    // Pixels, from the port's top left, outside of which there is no shadow.
+    Rectangle where(const View& view) const;
     // Into the framebuffer that is bound, of the port's size.
     void paint(const View& view) const;
 
   private:
+    Vec3 on_ground(double u, double v) const;  // of the map's places from 0 to 1, in the lab
+    bool is_seen(const View& view) const;
+
     const gl::Functions& gl_;
     ShadowMap map_;
     gl::Program program_;
@@ -57,7 +63,9 @@ class GroundPainter {
     gl::Buffer corners_;
     gl::Texture texture_;
     const float strength_;
+    std::array<float, ShadowMap::kSide> rim_{};  // by which the shadow fades towards the rim of the map
     std::vector<std::uint8_t> bytes_;
+    Rectangle dark_;  // cells of the map, outside of which all are 0
 };
 
 }  // namespace grainreel

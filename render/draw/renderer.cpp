@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <functional>
 #include <optional>
 
 #include "render/draw/camera_path.hpp"
@@ -15,13 +14,12 @@
 #include "render/draw/marks.hpp"
 #include "render/draw/overlay.hpp"
 #include "render/draw/shown_grains.hpp"
+#include "render/draw/side_layer.hpp"
 #include "render/draw/spheres.hpp"
 #include "render/spheres/pixel.hpp"
 
 namespace grainreel {
 namespace {
-
-constexpr gl::TextureFormat bytes{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 
 // Adds up where the time of one frame goes; does nothing without a place to put it.
 class Stopwatch {
@@ -40,48 +38,6 @@ class Stopwatch {
     const gl::Functions& gl_;
     DrawTimes* times_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-// What OpenGL draws on one side of the grains; drawn again only when it changes.
-class SideLayer {
-  public:
-    SideLayer(const gl::Functions& gl, const Rectangle& port, const std::array<float, 4>& clear_colour)
-        : gl_(gl),
-          target_(gl, port.width, port.height, bytes),
-          clear_colour_(clear_colour),
-          width_(port.width),
-          height_(port.height),
-          pixels_(static_cast<std::size_t>(port.width) * port.height) {}
-
-    // first: what changes from frame to frame and goes under the shapes; may be empty.
-    void draw(const ShapePainter& painter, const Shapes& shapes, const std::function<void()>& first) {
-        if (drawn_ && !first && shapes == last_) return;
-        drawn_ = true;
-        last_ = shapes;
-        target_.bind();
-        gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
-        if (first) first();
-        painter.paint(shapes, width_, height_);
-        gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-        stale_ = true;
-    }
-    // Rows from the bottom; what is changed there stays until the layer is drawn again.
-    std::vector<std::uint32_t>& read() {
-        if (!stale_) return pixels_;
-        stale_ = false;
-        target_.bind();
-        gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
-        return pixels_;
-    }
-
-  private:
-    const gl::Functions& gl_;
-    gl::Framebuffer target_;
-    const std::array<float, 4> clear_colour_;
-    const int width_, height_;
-    bool drawn_ = false, stale_ = false;
-    Shapes last_;
-    std::vector<std::uint32_t> pixels_;
 };
 
 constexpr std::array<float, 4> clear{0, 0, 0, 0};
@@ -188,8 +144,9 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     watch.lap(&DrawTimes::walls);
     if (ground) ground->update(opaque, eye);
     watch.lap(&DrawTimes::shadow);
-    behind.draw(shape_painter, shapes.behind.shapes,
-                ground ? [&] { ground->paint(eye); } : std::function<void()>());
+    SideLayer::Under shadow;
+    if (ground) shadow = {ground->where(eye), [&] { ground->paint(eye); }};
+    behind.draw(shape_painter, shapes.behind.shapes, shadow);
     watch.lap(&DrawTimes::walls);
     const Layer& grains = draw_grains(sphere_painter, opaque, watch);
     const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, all, watch) : nullptr;

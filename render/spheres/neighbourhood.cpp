@@ -32,16 +32,20 @@ void Neighbourhood::find_occluders(std::size_t slot, std::uint32_t pool) {
     const std::uint32_t i = (*shown_)[slot];
     const ViewSphere& own = (*spheres_)[i];
     into.found.clear();
+    into.forget_met();
     const std::size_t first = into.all.size();
     grid_.around(own, [&](std::uint32_t j) {
-        if (j == i || weight(own, (*spheres_)[j]) <= 0) return;
-        into.found.push_back(j);
+        if (into.has_met(j)) return;
+        const ViewSphere& other = (*spheres_)[j];
+        const float dx = other.x - own.x, dy = other.y - own.y, dz = other.z - own.z;
+        const float reach = own.radius + (1 + kReach) * other.radius;
+        if (j != i && dx * dx + dy * dy + dz * dz < reach * reach) into.found.push_back(j);
     });
     std::sort(into.found.begin(), into.found.end());
-    into.found.erase(std::unique(into.found.begin(), into.found.end()), into.found.end());
     for (const std::uint32_t j : into.found) {
         const ViewSphere& other = (*spheres_)[j];
-        into.all.push_back(neighbour(own, other, weight(own, other)));
+        const float taken = weight(own, other);
+        if (taken > 0) into.all.push_back(neighbour(own, other, taken));
     }
     occluders_[slot] = {pool, static_cast<std::uint32_t>(into.all.size() - first), first};
 }
@@ -52,16 +56,17 @@ void Neighbourhood::find_casters(std::size_t slot, std::uint32_t pool) {
     const ViewSphere& own = (*spheres_)[i];
     const float height = grid_.height(own);
     into.found.clear();
+    into.forget_met();
     const std::size_t first = into.all.size();
     const auto visit = [&](std::uint32_t j) {
+        if (into.has_met(j)) return;
         const ViewSphere& other = (*spheres_)[j];
         const float ahead = grid_.height(other) - height;
         if (j == i || ahead <= 0 || cut_.share(other) <= 0) return;
         const float dx = other.x - own.x, dy = other.y - own.y, dz = other.z - own.z;
         const float beside = dx * dx + dy * dy + dz * dz - ahead * ahead;
         const float touch = own.radius + other.radius + lamp_.spread * ahead;
-        if (beside > touch * touch) return;
-        if (std::find(into.found.begin(), into.found.end(), j) == into.found.end()) into.found.push_back(j);
+        if (beside <= touch * touch) into.found.push_back(j);
     };
     grid_.towards_light(own, 0.3f * own.radius, visit, [&] { return into.found.size() >= kMostCasters; });
     for (const std::uint32_t j : into.found)
@@ -85,6 +90,7 @@ void Neighbourhood::update(const std::vector<ViewSphere>& spheres, const Cut& cu
     team.run([&](int member) {
         const auto pool = static_cast<std::uint32_t>(member);
         pools_[pool].all.clear();
+        pools_[pool].met_by.resize(spheres.size(), 0);
         for (std::size_t begin; (begin = next.fetch_add(kShare, std::memory_order_relaxed)) < shown.size();)
             for (std::size_t slot = begin; slot < std::min(begin + kShare, shown.size()); ++slot) {
                 if (lamp.occlusion) find_occluders(slot, pool);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "engine/base/team.hpp"
@@ -32,6 +33,10 @@ class Neighbourhood {
     struct Pool {
         std::vector<Neighbour> all;
         std::vector<std::uint32_t> found;
+        std::vector<std::uint64_t> met_by;  // of each grain: the number of the last search that came by it
+        std::uint64_t search = 0;
+        void forget_met() { ++search; }
+        bool has_met(std::uint32_t j) { return std::exchange(met_by[j], search) == search; }
     };
     NeighbourSpan span(const Range& range) const {
         return {pools_[range.pool].all.data() + range.first, static_cast<int>(range.count)};
