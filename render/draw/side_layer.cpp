@@ -12,6 +12,10 @@ bool empty(const Rectangle& part) {
     return part.width <= 0 || part.height <= 0;
 }
 
+std::int64_t area(const Rectangle& part) {
+    return static_cast<std::int64_t>(part.width) * part.height;
+}
+
 Rectangle hull(const Rectangle& a, const Rectangle& b) {
     if (empty(a)) return b;
     if (empty(b)) return a;
@@ -65,14 +69,26 @@ Rectangle SideLayer::part_to_draw(const Shapes& shapes, const Under& under) {
     return part;
 }
 
+void SideLayer::draw_within(const Rectangle& part) const {
+    gl_.Scissor(part.x, height_ - part.y - part.height, part.width, part.height);
+}
+
 void SideLayer::draw(const ShapePainter& painter, const Shapes& shapes, const Under& under) {
     const Rectangle part = part_to_draw(shapes, under);
     if (empty(part)) return;
     target_.bind();
+    // llvmpipe draws a rectangle to clear a part, which for more than a quarter takes longer than to clear
+    // all. (What is kept of the rest is in pixels_.)
+    const bool large = 4 * area(part) > static_cast<std::int64_t>(width_) * height_;
+    if (large) gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
     gl_.Enable(GL_SCISSOR_TEST);
-    gl_.Scissor(part.x, height_ - part.y - part.height, part.width, part.height);
-    gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
-    if (under.paint) under.paint();
+    draw_within(part);
+    if (!large) gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
+    if (under.paint) {
+        draw_within(last_under_);  // of its pixels most would be clear
+        under.paint();
+        draw_within(part);
+    }
     painter.paint(shapes, width_, height_);
     gl_.Disable(GL_SCISSOR_TEST);
     stale_ = hull(stale_, part);

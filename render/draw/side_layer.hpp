@@ -31,6 +31,7 @@ class SideLayer {
 
   private:
     Rectangle part_to_draw(const Shapes& shapes, const Under& under);
+    void draw_within(const Rectangle& part) const;
 
     const gl::Functions& gl_;
     gl::Framebuffer target_;
