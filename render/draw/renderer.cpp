@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 
+#include "engine/base/error.hpp"
 #include "render/draw/camera_path.hpp"
 #include "render/draw/compose.hpp"
 #include "render/draw/container_drawing.hpp"
@@ -71,6 +72,15 @@ struct Renderer::Impl {
         if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
         if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none)
             ground.emplace(context->gl(), scene);
+    }
+
+    // What is deleted belongs to the context that is current.
+    ~Impl() {
+        try {
+            context->make_current();
+        } catch (const RunError&) {
+            // Then nothing is current, and what it owns goes with it.
+        }
     }
 
     Scene scene;

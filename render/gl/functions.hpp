@@ -12,39 +12,31 @@ namespace grainreel::gl {
     F(PFNGLATTACHSHADERPROC, AttachShader)                       \
     F(PFNGLBINDBUFFERPROC, BindBuffer)                           \
     F(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
-    F(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)               \
     F(PFNGLBINDTEXTUREPROC, BindTexture)                         \
     F(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
     F(PFNGLBLENDFUNCPROC, BlendFunc)                             \
     F(PFNGLBUFFERDATAPROC, BufferData)                           \
     F(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
     F(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                     \
-    F(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                   \
     F(PFNGLCOMPILESHADERPROC, CompileShader)                     \
     F(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
     F(PFNGLCREATESHADERPROC, CreateShader)                       \
     F(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                     \
     F(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)           \
     F(PFNGLDELETEPROGRAMPROC, DeleteProgram)                     \
-    F(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)         \
     F(PFNGLDELETESHADERPROC, DeleteShader)                       \
     F(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
     F(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)           \
-    F(PFNGLDEPTHFUNCPROC, DepthFunc)                             \
     F(PFNGLDISABLEPROC, Disable)                                 \
     F(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
-    F(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)         \
     F(PFNGLENABLEPROC, Enable)                                   \
     F(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
     F(PFNGLFINISHPROC, Finish)                                   \
-    F(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
     F(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)       \
     F(PFNGLGENBUFFERSPROC, GenBuffers)                           \
     F(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
-    F(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)               \
     F(PFNGLGENTEXTURESPROC, GenTextures)                         \
     F(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
-    F(PFNGLGETERRORPROC, GetError)                               \
     F(PFNGLGETINTEGERVPROC, GetIntegerv)                         \
     F(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
     F(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
@@ -55,10 +47,8 @@ namespace grainreel::gl {
     F(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
     F(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
     F(PFNGLREADPIXELSPROC, ReadPixels)                           \
-    F(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \
     F(PFNGLSCISSORPROC, Scissor)                                 \
     F(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
-    F(PFNGLTEXBUFFERPROC, TexBuffer)                             \
     F(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
     F(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
     F(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                     \
@@ -68,7 +58,6 @@ namespace grainreel::gl {
     F(PFNGLUNIFORM3FPROC, Uniform3f)                             \
     F(PFNGLUNIFORM4FPROC, Uniform4f)                             \
     F(PFNGLUSEPROGRAMPROC, UseProgram)                           \
-    F(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)         \
     F(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
     F(PFNGLVIEWPORTPROC, Viewport)
 

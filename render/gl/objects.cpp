@@ -84,17 +84,4 @@ void Framebuffer::bind() const {
     gl_.Viewport(0, 0, width_, height_);
 }
 
-BufferTexture::BufferTexture(const Functions& gl) : gl_(gl), buffer_(gl) {
-    gl_.GenTextures(1, &texture_);
-    const float nothing[4] = {0, 0, 0, 0};
-    buffer_.fill(nothing, sizeof nothing);
-    gl_.BindTexture(GL_TEXTURE_BUFFER, texture_);
-    gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_.id());
-}
-
-void BufferTexture::bind(int unit) const {
-    gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    gl_.BindTexture(GL_TEXTURE_BUFFER, texture_);
-}
-
 }  // namespace grainreel::gl

@@ -100,20 +100,4 @@ class Buffer {
     GLuint id_ = 0;
 };
 
-// A buffer that shaders read by index: four floats an entry.
-class BufferTexture {
-  public:
-    explicit BufferTexture(const Functions& gl);
-    ~BufferTexture() { gl_.DeleteTextures(1, &texture_); }
-    BufferTexture(const BufferTexture&) = delete;
-    BufferTexture& operator=(const BufferTexture&) = delete;
-    const Buffer& buffer() const { return buffer_; }
-    void bind(int unit) const;
-
-  private:
-    const Functions& gl_;
-    Buffer buffer_;
-    GLuint texture_ = 0;
-};
-
 }  // namespace grainreel::gl

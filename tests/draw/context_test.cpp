@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <random>
 #include <sstream>
 
@@ -96,6 +97,18 @@ TEST(Context, TwoRenderersTakeTurns) {
     const Picture first = one.draw(heap(), ""), second = two.draw(frame_of({}), "");
     EXPECT_EQ(one.draw(heap(), "").rgba, first.rgba);
     EXPECT_EQ(two.draw(frame_of({}), "").rgba, second.rgba);
+}
+
+TEST(Context, ARendererThatGoesTakesNothingFromTheOneInUse) {
+    auto gone = std::make_unique<Renderer>(wedge(), 1, Provider::osmesa);
+    Renderer one(wedge(), 1, Provider::osmesa), other(wedge(), 1, Provider::osmesa);
+    gone->draw(heap(), "");
+    Frame moved = heap();
+    moved.wall_offset = {0, 0, 0.03};
+    const Picture expected = other.draw(moved, "");
+    one.draw(heap(), "");
+    gone.reset();
+    EXPECT_EQ(one.draw(moved, "").rgba, expected.rgba);
 }
 
 // eglGetProcAddress and OSMesaGetProcAddress answer to invented names too, so that a pointer proves nothing:

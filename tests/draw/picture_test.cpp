@@ -58,6 +58,25 @@ TEST(Pictures, AStillSceneIsThirtyTimesTheSamePicture) {
     for (int again = 0; again < 30; ++again) ASSERT_EQ(renderer.draw(frame, "").rgba, first.rgba) << again;
 }
 
+// Walls and shadows are drawn again only where they have changed.
+TEST(Pictures, WhatMovesLeavesNothingBehind) {
+    Scene scene = wedge();
+    scene.film.look.ground = true;
+    const Frame full = scattered(800), empty = frame_of({});
+    std::vector<Frame> frames;
+    for (const double offset : {0.0, 0.03, 0.03, -0.01, 0.0})
+        for (const Frame* grains : {&full, &empty}) {
+            frames.push_back(*grains);
+            frames.back().wall_offset = {0, 0, offset};
+            frames.back().floor_offset = {0, 0.5 * offset, 0.2 * offset};
+        }
+    std::vector<Picture> alone;
+    for (const Frame& frame : frames) alone.push_back(Renderer(scene, 1).draw(frame, ""));
+    Renderer renderer(scene, 1);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        EXPECT_EQ(changed(alone[i], renderer.draw(frames[i], ""), renderer.view().port).count, 0) << i;
+}
+
 // Laid over a colour, a transparent picture is the one drawn on that colour.
 TEST(Pictures, TransparentOnesHaveTheRightAlphaAlongEveryEdge) {
     Scene scene = wedge();
