@@ -114,15 +114,38 @@ void ContactPass::own(const ContactRules& rules, const NeighbourLists& lists, st
     end_ = end;
     incoming_.clear();
     const NeighbourList& list = lists.pairs;
+    halo_.own(begin, end, list.farthest_partner, static_cast<std::int32_t>(list.start.size()) - 1);
     for (std::int32_t i = std::max(0, begin - list.farthest_partner); i < begin; ++i) {
         for (std::int32_t at = list.start[i]; at < list.start[i + 1]; ++at) {
-            if (owns(list.partner[at])) incoming_.push_back({i, list.partner[at]});
+            if (!owns(list.partner[at])) continue;
+            incoming_.push_back({i, list.partner[at]});
+            halo_.need(i);
         }
     }
+    for (std::int32_t i = std::max(begin, end - list.farthest_partner); i < end; ++i)
+        for (std::int32_t at = list.start[i]; at < list.start[i + 1]; ++at) halo_.need(list.partner[at]);
     if (tables_.size() == rules.groups.size()) return;
     tables_.resize(rules.groups.size());
     for (std::size_t g = 0; g < tables_.size(); ++g)
         tables_[g].shape(rules.groups[g].history_size(), rules.groups[g].number_size());
+}
+
+void ContactPass::list_foreign(const ContactRules& rules, Grains& grains, const Shares& shares) {
+    const auto need = [&](const std::int32_t* bodies, std::int32_t begin, std::int32_t end) {
+        for (std::int32_t c = begin; c < end; ++c) halo_.need(bodies[c]);
+    };
+    halo_.begin_list();
+    for (std::size_t g = 0; g < tables_.size(); ++g) {
+        const ContactTable& table = tables_[g];
+        if (!rules.groups[g].of_pairs) continue;
+        table.each_stretch([&](std::int32_t begin, std::int32_t end) {
+            need(table.first(), begin, end);
+            need(table.second(), begin, end);
+        });
+        need(table.near_first(), 0, table.candidates());
+        need(table.near_second(), 0, table.candidates());
+    }
+    halo_.end_list(grains, shares);
 }
 
 void ContactPass::list_near_pairs(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
@@ -212,10 +235,10 @@ void ContactPass::restore(const ContactRules& rules, const std::vector<KeptConta
 // Sets touch_ for the chunk, in floats if `rounded`; what its laws take.
 LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                               const WallState& state, const Times& times, const Chunk& chunk,
-                              bool rounded) const {
+                              const Halo::Bodies& bodies, bool rounded) const {
     const GeometryInput in{&grains,
-                           chunk.first,
-                           chunk.second,
+                           bodies.first,
+                           bodies.second,
                            chunk.count,
                            group.rolling ? Wants::rolling : wants_of(*group.law),
                            rules.arms,
@@ -266,10 +289,14 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
 template <class Work>
 void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                           const ContactTable& table, const Grains& grains,
-                                          const WallState& state, const Work& work) {
+                                          const WallState& state, Halo* halo, const Work& work) {
     for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
-        const Chunk chunk{table.near_first() + c, table.near_second() + c,
-                          std::min(kChunk, table.candidates() - c)};
+        Chunk chunk{table.near_first() + c, table.near_second() + c,
+                    std::min(kChunk, table.candidates() - c)};
+        if (halo && group.of_pairs) {
+            const auto [first, second] = halo->find(chunk.first, chunk.second, chunk.count);
+            chunk.first = first, chunk.second = second;
+        }
         if (group.of_pairs && is_large_bed(grains)) fetch_places(grains, table, c);
         work(c, which_touch(rules, group, grains, state, chunk));
     }
@@ -281,7 +308,7 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
         ContactTable& table = tables_[g];
         const Step in{rules, rules.groups[g], grains, state, times};
         table.begin_step();
-        each_touching_candidate(rules, in.group, table, grains, state,
+        each_touching_candidate(rules, in.group, table, grains, state, &halo_,
                                 [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
         table.end_step();
         compute_stretch(in, table, table.late(), table.size(), nullptr, clock);
@@ -310,21 +337,23 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
     const bool large = group.of_pairs && c < table.sorted() && is_large_bed(in.grains);
     touch_.ahead = large ? &ahead_ : nullptr;
     if (large) look_ahead(in.grains, rounded, table, c, count, ahead_);
-    const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, rounded);
+    const Halo::Bodies bodies = group.of_pairs ? halo_.find(chunk.first, chunk.second, count)
+                                               : Halo::Bodies{chunk.first, chunk.second};
+    const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, bodies, rounded);
     table.note_touching(c, touch_.touching);
     void* history = table.histories().of_block(c);
     group.law->step(law, history, force_);
     if (group.rolling) group.rolling->step(for_rolling(group, law), behind_law(group, history), force_);
     clock.lap(group.of_pairs ? Cost::contacts : Cost::walls);
-    const ChunkOfContacts forces{chunk.first,
-                                 chunk.second,
+    const ChunkOfContacts forces{bodies.first,
+                                 bodies.second,
                                  chunk.count,
                                  &touch_,
                                  &force_,
                                  group.law->rubs,
                                  group.rolling ? &rolling_ : nullptr,
                                  rounded};
-    group.of_pairs ? add_pairs(forces, loads_, begin_, end_, in.grains)
+    group.of_pairs ? add_pairs(forces, in.grains)
                    : add_walls(forces, loads_, in.walls, in.times.acts, in.grains);
     clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
 }
@@ -348,7 +377,8 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
     table.each_stretch([&](std::int32_t begin, std::int32_t end) {
         for (std::int32_t c = begin; c < end; c += kChunk) {
             const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, end - c)};
-            const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false);
+            const LawInput in =
+                prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, {chunk.first, chunk.second}, false);
             show(group, in, table.histories().of_block(c), chunk, begin > 0, seen);
         }
     });
@@ -356,16 +386,19 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
     Histories none;
     none.shape(group.history_size(), group.number_size());
     none.resize(kBlock);
-    each_touching_candidate(rules, group, table, grains, state, [&](std::int32_t c, std::uint64_t touching) {
-        for (std::uint64_t left = touching & ~table.admitted(c); left != 0; left &= left - 1) {
-            std::int32_t first[kBlock], second[kBlock];
-            std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);
-            std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
-            const Chunk chunk{first, second, 1};
-            show(group, prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, false), none.of_block(0),
-                 chunk, true, seen);
-        }
-    });
+    each_touching_candidate(
+        rules, group, table, grains, state, nullptr, [&](std::int32_t c, std::uint64_t touching) {
+            for (std::uint64_t left = touching & ~table.admitted(c); left != 0; left &= left - 1) {
+                std::int32_t first[kBlock], second[kBlock];
+                std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);
+                std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
+                const Chunk chunk{first, second, 1};
+                show(group,
+                     prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, {chunk.first, chunk.second},
+                             false),
+                     none.of_block(0), chunk, true, seen);
+            }
+        });
 }
 
 }  // namespace grainreel

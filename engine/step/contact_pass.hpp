@@ -12,14 +12,13 @@
 #include "engine/step/contact_rules.hpp"
 #include "engine/step/contact_table.hpp"
 #include "engine/step/cost_clock.hpp"
+#include "engine/step/halo.hpp"
 #include "engine/step/integrate.hpp"
 #include "engine/step/loads.hpp"
 #include "engine/step/neighbours.hpp"
 
 namespace grainreel {
 
-// Thread t owns the grains [share[t], share[t + 1]).
-using Shares = std::vector<std::int32_t>;
 int owner_of(const Shares& shares, std::int32_t grain);
 
 // Grains in a new order, and shared out anew.
@@ -39,6 +38,12 @@ class ContactPass {
 
     // Sets the thread's own grains [begin, end) and finds its pairs in the new neighbour lists.
     void own(const ContactRules& rules, const NeighbourLists& lists, std::int32_t begin, std::int32_t end);
+
+    // The other threads' grains that compute() reads: after own(), all that are listed, which are more than
+    // after any refresh().
+    Halo& halo() { return halo_; }
+    // After a refresh: those of the contacts and candidates.
+    void list_foreign(const ContactRules& rules, Grains& grains, const Shares& shares);
 
     // Drops contacts that have parted, and takes from the neighbour lists, those of own(), what may come to
     // touch within `skin` (m).
@@ -100,12 +105,14 @@ class ContactPass {
                         KeptContacts& leaving);
     static std::uint64_t which_touch(const ContactRules& rules, const ContactGroup& group,
                                      const Grains& grains, const WallState& state, const Chunk& chunk);
+    // halo: where other threads' grains are read; nullptr to read them where they are.
     template <class Work>
     static void each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                         const ContactTable& table, const Grains& grains,
-                                        const WallState& state, const Work& work);
+                                        const WallState& state, Halo* halo, const Work& work);
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
-                     const WallState& state, const Times& times, const Chunk& chunk, bool rounded) const;
+                     const WallState& state, const Times& times, const Chunk& chunk,
+                     const Halo::Bodies& bodies, bool rounded) const;
     void compute_stretch(const Step& in, ContactTable& table, std::int32_t begin, std::int32_t end,
                          Vanguard* vanguard, CostClock& clock);
     void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, int count, CostClock& clock);
@@ -118,6 +125,7 @@ class ContactPass {
         std::int32_t first, second;
     };
     std::vector<Pair> incoming_;  // listed pairs of an earlier thread's grain and an own one
+    Halo halo_;
     mutable TouchChunk touch_;
     mutable ForceChunk force_;
     mutable RollingChunk rolling_;

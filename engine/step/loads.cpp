@@ -87,9 +87,9 @@ struct ByContact<FloatLanes, rubs> {
     }
 };
 
-// first(i), second(j): the loads that those grains' pushes go to. Contact by contact, in their order.
-template <class L, bool rubs, class First, class Second>
-HWY_INLINE void add_each(const ChunkOfContacts& chunk, const First& first, const Second& second) {
+// Contact by contact, in their order.
+template <class L, bool rubs>
+HWY_INLINE void add_each(const ChunkOfContacts& chunk, Load* loads) {
     constexpr int size = rubs ? 8 : 4;
     const std::int32_t *const firsts = chunk.first, *const seconds = chunk.second;
     for (int c = 0; c < chunk.count; c += L::count) {
@@ -99,9 +99,9 @@ HWY_INLINE void add_each(const ChunkOfContacts& chunk, const First& first, const
         lost.set(p.force, p.first_loses);
         gained.set(p.force, p.second_gains);
         const auto one = [&](int k) HWY_ATTR {
-            double* from = numbers(first(firsts[c + k]));
+            double* from = numbers(loads[firsts[c + k]]);
             put(record_at<size>(from) - lost[k], from);
-            double* to = numbers(second(seconds[c + k]));
+            double* to = numbers(loads[seconds[c + k]]);
             put(record_at<size>(to) + gained[k], to);
         };
         if (c + L::count <= chunk.count) {
@@ -113,39 +113,14 @@ HWY_INLINE void add_each(const ChunkOfContacts& chunk, const First& first, const
     }
 }
 
-bool all_between(const ChunkOfContacts& chunk, std::int32_t begin, std::int32_t end) {
-    std::int32_t outside = 0;
-    for (int c = 0; c < chunk.count; ++c) {
-        outside |= (chunk.first[c] - begin) | (end - 1 - chunk.first[c]);
-        outside |= (chunk.second[c] - begin) | (end - 1 - chunk.second[c]);
-    }
-    return outside >= 0;  // no difference is negative
-}
-
-template <class L, bool rubs>
-void pairs_of(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
-              Grains& grains) {
-    Load* const loads = grains.load.data();
-    Load* const of_others = &scratch.of_others;
-    const auto any = [loads](std::int32_t i) HWY_ATTR -> Load& { return loads[i]; };
-    const auto own = [loads, of_others, begin, end](std::int32_t i)
-                         HWY_ATTR -> Load& { return i >= begin && i < end ? loads[i] : *of_others; };
-    const bool alone = begin == 0 && end == static_cast<std::int32_t>(grains.size());
-    alone || all_between(chunk, begin, end) ? add_each<L, rubs>(chunk, any, any)
-                                            : add_each<L, rubs>(chunk, own, own);
-}
-
 template <class L>
-void pairs_at(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
-              Grains& grains) {
-    chunk.rubs ? pairs_of<L, true>(chunk, scratch, begin, end, grains)
-               : pairs_of<L, false>(chunk, scratch, begin, end, grains);
+void pairs_at(const ChunkOfContacts& chunk, Load* loads) {
+    chunk.rubs ? add_each<L, true>(chunk, loads) : add_each<L, false>(chunk, loads);
 }
 
-void pairs(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
-           Grains& grains) {
-    chunk.rounded ? pairs_at<FloatLanes>(chunk, scratch, begin, end, grains)
-                  : pairs_at<Lanes>(chunk, scratch, begin, end, grains);
+void pairs(const ChunkOfContacts& chunk, Grains& grains) {
+    chunk.rounded ? pairs_at<FloatLanes>(chunk, grains.load.data())
+                  : pairs_at<Lanes>(chunk, grains.load.data());
 }
 
 template <class L, bool rubs>
@@ -184,9 +159,8 @@ namespace grainreel {
 HWY_EXPORT(pairs);
 HWY_EXPORT(walls);
 
-void add_pairs(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
-               Grains& grains) {
-    HWY_DYNAMIC_DISPATCH(pairs)(chunk, scratch, begin, end, grains);
+void add_pairs(const ChunkOfContacts& chunk, Grains& grains) {
+    HWY_DYNAMIC_DISPATCH(pairs)(chunk, grains);
 }
 
 void add_walls(const ChunkOfContacts& chunk, LoadScratch& scratch, const WallState& state, double step,

@@ -9,9 +9,8 @@
 
 namespace grainreel {
 
-// For add_pairs() and add_walls() to work in.
+// For add_walls() to work in.
 struct LoadScratch {
-    Load of_others;                         // what goes to grains of other threads, which nobody reads
     alignas(64) double force[3][kChunk]{};  // N, on walls
 };
 
@@ -26,9 +25,8 @@ struct ChunkOfContacts {
     bool rounded;                 // rows hold floats
 };
 
-// Adds them to the loads of those of their grains that lie in [begin, end).
-void add_pairs(const ChunkOfContacts& chunk, LoadScratch& scratch, std::int32_t begin, std::int32_t end,
-               Grains& grains);
+// Adds them to the loads of their grains.
+void add_pairs(const ChunkOfContacts& chunk, Grains& grains);
 // Of grains and walls: to the grains' loads, and what moving walls do to the work.
 void add_walls(const ChunkOfContacts& chunk, LoadScratch& scratch, const WallState& walls, double step,
                Grains& grains);

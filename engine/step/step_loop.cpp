@@ -34,7 +34,7 @@ void StepLoop::restart() {
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         round_motion(grains_, {}, share_[member], share_[member + 1]);
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
-        team_.barrier(member);
+        exchange(member);
         Vanguard none;
         members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, none, idle);
     });
@@ -58,8 +58,8 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
     first_step_ = kGoesOn;
 }
 
-// Steps `from` to `to`, the part of one thread. A thread writes to its own grains only; it reads the others'
-// positions and velocities between the two barriers of a step, while nobody writes them.
+// Steps `from` to `to`, the part of one thread. A thread reads and writes its own grains only, and copies of
+// the others' that it gets in exchange().
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
     const FlushDenormals flush;
     Member& mine = members_[member];
@@ -141,22 +141,28 @@ void StepLoop::move(int member, bool first, const KickInput& kicks) {
     } else if (first) {
         mine.fastest = kick_and_drift(grains_, kicks, begin, end);
     } else {
-        const Vec3 before = kick_and_go_on(grains_, kicks, begin, mine.ahead.begin);
         const Vec3 behind = kick_and_go_on(grains_, kicks, mine.ahead.next, end);
-        mine.fastest = mine.ahead.fastest.cwiseMax(before).cwiseMax(behind);
+        mine.fastest = mine.ahead.fastest.cwiseMax(behind);
     }
 }
 
-// Which grains go on with the next step as soon as their loads are complete: those that no other thread
-// reads, as partners of its own.
+// Grains go on with the next step as soon as their loads are complete.
 void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
-    const std::int32_t reach = lists_.pairs.farthest_partner;
-    const std::int32_t begin = share_[member] + (member > 0 ? reach : 0);
-    const std::int32_t end = share_[member + 1] - (member + 1 < team_.size() ? reach : 0);
+    const std::int32_t begin = share_[member], end = share_[member + 1];
     Vanguard& ahead = members_[member].ahead;
-    const bool some = goes_on && !scheme_.corrects && begin < end;
-    ahead = {some ? begin : share_[member], some ? end : share_[member], kicks};
+    ahead = {begin, goes_on && !scheme_.corrects ? end : begin, kicks};
     ahead.next = ahead.begin;
+}
+
+// Where threads wait for each other, once a step: the grains that others read go out, and theirs come in.
+void StepLoop::exchange(int member) {
+    Member& mine = members_[member];
+    mine.box = 1 - mine.box;
+    mine.told[mine.box] = {mine.fastest, mine.contacts.parted()};
+    for (int other = 0; other < team_.size(); ++other)
+        if (other != member) members_[other].contacts.halo().put(grains_, member, mine.box);
+    team_.barrier(member);
+    mine.contacts.halo().get(grains_, mine.box);
 }
 
 // Where all grains are now, and what may touch.
@@ -164,8 +170,7 @@ void StepLoop::begin_evaluation(int member, const Evaluation& at, double step, c
     Member& mine = members_[member];
     mine.clock.lap(Cost::integrate);
     mine.walls.set(around_.faces, at.before, at.now, at.since);
-    mine.parted = mine.contacts.parted();
-    team_.barrier(member);
+    exchange(member);
     mine.clock.lap(Cost::other);
     renew_contacts(member, at, step, kicks);
     mine.clock.lap(Cost::neighbours);
@@ -176,8 +181,6 @@ void StepLoop::evaluate(int member, const Evaluation& at) {
     mine.contacts.compute(rules_, grains_, mine.walls,
                           {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since}, mine.ahead,
                           mine.clock);
-    team_.barrier(member);
-    mine.clock.lap(Cost::other);
 }
 
 void StepLoop::end_run(int member, double step, KickInput kicks) {
@@ -202,7 +205,7 @@ void StepLoop::renew_contacts(int member, const Evaluation& at, double step, con
         rebuild(member, at.now, at.time, at.time - listed_step_);
         mine.reach.drift.setZero();
     } else {
-        mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
+        refresh(member);
     }
     if (member == 0) ++refreshes_;
 }
@@ -236,8 +239,8 @@ bool StepLoop::contacts_expired(Member& mine, const Pose& now, const Vec3& drift
     Reach& reach = mine.reach;
     Vec3 largest(0, 0, 0);  // the diagonal is the same however the grains are shared out
     for (const Member& m : members_) {
-        largest = largest.cwiseMax(m.fastest);
-        reach.parted += m.parted;
+        largest = largest.cwiseMax(m.told[mine.box].fastest);
+        reach.parted += m.told[mine.box].parted;
     }
     reach.fastest = largest.norm();
     reach.moved += reach.fastest * passed;

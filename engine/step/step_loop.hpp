@@ -94,6 +94,12 @@ class StepLoop {
         Pose pose;                // likewise
     };
 
+    // What the others are told of a thread at a step.
+    struct alignas(64) Told {
+        Vec3 fastest{0, 0, 0};    // m/s, largest components of its grains against the bed's free flight
+        std::int64_t parted = 0;  // contacts of its grains that no longer touched in the last step
+    };
+
     // What a thread writes; a cache line apart from the next thread's.
     struct alignas(64) Member {
         ContactPass contacts;
@@ -104,12 +110,13 @@ class StepLoop {
         Reach reach;
         Vanguard ahead;  // its grains that go on before the others
         CostClock clock;
-        Vec3 fastest{0, 0, 0};    // m/s, largest components of its grains against the bed's free flight
-        std::int64_t parted = 0;  // contacts of its grains that no longer touched in the last step
-        double farthest = 0;      // m, from where they were listed
-        double work = 0;          // of its share of the grains, in units of a listed pair
-        double busy_before = 0;   // s, when the grains were shared out
-        double speed = 1;         // lately, against the mean of all
+        Vec3 fastest{0, 0, 0};   // m/s, as it will be told
+        Told told[2];            // of this step and the one before, which others may still read
+        int box = 0;             // which of the two it is, and of its halo's boxes
+        double farthest = 0;     // m, from where they were listed
+        double work = 0;         // of its share of the grains, in units of a listed pair
+        double busy_before = 0;  // s, when the grains were shared out
+        double speed = 1;        // lately, against the mean of all
     };
 
     // The forces of a stage: when (in steps), where the walls are then, and what went before.
@@ -124,6 +131,7 @@ class StepLoop {
     KickInput kicks_before(const Evaluation& at, std::size_t stage, bool first, double step,
                            KickInput kicks) const;
     void move(int member, bool first, const KickInput& kicks);
+    void exchange(int member);
     void begin_evaluation(int member, const Evaluation& at, double step, const KickInput& kicks);
     void send_ahead(int member, bool goes_on, const KickInput& kicks);
     void evaluate(int member, const Evaluation& at);
@@ -142,6 +150,8 @@ class StepLoop {
     void note_listing(const Pose& pose, double time);
     void note_speeds();
     void share_out();
+    void place_halos();
+    void refresh(int member);
     ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
                      const ForceChunk& force, const EnergyChunk& energy) const;
     std::vector<KeptContacts> all_kept() const;

@@ -33,7 +33,10 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
     team_.barrier(member);
     mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
     for (const Member& m : members_) mine.contacts.take(member, m.leaving);
-    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
+    team_.barrier(member);
+    if (member == 0) place_halos();
+    team_.barrier(member);
+    refresh(member);
     mine.busy_before = team_.busy(member);
 }
 
@@ -101,6 +104,29 @@ void StepLoop::share_out() {
         share_[t + 1] = i = t + 1 < team_.size() ? i : n;
         members_[t].work = work(i) - work(begin);
     }
+}
+
+// The one time between rebuilds that threads read each other's grains where they are.
+void StepLoop::refresh(int member) {
+    Member& mine = members_[member];
+    mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
+    if (team_.size() == 1) return;
+    mine.contacts.list_foreign(rules_, grains_, share_);
+    team_.barrier(member);
+    exchange(member);
+}
+
+// Copies of one thread after those of another, none of them in a line with the next thread's.
+void StepLoop::place_halos() {
+    constexpr std::int32_t kApart = 4;
+    const auto n = static_cast<std::int32_t>(grains_.size());
+    std::int32_t end = n;
+    for (Member& m : members_) {
+        const std::int32_t at = (end + kApart - 1) / kApart * kApart;
+        m.contacts.halo().make_room(at);
+        end = at + m.contacts.halo().size();
+    }
+    if (team_.size() > 1) reserve_copies(grains_, end - n);
 }
 
 }  // namespace grainreel

@@ -124,7 +124,12 @@ void StepLoop::load(std::istream& in) {
         mine.contacts = {};
         mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
         mine.contacts.restore(rules_, kept, steps);
+    }
+    grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
+    place_halos();
+    for (Member& mine : members_) {
         mine.contacts.list_candidates(rules_, grains_, lists_, around_.faces, reach.pose, reach.skin);
+        if (team_.size() > 1) mine.contacts.list_foreign(rules_, grains_, share_);
     }
 }
 

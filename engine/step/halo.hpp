@@ -1,0 +1,81 @@
+// What a thread's contacts read of other threads' grains: copies, brought once a step through a box that the
+// owners write to and this thread reads. So nobody reads what another thread writes, one barrier a step is
+// enough, and a processor keeps the lines of the grains that it integrates.
+//
+// Copies stand where contacts can reach them like grains: behind the last grain, in room that the grains'
+// arrays have beyond their size.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/large_array.hpp"
+#include "engine/laws/touch_chunk.hpp"
+#include "engine/state/grains.hpp"
+
+namespace grainreel {
+
+// Thread t owns the grains [share[t], share[t + 1]).
+using Shares = std::vector<std::int32_t>;
+
+class alignas(64) Halo {
+  public:
+    // The thread owns [begin, end) and reads grains at most `reach` beyond, of `grains` in all.
+    void own(std::int32_t begin, std::int32_t end, std::int32_t reach, std::int32_t grains);
+    bool owns(std::int32_t grain) const { return grain >= begin_ && grain < end_; }
+    // Which of them it reads until the next call: begin_list(), then need() in any order, as often as one
+    // likes.
+    void begin_list();
+    void need(std::int32_t grain) {
+        if (owns(grain)) return;
+        std::int32_t& slot = slot_[place_in_slots(grain)];
+        if (slot == kNone) foreign_.push_back(grain), slot = kNeeded;
+    }
+    std::int32_t size() const { return static_cast<std::int32_t>(foreign_.size()); }
+    // Makes room for as many as are needed now, the copies' indices being those from `at` on.
+    void make_room(std::int32_t at);
+    // Ends a list. Sets all of the copies but their motion, for which the grains' arrays have room.
+    void end_list(Grains& grains, const Shares& shares);
+
+    // By the owner: its grains as they are now, into one of two boxes. Who takes the boxes in turn needs no
+    // barrier but that between put() and get().
+    void put(const Grains& grains, int owner, int box);
+    // By the thread itself: to the copies.
+    void get(Grains& grains, int box);
+
+    // Where the bodies of `count` pairs, at most kChunk, and of what fills their last block, stand: foreign
+    // ones among the copies. Valid until the next call.
+    struct Bodies {
+        const std::int32_t *first, *second;
+    };
+    Bodies find(const std::int32_t* first, const std::int32_t* second, int count) {
+        if (foreign_.empty() || all_own(first, second, count)) return {first, second};
+        return find_foreign(first, second, count);
+    }
+
+  private:
+    struct alignas(64) Line {
+        double number[8];
+    };
+    bool all_own(const std::int32_t* first, const std::int32_t* second, int count) const;
+    Bodies find_foreign(const std::int32_t* first, const std::int32_t* second, int count);
+    std::int32_t place_in_slots(std::int32_t i) const {
+        return i < begin_ ? i - lowest_ : i - end_ + (begin_ - lowest_);
+    }
+    std::int32_t slot(std::int32_t i) const { return owns(i) ? i : slot_[place_in_slots(i)]; }
+
+    static constexpr std::int32_t kNone = -1, kNeeded = -2;  // slots without a copy, or not yet
+    std::int32_t begin_ = 0, end_ = 0, at_ = 0;
+    std::int32_t lowest_ = 0;              // grain that may be read
+    std::vector<std::int32_t> foreign_;    // rising
+    std::vector<std::int32_t> slot_;       // of the grains [lowest_, begin_), then of those from end_ on
+    std::vector<std::int32_t> part_;       // a thread: where its grains begin in foreign_
+    std::array<LargeArray<Line>, 2> box_;  // grain by grain
+    alignas(64) std::int32_t first_[kChunk] = {}, second_[kChunk] = {};
+};
+
+// Room for so many copies.
+void reserve_copies(Grains& grains, std::int32_t count);
+
+}  // namespace grainreel
