@@ -27,6 +27,11 @@ struct Renumbering {
     const Shares &before, &after;
 };
 
+// A chunk's bits of its first contacts.
+inline std::uint64_t bits_of_first(int count) {
+    return count < kChunk ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+}
+
 class ContactPass {
   public:
     // New numbers for all contacts; those that another thread has to do with from now on, and had not, go to
