@@ -58,9 +58,11 @@ class Grid {
         const double at = centre[axes_[a]] - origin_[a];
         return {box(at - reach, a), box(at + reach, a)};
     }
+    // Of a bed that blows up, what is no number any more goes to the first: the health check will say so.
     int box(double at, int a) const {
         const double count = count_[a];
-        return static_cast<int>(std::clamp(at * inverse_width_[a] + count, 0.0, 3 * count)) - count_[a];
+        return static_cast<int>(std::max(0.0, std::min(at * inverse_width_[a] + count, 3 * count))) -
+               count_[a];
     }
     std::int32_t box_of(const Vec3& position) const;
     // Rows of boxes along the fastest axis follow each other tile by tile, so that the rows around one are
