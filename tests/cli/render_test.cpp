@@ -109,7 +109,8 @@ TEST_F(RenderProgram, AnotherSizeAnotherCameraAnotherColour) {
         EXPECT_NE(text_of(here / "plain/frames/000003.png"), text_of(here / "other/frames/000003.png"))
             << set;
     }
-    ASSERT_EQ(program({"render", "run", "--at", "0", "--size", "200x100", "--out", "one.png"}).status, 0);
+    const Ended small = program({"render", "run", "--at", "0", "--size", "200x100", "--out", "one.png"});
+    ASSERT_EQ(small.status, 0) << small.err;
     // IHDR: width and height, big-endian, after the signature and the chunk's head.
     EXPECT_EQ(text_of(here / "one.png").substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x64", 8));
 }
