@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstddef>
 #include <type_traits>
-#include <utility>
 
 #include "engine/step/large_bed.hpp"
 
