@@ -50,6 +50,13 @@ struct MotionRecord {
         const Record<4> four = record_of(Vec3(x, x, x), fourth);
         return of(four, four);
     }
+    // As mixed precision reads it, with the radius that stands behind the position.
+    static HWY_INLINE Record<8> with_radius(const Record<size>& motion, const Record<4>& place) {
+        if constexpr (rubs)
+            return with_last(motion, both(place, place));
+        else
+            return both(motion, with_last(record_of(0.0), place));
+    }
     // Each half's fourth number, everywhere in it.
     static HWY_INLINE Record<size> fourths(const double* from) {
         return of(record_of(from[3]), record_of(from[7]));
@@ -77,14 +84,12 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
         if (begins) {
             now = now + next * gains;
             double* place = at.place + 4 * i;
-            put(record_at<4>(place) + whole * first_four(now), place);
+            const Record<4> moved = record_at<4>(place) + whole * first_four(now);
+            put(moved, place);
             put(nothing, load);
             const Record<size> relative = now - frame;
             fastest = larger_size(fastest, first_four(relative));
-            if (at.rounded) {
-                put_rounded(relative, at.rounded[i].velocity);
-                at.rounded[i].radius = static_cast<float>(place[3]);
-            }
+            if (at.rounded) put_rounded(Whole::with_radius(relative, moved), at.rounded[i].velocity);
         }
         put(now, motion);
     }

@@ -81,9 +81,38 @@ HWY_INLINE Record<4> record_of(double x) {
     for (auto& part : r.part) part = hn::Set(Record<4>::D(), x);
     return r;
 }
+// From registers: four numbers stored one by one and loaded as one would have to wait for the stores.
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE Record<4> record_of(double a, double b, double c, double d) {
+    const Record<4>::D one;
+    return {{hn::Set(one, a), hn::Set(one, b), hn::Set(one, c), hn::Set(one, d)}};
+}
+#else
+template <class Four = Record<4>>
+HWY_INLINE Four record_of(double a, double b, double c, double d) {
+    const hn::FixedTag<double, 2> two;
+    const auto low = hn::InterleaveLower(two, hn::Set(two, a), hn::Set(two, b));
+    const auto high = hn::InterleaveLower(two, hn::Set(two, c), hn::Set(two, d));
+    if constexpr (Four::parts == 2)
+        return {{low, high}};
+    else
+        return {{hn::Combine(typename Four::D(), high, low)}};
+}
+#endif
 HWY_INLINE Record<4> record_of(const Vec3& v, double fourth = 0) {
-    HWY_ALIGN const double four[4] = {v.x(), v.y(), v.z(), fourth};
-    return record_at<4>(four);
+    return record_of(v.x(), v.y(), v.z(), fourth);
+}
+// a, but with b's last number.
+template <int size>
+HWY_INLINE Record<size> with_last(Record<size> a, const Record<size>& b) {
+    constexpr int last = Record<size>::parts - 1, lanes = Record<size>::lanes;
+    if constexpr (lanes == 1) {
+        a.part[last] = b.part[last];
+    } else {
+        const typename Record<size>::D d;
+        a.part[last] = hn::IfThenElse(hn::FirstN(d, lanes - 1), a.part[last], b.part[last]);
+    }
+    return a;
 }
 template <int size>
 HWY_INLINE Record<size> operator+(Record<size> a, const Record<size>& b) {
