@@ -45,12 +45,29 @@ HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist)
     return back.cross(k).plus(k + back, twist);
 }
 
+// Where the places of a chunk's bodies start, in doubles, worked out once: their motion starts twice as far.
+struct Places {
+    alignas(64) std::int32_t first[kChunk], second[kChunk];
+
+    HWY_INLINE Places(const std::int32_t* i, const std::int32_t* j, int count) {
+        constexpr std::int32_t stride = sizeof(Place) / sizeof(double);
+        for (int c = 0; c < count; ++c) {
+            first[c] = stride * i[c];
+            second[c] = stride * j[c];
+        }
+        // Up to a whole register.
+        for (int c = count; c % kBlock != 0; ++c) first[c] = first[c - 1], second[c] = second[c - 1];
+    }
+};
+static_assert(sizeof(Motion) == 2 * sizeof(Place) && sizeof(RoundedMotion) == sizeof(Place));
+
 std::uint64_t pairs_within(const Grains& grains, const std::int32_t* i, const std::int32_t* j, int count,
                            double period, double gap) {
     const double* place = numbers(grains.place);
+    const Places at(i, j, count);
     std::uint64_t touching = 0;
     for (int c = 0; c < count; c += kLanes) {
-        const auto between = load_relative(place, 4, j + c, i + c);
+        const auto between = load_relative(place, 1, at.second + c, at.first + c);
         Triple<Lanes> apart = triple(between);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
         const Lanes reach = Lanes(between.d) + Lanes(gap);
@@ -63,22 +80,6 @@ std::uint64_t pairs_within(const Grains& grains, const std::int32_t* i, const st
 HWY_INLINE int whole_blocks(int count) {
     return (count + kBlock - 1) / kBlock * kBlock;
 }
-
-// Where the places of a chunk's bodies start, in doubles, worked out once: their motion starts twice as far.
-struct Places {
-    alignas(64) std::int32_t first[kChunk], second[kChunk];
-
-    HWY_INLINE explicit Places(const GeometryInput& in) {
-        constexpr std::int32_t stride = sizeof(Place) / sizeof(double);
-        for (int c = 0; c < in.count; ++c) {
-            first[c] = stride * in.first[c];
-            second[c] = stride * in.second[c];
-        }
-        // Up to a whole register.
-        for (int c = in.count; c % kBlock != 0; ++c) first[c] = first[c - 1], second[c] = second[c - 1];
-    }
-};
-static_assert(sizeof(Motion) == 2 * sizeof(Place) && sizeof(RoundedMotion) == sizeof(Place));
 
 // A chunk goes through in sweeps, as many as its law wants: places, distances, velocities, spins. (One sweep
 // for all was no faster.)
@@ -223,7 +224,7 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
 
 template <class L>
 void pairs_at(const GeometryInput& in, double period, TouchChunk& out) {
-    const Places at(in);
+    const Places at(in.first, in.second, in.count);
     if constexpr (std::is_same_v<L, Lanes>)
         sweep_places(in, at, period, out);
     else
