@@ -63,11 +63,12 @@ HWY_INLINE Record<4> first_four(const Record<size>& r) {
     return first;
 }
 
-// Four floats in memory.
-HWY_INLINE Record<4> widened_at(const float* from) {
-    Record<4> r;
-    const Record<4>::D d;
-    const hn::Rebind<float, Record<4>::D> floats;
+// Of as many floats in memory.
+template <int size>
+HWY_INLINE Record<size> widened_at(const float* from) {
+    Record<size> r;
+    const typename Record<size>::D d;
+    const hn::Rebind<float, typename Record<size>::D> floats;
     for (int p = 0; p < r.parts; ++p) r.part[p] = hn::PromoteTo(d, hn::Load(floats, from + p * r.lanes));
     return r;
 }

@@ -51,6 +51,11 @@ HWY_INLINE void store_rows(const Four<Floats>& f, float* to) {
     const Floats d;
     hn::Store(f.a, d, to), hn::Store(f.b, d, to + 1), hn::Store(f.c, d, to + 2), hn::Store(f.d, d, to + 3);
 }
+HWY_INLINE void store_rows(const Four<Floats>& f, const Four<Floats>& g, float* to) {
+    store_rows(f, to);
+    store_rows(g, to + 4);
+}
+template <int size>
 HWY_INLINE std::size_t place_of_row(std::size_t) {
     return 0;
 }
@@ -160,7 +165,7 @@ HWY_INLINE Four<D> load_relative(const hn::TFromD<D>* base, std::size_t stride, 
                                       hn::MulAdd(two.c, high, one.c), hn::MulAdd(two.d, high, one.d)});
 }
 
-// The other way, into memory: the four floats of record k to place_of_row(k).
+// The other way, into memory: the four floats of record k to place_of_row<4>(k).
 HWY_INLINE void store_rows(const Four<Floats>& f, float* to) {
     const Floats d;
     const Four<Floats> r = transposed_floats(d, f);
@@ -168,8 +173,32 @@ HWY_INLINE void store_rows(const Four<Floats>& f, float* to) {
     hn::Store(r.a, d, to), hn::Store(r.b, d, to + lanes);
     hn::Store(r.c, d, to + 2 * lanes), hn::Store(r.d, d, to + 3 * lanes);
 }
+
+// Of blocks that alternate with those of g, the even ones of f, then the odd ones.
+template <class D>
+HWY_INLINE void store_by_turns(D d, hn::Vec<D> f, hn::Vec<D> g, float* to) {
+    constexpr std::size_t lanes = hn::MaxLanes(D());
+    if constexpr (lanes == 4) {
+        hn::Store(f, d, to), hn::Store(g, d, to + lanes);
+    } else {
+        hn::Store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(g), f), d, to);
+        hn::Store(hn::OddEvenBlocks(g, hn::SwapAdjacentBlocks(f)), d, to + lanes);
+    }
+}
+// Four floats and four behind them, those of record k to place_of_row<8>(k).
+HWY_INLINE void store_rows(const Four<Floats>& f, const Four<Floats>& g, float* to) {
+    const Floats d;
+    const Four<Floats> r = transposed_floats(d, f), s = transposed_floats(d, g);
+    constexpr std::size_t lanes = hn::MaxLanes(Floats());
+    store_by_turns(d, r.a, s.a, to), store_by_turns(d, r.b, s.b, to + 2 * lanes);
+    store_by_turns(d, r.c, s.c, to + 4 * lanes), store_by_turns(d, r.d, s.d, to + 6 * lanes);
+}
+template <int size>
 HWY_INLINE std::size_t place_of_row(std::size_t k) {
-    return k % 4 * hn::MaxLanes(Floats()) + k / 4 * 4;
+    constexpr std::size_t lanes = hn::MaxLanes(Floats());
+    const std::size_t row = k % 4, block = k / 4;
+    if constexpr (size == 4) return row * lanes + block * 4;
+    return (2 * row + block % 2) * lanes + block / 2 * 8;
 }
 
 // The other way, into registers.
