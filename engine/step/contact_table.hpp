@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/step/histories.hpp"
+#include "engine/step/reorder.hpp"
 
 namespace grainreel {
 
@@ -121,9 +122,8 @@ class ContactTable {
     std::vector<Batch> batches_;  // of contacts that began since the last sort
     std::int32_t step_ = 0;
 
-    // While sorting: contacts that began since the last one; a number of each contact in the new order.
-    LargeArray<std::int32_t> young_;
-    LargeArray<double> moved_;
+    LargeArray<std::int32_t> young_;  // while sorting: contacts that began since the last one
+    Reorder reorder_;
 };
 
 }  // namespace grainreel

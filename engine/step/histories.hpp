@@ -2,7 +2,6 @@
 // by number. The numbers are doubles, or floats with mixed precision.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/large_array.hpp"
 #include "engine/laws/law_kernel.hpp"
+#include "engine/step/reorder.hpp"
 
 namespace grainreel {
 
@@ -38,11 +38,12 @@ class Histories {
     void clear(std::int32_t contact) {
         for (int k = 0; k < numbers_; ++k) set(contact, k, 0);
     }
-    // Puts contact order[c] at c, for all c < count; in `room` there is a double for each.
-    void permute(const std::int32_t* order, std::int32_t count, double* room) {
-        for (int k = 0; k < numbers_; ++k)
-            size_ == sizeof(float) ? permute_number<float>(order, count, k, room)
-                                   : permute_number<double>(order, count, k, room);
+    // Of `contacts` that there were.
+    void reorder(Reorder& order, std::int32_t contacts) {
+        for (int k = 0; k < numbers_; ++k) {
+            const auto block = [&](std::int32_t c) { return bytes() + place(c, k); };
+            size_ == sizeof(float) ? order.move<float>(contacts, block) : order.move<double>(contacts, block);
+        }
     }
 
     // What LawKernel takes, for the block that starts with `contact`.
@@ -72,20 +73,6 @@ class Histories {
     template <class Number>
     void write(std::int32_t contact, int k, Number value) {
         std::memcpy(bytes() + place(contact, k), &value, sizeof(Number));
-    }
-    template <class Number>
-    void permute_number(const std::int32_t* order, std::int32_t count, int k, void* room) {
-        auto* moved = static_cast<std::byte*>(room);
-        const auto copy = [](std::byte* to, const std::byte* from, std::int32_t many) {
-            std::memcpy(to, from, many * sizeof(Number));
-        };
-        constexpr std::int32_t ahead = 128;  // contacts: lines of one number lie too far apart to be foreseen
-        for (std::int32_t c = 0; c < count; ++c) {
-            __builtin_prefetch(bytes() + place(order[std::min(c + ahead, count - 1)], k));
-            copy(moved + c * sizeof(Number), bytes() + place(order[c], k), 1);
-        }
-        for (std::int32_t c = 0; c < count; c += kBlock)
-            copy(bytes() + place(c, k), moved + c * sizeof(Number), std::min(kBlock, count - c));
     }
 
     int numbers_ = 0;
