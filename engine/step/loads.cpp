@@ -1,5 +1,7 @@
 #include "engine/step/loads.hpp"
 
+#include <utility>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/step/loads.cpp"
 #include "engine/vector/targets.hpp"
@@ -44,68 +46,56 @@ HWY_INLINE double* numbers(Load& one) {
 }
 
 // Force and torque of contacts on one of their bodies, contact by contact; without friction the force alone.
-template <class L, bool rubs>
-struct ByContact {
-    static constexpr int size = rubs ? 8 : 4;
-    Rows<size> rows;
-
-    HWY_INLINE void set(const Triple<L>& force, const Triple<L>& torque) {
-        if constexpr (rubs)
-            rows = rows_of(four(force), four(torque));
-        else
-            rows = rows_of(four(force));
-    }
-    HWY_INLINE Record<size> operator[](int k) const { return rows.row[k]; }
-
-  private:
-    static HWY_INLINE Four<Doubles> four(const Triple<L>& t) {
-        return {t.x.value, t.y.value, t.z.value, L(0.0).value};
-    }
-};
-// Floats go through memory, from where they are widened: row by row in registers that would be three times
-// as many shuffles, of which the processor does one at a time.
+// They stay in registers: what is stored in one piece and loaded in another has to wait.
 template <bool rubs>
-struct ByContact<FloatLanes, rubs> {
-    static constexpr int size = rubs ? 8 : 4;
-    HWY_ALIGN float rows[size * FloatLanes::count];
+HWY_INLINE auto by_contact(const Triple<Lanes>& force, const Triple<Lanes>& torque) {
+    const auto four = [](const Triple<Lanes>& t) HWY_ATTR {
+        return Four<Doubles>{t.x.value, t.y.value, t.z.value, Lanes(0.0).value};
+    };
+    if constexpr (rubs)
+        return rows_of(four(force), four(torque));
+    else
+        return rows_of(four(force));
+}
+template <bool rubs>
+HWY_INLINE auto by_contact(const Triple<FloatLanes>& force, const Triple<FloatLanes>& torque) {
+    const auto four = [](const Triple<FloatLanes>& t) HWY_ATTR {
+        return Four<Floats>{t.x.value, t.y.value, t.z.value, FloatLanes(0.0).value};
+    };
+    if constexpr (rubs)
+        return float_rows_of(four(force), four(torque));
+    else
+        return float_rows_of(four(force));
+}
 
-    HWY_INLINE void set(const Triple<FloatLanes>& force, const Triple<FloatLanes>& torque) {
-        if constexpr (rubs)
-            store_rows(four(force), four(torque), rows);
+// work<k>() for the first `count` contacts of a register, in their order.
+template <class L, class Work>
+HWY_INLINE void each_of(int count, const Work& work) {
+    const auto in_turn = [&]<int... k>(std::integer_sequence<int, k...>) HWY_ATTR {
+        if (count >= L::count)
+            (work.template operator()<k>(), ...);
         else
-            store_rows(four(force), rows);
-    }
-    HWY_INLINE Record<size> operator[](int k) const { return widened_at<size>(rows + place_of_row<size>(k)); }
-
-  private:
-    static HWY_INLINE Four<Floats> four(const Triple<FloatLanes>& t) {
-        return {t.x.value, t.y.value, t.z.value, FloatLanes(0.0).value};
-    }
-};
+            ((k < count ? work.template operator()<k>() : void()), ...);
+    };
+    in_turn(std::make_integer_sequence<int, L::count>());
+}
 
 // Contact by contact, in their order.
 template <class L, bool rubs>
 HWY_INLINE void add_each(const ChunkOfContacts& chunk, Load* loads) {
     constexpr int size = rubs ? 8 : 4;
-    const std::int32_t *const firsts = chunk.first, *const seconds = chunk.second;
     for (int c = 0; c < chunk.count; c += L::count) {
         chunk.touch->fetch_some();
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
-        ByContact<L, rubs> lost, gained;
-        lost.set(p.force, p.first_loses);
-        gained.set(p.force, p.second_gains);
-        const auto one = [&](int k) HWY_ATTR {
-            double* from = numbers(loads[firsts[c + k]]);
-            put(record_at<size>(from) - lost[k], from);
-            double* to = numbers(loads[seconds[c + k]]);
-            put(record_at<size>(to) + gained[k], to);
-        };
-        if (c + L::count <= chunk.count) {
-#pragma GCC unroll 16
-            for (int k = 0; k < L::count; ++k) one(k);
-        } else {
-            for (int k = 0; c + k < chunk.count; ++k) one(k);
-        }
+        const auto lost = by_contact<rubs>(p.force, p.first_loses);
+        const auto gained = by_contact<rubs>(p.force, p.second_gains);
+        const std::int32_t *const firsts = chunk.first + c, *const seconds = chunk.second + c;
+        each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
+            double* from = numbers(loads[firsts[k]]);
+            put(record_at<size>(from) - lost.template row<k>(), from);
+            double* to = numbers(loads[seconds[k]]);
+            put(record_at<size>(to) + gained.template row<k>(), to);
+        });
     }
 }
 
@@ -127,13 +117,12 @@ void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains
         store_as(p.force.x, scratch.force[0] + c);
         store_as(p.force.y, scratch.force[1] + c);
         store_as(p.force.z, scratch.force[2] + c);
-        ByContact<L, rubs> lost;
-        lost.set(p.force, p.first_loses);
-        for (int k = 0; k < L::count && c + k < chunk.count; ++k) {
-            if (!chunk.touch->touches(c + k)) continue;
+        const auto lost = by_contact<rubs>(p.force, p.first_loses);
+        each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
+            if (!chunk.touch->touches(c + k)) return;
             double* from = numbers(grains.load[chunk.first[c + k]]);
-            put(record_at<size>(from) - lost[k], from);
-        }
+            put(record_at<size>(from) - lost.template row<k>(), from);
+        });
     }
 }
 

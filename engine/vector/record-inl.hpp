@@ -63,15 +63,6 @@ HWY_INLINE Record<4> first_four(const Record<size>& r) {
     return first;
 }
 
-// Of as many floats in memory.
-template <int size>
-HWY_INLINE Record<size> widened_at(const float* from) {
-    Record<size> r;
-    const typename Record<size>::D d;
-    const hn::Rebind<float, typename Record<size>::D> floats;
-    for (int p = 0; p < r.parts; ++p) r.part[p] = hn::PromoteTo(d, hn::Load(floats, from + p * r.lanes));
-    return r;
-}
 template <int size>
 HWY_INLINE void put_rounded(const Record<size>& r, float* to) {
     const hn::Rebind<float, typename Record<size>::D> floats;

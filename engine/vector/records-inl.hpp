@@ -6,6 +6,8 @@
 #define GRAINREEL_VECTOR_RECORDS_INL
 #endif
 
+#include <utility>
+
 #include "engine/vector/record-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,7 +21,12 @@ struct Four {
 // As many records as there are lanes.
 template <int size>
 struct Rows {
-    Record<size> row[kLanes];
+    Record<size> records[kLanes];
+
+    template <int k>
+    HWY_INLINE Record<size> row() const {
+        return records[k];
+    }
 };
 
 #if HWY_TARGET == HWY_SCALAR
@@ -47,17 +54,22 @@ HWY_INLINE Rows<8> rows_of(const Four<Doubles>& f, const Four<Doubles>& g) {
     return {{{{f.a, f.b, f.c, f.d, g.a, g.b, g.c, g.d}}}};
 }
 
-HWY_INLINE void store_rows(const Four<Floats>& f, float* to) {
-    const Floats d;
-    hn::Store(f.a, d, to), hn::Store(f.b, d, to + 1), hn::Store(f.c, d, to + 2), hn::Store(f.d, d, to + 3);
-}
-HWY_INLINE void store_rows(const Four<Floats>& f, const Four<Floats>& g, float* to) {
-    store_rows(f, to);
-    store_rows(g, to + 4);
-}
 template <int size>
-HWY_INLINE std::size_t place_of_row(std::size_t) {
-    return 0;
+struct FloatRows {
+    hn::Vec<Floats> part[size];
+
+    template <int>
+    HWY_INLINE Record<size> row() const {
+        Record<size> r;
+        for (int p = 0; p < size; ++p) r.part[p] = hn::PromoteTo(Doubles(), part[p]);
+        return r;
+    }
+};
+HWY_INLINE FloatRows<4> float_rows_of(const Four<Floats>& f) {
+    return {{f.a, f.b, f.c, f.d}};
+}
+HWY_INLINE FloatRows<8> float_rows_of(const Four<Floats>& f, const Four<Floats>& g) {
+    return {{f.a, f.b, f.c, f.d, g.a, g.b, g.c, g.d}};
 }
 
 #else
@@ -165,40 +177,68 @@ HWY_INLINE Four<D> load_relative(const hn::TFromD<D>* base, std::size_t stride, 
                                       hn::MulAdd(two.c, high, one.c), hn::MulAdd(two.d, high, one.d)});
 }
 
-// The other way, into memory: the four floats of record k to place_of_row<4>(k).
-HWY_INLINE void store_rows(const Four<Floats>& f, float* to) {
-    const Floats d;
-    const Four<Floats> r = transposed_floats(d, f);
-    constexpr std::size_t lanes = hn::MaxLanes(Floats());
-    hn::Store(r.a, d, to), hn::Store(r.b, d, to + lanes);
-    hn::Store(r.c, d, to + 2 * lanes), hn::Store(r.d, d, to + 3 * lanes);
-}
-
-// Of blocks that alternate with those of g, the even ones of f, then the odd ones.
-template <class D>
-HWY_INLINE void store_by_turns(D d, hn::Vec<D> f, hn::Vec<D> g, float* to) {
-    constexpr std::size_t lanes = hn::MaxLanes(D());
-    if constexpr (lanes == 4) {
-        hn::Store(f, d, to), hn::Store(g, d, to + lanes);
+// `count` of a register's numbers from the n-th on.
+template <int count, int n, class D>
+HWY_INLINE auto some_of(D, hn::Vec<D> v) {
+    constexpr int half_lanes = static_cast<int>(hn::MaxLanes(D())) / 2;
+    if constexpr (count > half_lanes) {
+        return v;
     } else {
-        hn::Store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(g), f), d, to);
-        hn::Store(hn::OddEvenBlocks(g, hn::SwapAdjacentBlocks(f)), d, to + lanes);
+        const hn::Half<D> half;
+        if constexpr (n < half_lanes)
+            return some_of<count, n>(half, hn::LowerHalf(half, v));
+        else
+            return some_of<count, n - half_lanes>(half, hn::UpperHalf(half, v));
     }
 }
-// Four floats and four behind them, those of record k to place_of_row<8>(k).
-HWY_INLINE void store_rows(const Four<Floats>& f, const Four<Floats>& g, float* to) {
-    const Floats d;
-    const Four<Floats> r = transposed_floats(d, f), s = transposed_floats(d, g);
-    constexpr std::size_t lanes = hn::MaxLanes(Floats());
-    store_by_turns(d, r.a, s.a, to), store_by_turns(d, r.b, s.b, to + 2 * lanes);
-    store_by_turns(d, r.c, s.c, to + 4 * lanes), store_by_turns(d, r.d, s.d, to + 6 * lanes);
-}
+
+// As many records of four or eight floats as a register has lanes: four to four registers as transposed_floats()
+// leaves them, eight to as many, of which two follow each other for records k and k + 4.
 template <int size>
-HWY_INLINE std::size_t place_of_row(std::size_t k) {
-    constexpr std::size_t lanes = hn::MaxLanes(Floats());
-    const std::size_t row = k % 4, block = k / 4;
-    if constexpr (size == 4) return row * lanes + block * 4;
-    return (2 * row + block % 2) * lanes + block / 2 * 8;
+struct FloatRows {
+    hn::Vec<Floats> part[size];
+
+    template <int k>
+    HWY_INLINE Record<size> row() const {
+        return [this]<int... p>(std::integer_sequence<int, p...>) HWY_ATTR {
+            using R = Record<size>;
+            return R{{hn::PromoteTo(typename R::D(),
+                                    some_of<R::lanes, at(k, p * R::lanes) % lanes>(
+                                        Floats(), part[at(k, p * R::lanes) / lanes]))...}};
+        }(std::make_integer_sequence<int, Record<size>::parts>());
+    }
+
+  private:
+    static constexpr int lanes = static_cast<int>(hn::MaxLanes(Floats()));
+    // Where number m of record k is, counted through all registers.
+    static constexpr int at(int k, int m) {
+        const int row = k % 4, block = k / 4;
+        if (size == 4) return row * lanes + block * 4 + m;
+        if (lanes == 4) return 2 * row * lanes + m;
+        return (2 * row + block % 2) * lanes + block / 2 * 8 + m;
+    }
+};
+HWY_INLINE FloatRows<4> float_rows_of(const Four<Floats>& f) {
+    const Four<Floats> r = transposed_floats(Floats(), f);
+    return {{r.a, r.b, r.c, r.d}};
+}
+// The even blocks of both by turns, or the odd ones.
+HWY_INLINE hn::Vec<Floats> even_blocks(hn::Vec<Floats> f, hn::Vec<Floats> g) {
+    if constexpr (hn::MaxLanes(Floats()) == 4)
+        return f;
+    else
+        return hn::OddEvenBlocks(hn::SwapAdjacentBlocks(g), f);
+}
+HWY_INLINE hn::Vec<Floats> odd_blocks(hn::Vec<Floats> f, hn::Vec<Floats> g) {
+    if constexpr (hn::MaxLanes(Floats()) == 4)
+        return g;
+    else
+        return hn::OddEvenBlocks(g, hn::SwapAdjacentBlocks(f));
+}
+HWY_INLINE FloatRows<8> float_rows_of(const Four<Floats>& f, const Four<Floats>& g) {
+    const Four<Floats> r = transposed_floats(Floats(), f), s = transposed_floats(Floats(), g);
+    return {{even_blocks(r.a, s.a), odd_blocks(r.a, s.a), even_blocks(r.b, s.b), odd_blocks(r.b, s.b),
+             even_blocks(r.c, s.c), odd_blocks(r.c, s.c), even_blocks(r.d, s.d), odd_blocks(r.d, s.d)}};
 }
 
 // The other way, into registers.
@@ -209,19 +249,19 @@ HWY_INLINE Rows<4> rows_of(const Four<D>& f) {
     if constexpr (hn::MaxLanes(D()) == 8) {
         const Four<D> r = transposed(d, f);
         const hn::Half<D> half;
-        rows.row[0].part[0] = hn::LowerHalf(half, r.a), rows.row[4].part[0] = hn::UpperHalf(half, r.a);
-        rows.row[1].part[0] = hn::LowerHalf(half, r.b), rows.row[5].part[0] = hn::UpperHalf(half, r.b);
-        rows.row[2].part[0] = hn::LowerHalf(half, r.c), rows.row[6].part[0] = hn::UpperHalf(half, r.c);
-        rows.row[3].part[0] = hn::LowerHalf(half, r.d), rows.row[7].part[0] = hn::UpperHalf(half, r.d);
+        rows.records[0].part[0] = hn::LowerHalf(half, r.a), rows.records[4].part[0] = hn::UpperHalf(half, r.a);
+        rows.records[1].part[0] = hn::LowerHalf(half, r.b), rows.records[5].part[0] = hn::UpperHalf(half, r.b);
+        rows.records[2].part[0] = hn::LowerHalf(half, r.c), rows.records[6].part[0] = hn::UpperHalf(half, r.c);
+        rows.records[3].part[0] = hn::LowerHalf(half, r.d), rows.records[7].part[0] = hn::UpperHalf(half, r.d);
     } else if constexpr (hn::MaxLanes(D()) == 4) {
         const Four<D> r = transposed(d, f);
-        rows.row[0].part[0] = r.a, rows.row[1].part[0] = r.b;
-        rows.row[2].part[0] = r.c, rows.row[3].part[0] = r.d;
+        rows.records[0].part[0] = r.a, rows.records[1].part[0] = r.b;
+        rows.records[2].part[0] = r.c, rows.records[3].part[0] = r.d;
     } else {
-        rows.row[0].part[0] = hn::InterleaveLower(d, f.a, f.b);
-        rows.row[0].part[1] = hn::InterleaveLower(d, f.c, f.d);
-        rows.row[1].part[0] = hn::InterleaveUpper(d, f.a, f.b);
-        rows.row[1].part[1] = hn::InterleaveUpper(d, f.c, f.d);
+        rows.records[0].part[0] = hn::InterleaveLower(d, f.a, f.b);
+        rows.records[0].part[1] = hn::InterleaveLower(d, f.c, f.d);
+        rows.records[1].part[0] = hn::InterleaveUpper(d, f.a, f.b);
+        rows.records[1].part[1] = hn::InterleaveUpper(d, f.c, f.d);
     }
     return rows;
 }
@@ -233,17 +273,17 @@ HWY_INLINE Rows<8> rows_of(const Four<D>& f, const Four<D>& g) {
     if constexpr (hn::MaxLanes(D()) == 8) {
         const D d;
         const Four<D> r = transposed(d, f), s = transposed(d, g);
-        rows.row[0].part[0] = hn::ConcatLowerLower(d, s.a, r.a);
-        rows.row[1].part[0] = hn::ConcatLowerLower(d, s.b, r.b);
-        rows.row[2].part[0] = hn::ConcatLowerLower(d, s.c, r.c);
-        rows.row[3].part[0] = hn::ConcatLowerLower(d, s.d, r.d);
-        rows.row[4].part[0] = hn::ConcatUpperUpper(d, s.a, r.a);
-        rows.row[5].part[0] = hn::ConcatUpperUpper(d, s.b, r.b);
-        rows.row[6].part[0] = hn::ConcatUpperUpper(d, s.c, r.c);
-        rows.row[7].part[0] = hn::ConcatUpperUpper(d, s.d, r.d);
+        rows.records[0].part[0] = hn::ConcatLowerLower(d, s.a, r.a);
+        rows.records[1].part[0] = hn::ConcatLowerLower(d, s.b, r.b);
+        rows.records[2].part[0] = hn::ConcatLowerLower(d, s.c, r.c);
+        rows.records[3].part[0] = hn::ConcatLowerLower(d, s.d, r.d);
+        rows.records[4].part[0] = hn::ConcatUpperUpper(d, s.a, r.a);
+        rows.records[5].part[0] = hn::ConcatUpperUpper(d, s.b, r.b);
+        rows.records[6].part[0] = hn::ConcatUpperUpper(d, s.c, r.c);
+        rows.records[7].part[0] = hn::ConcatUpperUpper(d, s.d, r.d);
     } else {
         const Rows<4> r = rows_of(f), s = rows_of(g);
-        for (int k = 0; k < kLanes; ++k) rows.row[k] = both(r.row[k], s.row[k]);
+        for (int k = 0; k < kLanes; ++k) rows.records[k] = both(r.records[k], s.records[k]);
     }
     return rows;
 }
