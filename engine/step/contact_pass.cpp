@@ -129,7 +129,8 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
                                  &force_,
                                  group.law->rubs,
                                  group.rolling ? &rolling_ : nullptr,
-                                 rounded};
+                                 rounded,
+                                 c < table.sorted()};
     group.of_pairs ? add_pairs(forces, in.grains)
                    : add_walls(forces, loads_, in.walls, in.times.acts, in.grains);
     clock.lap(group.of_pairs ? Cost::gather : Cost::walls);

@@ -80,28 +80,52 @@ HWY_INLINE void each_of(int count, const Work& work) {
     in_turn(std::make_integer_sequence<int, L::count>());
 }
 
-// Contact by contact, in their order.
-template <class L, bool rubs>
+template <int size>
+HWY_INLINE void add(double* load, const Record<size>& more) {
+    put(record_at<size>(load) + more, load);
+}
+template <int size>
+HWY_INLINE void take_off(double* load, const Record<size>& less) {
+    put(record_at<size>(load) - less, load);
+}
+
+// Of sorted contacts a register's second bodies come before all of its first ones: no grain notices, as its
+// contacts as second body precede those as first, and loads that follow each other lie apart (1.3 times as
+// fast as in turn).
+template <class L, bool rubs, bool sorted>
 HWY_INLINE void add_each(const ChunkOfContacts& chunk, Load* loads) {
-    constexpr int size = rubs ? 8 : 4;
     for (int c = 0; c < chunk.count; c += L::count) {
         chunk.touch->fetch_some();
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
-        const auto lost = by_contact<rubs>(p.force, p.first_loses);
         const auto gained = by_contact<rubs>(p.force, p.second_gains);
+        const auto lost = by_contact<rubs>(p.force, p.first_loses);
         const std::int32_t *const firsts = chunk.first + c, *const seconds = chunk.second + c;
-        each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
-            double* from = numbers(loads[firsts[k]]);
-            put(record_at<size>(from) - lost.template row<k>(), from);
-            double* to = numbers(loads[seconds[k]]);
-            put(record_at<size>(to) + gained.template row<k>(), to);
-        });
+        const auto second = [&]<int k>() HWY_ATTR {
+            add(numbers(loads[seconds[k]]), gained.template row<k>());
+        };
+        const auto first = [&]<int k>() HWY_ATTR {
+            take_off(numbers(loads[firsts[k]]), lost.template row<k>());
+        };
+        if constexpr (sorted) {
+            each_of<L>(chunk.count - c, second);
+            each_of<L>(chunk.count - c, first);
+        } else {
+            each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
+                first.template operator()<k>();
+                second.template operator()<k>();
+            });
+        }
     }
+}
+
+template <class L, bool rubs>
+void pairs_of(const ChunkOfContacts& chunk, Load* loads) {
+    chunk.sorted ? add_each<L, rubs, true>(chunk, loads) : add_each<L, rubs, false>(chunk, loads);
 }
 
 template <class L>
 void pairs_at(const ChunkOfContacts& chunk, Load* loads) {
-    chunk.rubs ? add_each<L, true>(chunk, loads) : add_each<L, false>(chunk, loads);
+    chunk.rubs ? pairs_of<L, true>(chunk, loads) : pairs_of<L, false>(chunk, loads);
 }
 
 void pairs(const ChunkOfContacts& chunk, Grains& grains) {
@@ -111,7 +135,6 @@ void pairs(const ChunkOfContacts& chunk, Grains& grains) {
 
 template <class L, bool rubs>
 void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains) {
-    constexpr int size = rubs ? 8 : 4;
     for (int c = 0; c < chunk.count; c += L::count) {
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
         store_as(p.force.x, scratch.force[0] + c);
@@ -120,8 +143,7 @@ void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains
         const auto lost = by_contact<rubs>(p.force, p.first_loses);
         each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
             if (!chunk.touch->touches(c + k)) return;
-            double* from = numbers(grains.load[chunk.first[c + k]]);
-            put(record_at<size>(from) - lost.template row<k>(), from);
+            take_off(numbers(grains.load[chunk.first[c + k]]), lost.template row<k>());
         });
     }
 }

@@ -23,9 +23,10 @@ struct ChunkOfContacts {
     bool rubs;
     const RollingChunk* rolling;  // nullptr where rolling meets no resistance
     bool rounded;                 // rows hold floats
+    bool sorted = false;          // by rising first body, which is lower than the second
 };
 
-// Adds them to the loads of their grains.
+// Adds them to the loads of their grains: each grain's one after the other, in the contacts' order.
 void add_pairs(const ChunkOfContacts& chunk, Grains& grains);
 // Of grains and walls: to the grains' loads, and what moving walls do to the work.
 void add_walls(const ChunkOfContacts& chunk, LoadScratch& scratch, const WallState& walls, double step,
