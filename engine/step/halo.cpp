@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/base/prefetch.hpp"
 #include "engine/laws/law_kernel.hpp"
 
 namespace grainreel {
@@ -65,7 +66,7 @@ void Halo::put(const Grains& grains, int owner, int box) {
     double* const begin = box_[box].data()->number;
     for (std::int32_t k = part_[owner]; k < part_[owner + 1]; ++k) {
         double* const to = begin + static_cast<std::ptrdiff_t>(k) * numbers;
-        __builtin_prefetch(to + kAhead, 1);
+        fetch_to_write(to + kAhead);
         const std::int32_t i = foreign_[k];
         std::memcpy(to, grains.place[i].position.data(), kPosition * sizeof(double));
         if (!grains.rounded.empty()) {
