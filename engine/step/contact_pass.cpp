@@ -66,12 +66,12 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
 template <class Work>
 void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                           const ContactTable& table, const Grains& grains,
-                                          const WallState& state, Halo* halo, const Work& work) {
+                                          const WallState& state, const FoundPairs* found, const Work& work) {
     for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
         Chunk chunk{table.near_first() + c, table.near_second() + c,
                     std::min(kChunk, table.candidates() - c)};
-        if (halo && group.of_pairs) {
-            const auto [first, second] = halo->find(chunk.first, chunk.second, chunk.count);
+        if (found) {
+            const auto [first, second] = found->of(table.near_first(), table.near_second(), c);
             chunk.first = first, chunk.second = second;
         }
         if (group.of_pairs && is_large_bed(grains)) fetch_places(grains, table, c);
@@ -83,9 +83,9 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
                           const Times& times, Vanguard& vanguard, CostClock& clock) {
     for (std::size_t g = tables_.size(); g-- > 0;) {
         ContactTable& table = tables_[g];
-        const Step in{rules, rules.groups[g], grains, state, times};
+        const Step in{rules, g, rules.groups[g], grains, state, times};
         table.begin_step();
-        each_touching_candidate(rules, in.group, table, grains, state, &halo_,
+        each_touching_candidate(rules, in.group, table, grains, state, &found_[g].candidates,
                                 [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
         table.end_step();
         compute_stretch(in, table, table.late(), table.size(), nullptr, clock);
@@ -106,6 +106,14 @@ void ContactPass::compute_stretch(const Step& in, ContactTable& table, std::int3
     }
 }
 
+// Where to read those of the contacts from c on.
+Halo::Bodies ContactPass::bodies_of(std::size_t g, const ContactGroup& group, std::int32_t c, int count) {
+    const ContactTable& table = tables_[g];
+    if (c < table.sorted()) return found_[g].contacts.of(table.first(), table.second(), c);
+    const Halo::Bodies listed{table.first() + c, table.second() + c};
+    return group.of_pairs ? halo_.find(listed.first, listed.second, count) : listed;
+}
+
 void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_t c, int count,
                                 CostClock& clock) {
     const ContactGroup& group = in.group;
@@ -114,8 +122,7 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
     const bool large = group.of_pairs && c < table.sorted() && is_large_bed(in.grains);
     touch_.ahead = large ? &ahead_ : nullptr;
     if (large) look_ahead(in.grains, rounded, table, c, count, ahead_);
-    const Halo::Bodies bodies = group.of_pairs ? halo_.find(chunk.first, chunk.second, count)
-                                               : Halo::Bodies{chunk.first, chunk.second};
+    const Halo::Bodies bodies = bodies_of(in.g, group, c, count);
     const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, bodies, rounded);
     table.note_touching(c, touch_.touching);
     void* history = table.histories().of_block(c);

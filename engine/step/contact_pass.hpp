@@ -94,6 +94,7 @@ class ContactPass {
     };
     struct Step {
         const ContactRules& rules;
+        std::size_t g;
         const ContactGroup& group;
         Grains& grains;
         const WallState& walls;
@@ -110,11 +111,12 @@ class ContactPass {
                         KeptContacts& leaving);
     static std::uint64_t which_touch(const ContactRules& rules, const ContactGroup& group,
                                      const Grains& grains, const WallState& state, const Chunk& chunk);
-    // halo: where other threads' grains are read; nullptr to read them where they are.
+    // found: where other threads' grains are read; nullptr to read them where they are.
     template <class Work>
     static void each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                         const ContactTable& table, const Grains& grains,
-                                        const WallState& state, Halo* halo, const Work& work);
+                                        const WallState& state, const FoundPairs* found, const Work& work);
+    Halo::Bodies bodies_of(std::size_t g, const ContactGroup& group, std::int32_t c, int count);
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                      const WallState& state, const Times& times, const Chunk& chunk,
                      const Halo::Bodies& bodies, bool rounded) const;
@@ -131,6 +133,10 @@ class ContactPass {
     };
     std::vector<Pair> incoming_;  // listed pairs of an earlier thread's grain and an own one
     Halo halo_;
+    struct Found {
+        FoundPairs contacts, candidates;  // the sorted contacts
+    };
+    std::vector<Found> found_;  // one a group
     mutable TouchChunk touch_;
     mutable ForceChunk force_;
     mutable RollingChunk rolling_;

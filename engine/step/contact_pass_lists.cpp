@@ -119,6 +119,7 @@ void ContactPass::own(const ContactRules& rules, const NeighbourLists& lists, st
         for (std::int32_t at = list.start[i]; at < list.start[i + 1]; ++at) halo_.need(list.partner[at]);
     if (tables_.size() == rules.groups.size()) return;
     tables_.resize(rules.groups.size());
+    found_.resize(rules.groups.size());
     for (std::size_t g = 0; g < tables_.size(); ++g)
         tables_[g].shape(rules.groups[g].history_size(), rules.groups[g].number_size());
 }
@@ -139,6 +140,12 @@ void ContactPass::list_foreign(const ContactRules& rules, Grains& grains, const 
         need(table.near_second(), 0, table.candidates());
     }
     halo_.end_list(grains, shares);
+    for (std::size_t g = 0; g < tables_.size(); ++g) {
+        const ContactTable& table = tables_[g];
+        if (!rules.groups[g].of_pairs) continue;
+        found_[g].contacts.set(halo_, table.first(), table.second(), table.sorted());
+        found_[g].candidates.set(halo_, table.near_first(), table.near_second(), table.candidates());
+    }
 }
 
 void ContactPass::list_near_pairs(const ContactRules& rules, const Grains& grains, const NeighbourList& list,

@@ -101,8 +101,8 @@ void ContactTable::order_contacts(LargeArray<std::int32_t>& order) {
         order[to] = old >= 0 && less(young_[young], order[old]) ? order[old--] : young_[young--];
 }
 
-// Array by array, so that what has kept its neighbourhood is read line after line. (In place, along the cycles
-// of the permutation, a million's took a tenth of its time.)
+// Array by array, so that what has kept its neighbourhood is read line after line. (In place, along the
+// cycles of the permutation, a million's took a tenth of its time.)
 void ContactTable::permute(const LargeArray<std::int32_t>& order) {
     reorder_.set(order);
     for (auto* bodies : {&first_, &second_}) {

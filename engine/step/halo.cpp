@@ -110,6 +110,20 @@ Halo::Bodies Halo::find_foreign(const std::int32_t* first, const std::int32_t* s
     return {first_, second_};
 }
 
+void FoundPairs::set(Halo& halo, const std::int32_t* first, const std::int32_t* second, std::int32_t count) {
+    at_.clear(), first_.clear(), second_.clear();
+    if (!halo.has_foreign()) return;
+    for (std::int32_t c = 0; c < count; c += kChunk) {
+        const int many = std::min(kChunk, count - c), filled = (many + kBlock - 1) / kBlock * kBlock;
+        const Halo::Bodies bodies = halo.find(first + c, second + c, many);
+        const bool as_listed = bodies.first == first + c;
+        at_.push_back(as_listed ? kAsListed : static_cast<std::int32_t>(first_.size()));
+        if (as_listed) continue;
+        first_.insert(first_.end(), bodies.first, bodies.first + filled);
+        second_.insert(second_.end(), bodies.second, bodies.second + filled);
+    }
+}
+
 void reserve_copies(Grains& grains, std::int32_t count) {
     const auto reserve = [count](auto& array) {
         const std::size_t wanted = array.size() + count;

@@ -54,6 +54,8 @@ class alignas(64) Halo {
         return find_foreign(first, second, count);
     }
 
+    bool has_foreign() const { return !foreign_.empty(); }
+
   private:
     struct alignas(64) Line {
         double number[8];
@@ -73,6 +75,23 @@ class alignas(64) Halo {
     std::vector<std::int32_t> part_;       // a thread: where its grains begin in foreign_
     std::array<LargeArray<Line>, 2> box_;  // grain by grain
     alignas(64) std::int32_t first_[kChunk] = {}, second_[kChunk] = {};
+};
+
+// A list of pairs as find() has it, worked out once for as long as the list stays.
+class FoundPairs {
+  public:
+    void set(Halo& halo, const std::int32_t* first, const std::int32_t* second, std::int32_t count);
+    // The chunk of the list from c on, a multiple of kChunk.
+    Halo::Bodies of(const std::int32_t* first, const std::int32_t* second, std::int32_t c) const {
+        const std::int32_t at = at_.empty() ? kAsListed : at_[c / kChunk];
+        if (at == kAsListed) return {first + c, second + c};
+        return {first_.data() + at, second_.data() + at};
+    }
+
+  private:
+    static constexpr std::int32_t kAsListed = -1;
+    std::vector<std::int32_t> at_;              // of each chunk: where it stands in the following
+    std::vector<std::int32_t> first_, second_;  // of the chunks that have foreign bodies
 };
 
 // Room for so many copies.

@@ -100,12 +100,10 @@ HWY_INLINE void add_each(const ChunkOfContacts& chunk, Load* loads) {
         const auto gained = by_contact<rubs>(p.force, p.second_gains);
         const auto lost = by_contact<rubs>(p.force, p.first_loses);
         const std::int32_t *const firsts = chunk.first + c, *const seconds = chunk.second + c;
-        const auto second = [&]<int k>() HWY_ATTR {
-            add(numbers(loads[seconds[k]]), gained.template row<k>());
-        };
-        const auto first = [&]<int k>() HWY_ATTR {
-            take_off(numbers(loads[firsts[k]]), lost.template row<k>());
-        };
+        const auto second = [&]<int k>()
+                                HWY_ATTR { add(numbers(loads[seconds[k]]), gained.template row<k>()); };
+        const auto first = [&]<int k>()
+                               HWY_ATTR { take_off(numbers(loads[firsts[k]]), lost.template row<k>()); };
         if constexpr (sorted) {
             each_of<L>(chunk.count - c, second);
             each_of<L>(chunk.count - c, first);

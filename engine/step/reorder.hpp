@@ -1,5 +1,5 @@
-// Brings what contacts have, number by number, into a new order: most of them stood side by side before and do
-// so after, and go a block at a time.
+// Brings what contacts have, number by number, into a new order: most of them stood side by side before and
+// do so after, and go a block at a time.
 #pragma once
 
 #include <algorithm>

@@ -80,7 +80,7 @@ HWY_INLINE Record<4> record_of(double a, double b, double c, double d) {
     return {{hn::Set(one, a), hn::Set(one, b), hn::Set(one, c), hn::Set(one, d)}};
 }
 #else
-template <class Four = Record<4>>
+template <class Four = Record<4> >
 HWY_INLINE Four record_of(double a, double b, double c, double d) {
     const hn::FixedTag<double, 2> two;
     const auto low = hn::InterleaveLower(two, hn::Set(two, a), hn::Set(two, b));

@@ -192,8 +192,8 @@ HWY_INLINE auto some_of(D, hn::Vec<D> v) {
     }
 }
 
-// As many records of four or eight floats as a register has lanes: four to four registers as transposed_floats()
-// leaves them, eight to as many, of which two follow each other for records k and k + 4.
+// As many records of four or eight floats as a register has lanes: four to four registers as
+// transposed_floats() leaves them, eight to as many, of which two follow each other for records k and k + 4.
 template <int size>
 struct FloatRows {
     hn::Vec<Floats> part[size];
@@ -202,10 +202,10 @@ struct FloatRows {
     HWY_INLINE Record<size> row() const {
         return [this]<int... p>(std::integer_sequence<int, p...>) HWY_ATTR {
             using R = Record<size>;
-            return R{{hn::PromoteTo(typename R::D(),
-                                    some_of<R::lanes, at(k, p * R::lanes) % lanes>(
-                                        Floats(), part[at(k, p * R::lanes) / lanes]))...}};
-        }(std::make_integer_sequence<int, Record<size>::parts>());
+            return R{{hn::PromoteTo(typename R::D(), some_of<R::lanes, at(k, p * R::lanes) % lanes>(
+                                                         Floats(), part[at(k, p * R::lanes) / lanes]))...}};
+        }
+        (std::make_integer_sequence<int, Record<size>::parts>());
     }
 
   private:
@@ -249,10 +249,14 @@ HWY_INLINE Rows<4> rows_of(const Four<D>& f) {
     if constexpr (hn::MaxLanes(D()) == 8) {
         const Four<D> r = transposed(d, f);
         const hn::Half<D> half;
-        rows.records[0].part[0] = hn::LowerHalf(half, r.a), rows.records[4].part[0] = hn::UpperHalf(half, r.a);
-        rows.records[1].part[0] = hn::LowerHalf(half, r.b), rows.records[5].part[0] = hn::UpperHalf(half, r.b);
-        rows.records[2].part[0] = hn::LowerHalf(half, r.c), rows.records[6].part[0] = hn::UpperHalf(half, r.c);
-        rows.records[3].part[0] = hn::LowerHalf(half, r.d), rows.records[7].part[0] = hn::UpperHalf(half, r.d);
+        rows.records[0].part[0] = hn::LowerHalf(half, r.a),
+        rows.records[4].part[0] = hn::UpperHalf(half, r.a);
+        rows.records[1].part[0] = hn::LowerHalf(half, r.b),
+        rows.records[5].part[0] = hn::UpperHalf(half, r.b);
+        rows.records[2].part[0] = hn::LowerHalf(half, r.c),
+        rows.records[6].part[0] = hn::UpperHalf(half, r.c);
+        rows.records[3].part[0] = hn::LowerHalf(half, r.d),
+        rows.records[7].part[0] = hn::UpperHalf(half, r.d);
     } else if constexpr (hn::MaxLanes(D()) == 4) {
         const Four<D> r = transposed(d, f);
         rows.records[0].part[0] = r.a, rows.records[1].part[0] = r.b;
