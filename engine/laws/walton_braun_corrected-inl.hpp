@@ -28,17 +28,19 @@ struct WaltonBraunCorrected {
     template <class R>
     struct Parameters {
         R loading;     // N/m, K1
+        R compliance;  // m/N, 1 / K1
         R give_back;   // m/N, e^2 / K1
         R loss_share;  // (1 - e^2) / 4
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit(loading), visit(give_back), visit(loss_share);
+            visit(loading), visit(compliance), visit(give_back), visit(loss_share);
         }
     };
     static Parameters<double> from(const PairPlan& plan) {
         const double lost = 1 - plan.loading_stiffness / plan.unloading_stiffness;
-        return {plan.loading_stiffness, 1 / plan.unloading_stiffness, 0.25 * lost};
+        return {plan.loading_stiffness, 1 / plan.loading_stiffness, 1 / plan.unloading_stiffness,
+                0.25 * lost};
     }
 
     template <class R>
@@ -57,30 +59,38 @@ struct WaltonBraunCorrected {
     template <class R>
     static HWY_INLINE R touched(const History<R>& h, const Touch<R>& touch) {
         const R v = touch.closing_speed, dt = touch.step;
+        const auto begins = h.largest_overlap == R(0);
+        if (none(begins)) return dt;
         const R since = select(v > R(0), smaller(dt, touch.overlap / v), dt);
-        return select(h.largest_overlap == R(0), since, dt);
+        return select(begins, since, dt);
     }
-    // N, >= 0: over the step about the time of this overlap.
+    // N, >= 0: over the step about the time of this overlap. (Divisions and roots were most of its time:
+    // masses and stiffnesses divide by their inverses, and what only some contacts want waits until one
+    // does.)
     template <class R>
     static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
-        const R m = touch.effective_mass, dt = touch.step, v = touch.closing_speed, a = touch.overlap;
+        const R by_mass = touch.inverse_mass, dt = touch.step, by_step = R(1) / dt;
+        const R v = touch.closing_speed, a = touch.overlap;
         const R met = touched(h, touch);
         const auto loads = a > h.largest_overlap;
-        h.softness = p.give_back + p.loss_share * dt * dt / m;
+        h.softness = p.give_back + p.loss_share * dt * dt * by_mass;
         h.largest_overlap = select(loads, a, larger(h.largest_overlap, h.peak));
 
         const R spring = now(p, h, touch);
         const R before = R(0.5) * spring * met;  // N s, up to now
-        const R speed = v - before / m;          // m/s, now
-        h.peak = select(loads, root(a * a + m * speed * speed / p.loading), h.peak);
-
+        const R speed = v - before * by_mass;    // m/s, now
+        if (!none(loads)) {
+            const R peak = root(a * a + speed * speed * (p.compliance / by_mass));
+            h.peak = select(loads, peak, h.peak);
+        }
         const R whole = before + R(0.5) * spring * dt;  // N s, of the step
         const R rest = a - residual(p, h);              // m, to the end of the force
-        const R exit = root(speed * speed + spring * spring * h.softness / m);
-        const auto leaves = rest + dt * (v - whole / m) < R(0);
-        const R impulse = select(leaves, m * (v + exit), whole);
-        const R over_the_step = select(dt > R(0), larger(R(0), impulse) / dt, spring);
-        return select(spring > R(0), over_the_step, R(0));
+        const auto steps = dt > R(0), leaves = (rest + dt * (v - whole * by_mass) < R(0)) & (spring > R(0));
+        const R over_the_step = select(steps, whole * by_step, spring);
+        if (none(leaves)) return over_the_step;
+        const R exit = root(speed * speed + spring * spring * h.softness * by_mass);
+        const R impulse = (v + exit) / by_mass;
+        return select(leaves & steps, larger(R(0), impulse) * by_step, over_the_step);
     }
     template <class R>
     static HWY_INLINE R now(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch) {

@@ -132,6 +132,9 @@ HWY_INLINE T size_of(T a) {
 HWY_INLINE bool differ(bool a, bool b) {
     return a != b;
 }
+HWY_INLINE bool none(bool m) {
+    return !m;
+}
 HWY_INLINE bool all(bool m) {
     return m;
 }

@@ -20,6 +20,7 @@ struct TwiceMask {
     friend HWY_INLINE TwiceMask differ(TwiceMask x, TwiceMask y) {
         return {differ(x.a, y.a), differ(x.b, y.b)};
     }
+    friend HWY_INLINE bool none(TwiceMask m) { return none(m.a) && none(m.b); }
     friend HWY_INLINE bool all(TwiceMask m) { return all(m.a) && all(m.b); }
 };
 

@@ -91,11 +91,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Golden{"bed10k", 400, Precision::full, 40000, 0xbb5cff16ae729df4, 0x15dfccf63fe2fcff},
         Golden{"bed10k", 400, Precision::mixed, 40000, 0xbff1417a0a1d2d34, 0x05d2c6675ec5985b},
-        Golden{"bed10k-walton-braun", 400, Precision::full, 40000, 0x52bc244fd12eb51b, 0xf95faf32e9750084},
-        Golden{"frictionless", 400, Precision::full, 40000, 0x05fcfcc85df8de7f, 0xf26cec6d7a280111},
-        Golden{"wedge", 405, Precision::full, 40000, 0xb89b0df9946aba60, 0xd33796c3be590ae8},
-        Golden{"intruder", 1000, Precision::full, 25000, 0x34d101717dd585c2, 0xcc42f8bd7304eb0e},
-        Golden{"gas", 400, Precision::full, 12000, 0xdd0b6831c0b76bca, 0xbe4d5d91f3a1d93c}),
+        Golden{"bed10k-walton-braun", 400, Precision::full, 40000, 0xd722e947576950f2, 0xc032cd1da1a670d4},
+        Golden{"frictionless", 400, Precision::full, 40000, 0x83bf472d536d5b58, 0xd42c083f2b41e747},
+        Golden{"wedge", 405, Precision::full, 40000, 0xc16e1796a1087a7e, 0xc957bbedf036a172},
+        Golden{"intruder", 1000, Precision::full, 25000, 0x65125f8dd8385b5b, 0x46ac9bcf6c6ab2aa},
+        Golden{"gas", 400, Precision::full, 12000, 0x457e0171d99903e1, 0xb3a7146bba5cafdf}),
     [](const auto& one) {
         std::string name = one.param.name;
         std::replace(name.begin(), name.end(), '-', '_');

@@ -243,7 +243,9 @@ duration = 1
 
 TEST(StabilityHealth, StopsAColumnWhoseStepIsTooLong) {
     EXPECT_EQ(complaint(column()), "");
-    EXPECT_EQ(complaint(column(), {step_of(0.8)}), "");
+    // From 0.80 on some columns gain energy, by their rounding: of twelve a tenth of a micrometre apart none
+    // at 0.80, three or four at 0.805, all at 0.82.
+    EXPECT_EQ(complaint(column(), {step_of(0.79)}), "");
     EXPECT_THAT(complaint(column(), {step_of(1.1)}),
                 AllOf(HasSubstr("step "), HasSubstr("(ball) at ("), HasSubstr("take a smaller run.step")));
 }
