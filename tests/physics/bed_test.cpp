@@ -11,6 +11,7 @@
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/step/neighbours.hpp"
+#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -58,13 +59,6 @@ Simulation packed(const Scene& scene, const Plan& plan, int threads) {
     Simulation simulation(scene, plan, threads);
     simulation.pack();
     return simulation;
-}
-
-std::filesystem::path scratch(const std::string& name) {
-    const auto folder =
-        std::filesystem::temp_directory_path() / ("grainreel-bed-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder);
-    return folder / name;
 }
 
 TEST(Layers, PutBigGrainsBelowSmallOnesInsideTheContainer) {
@@ -249,12 +243,13 @@ TEST(Determinism, SeedsDiffer) {
 }
 
 TEST(Checkpoint, GoesOnBitByBit) {
+    const test::TemporaryFolder folder;
     for (const char* law : {"walton-braun", "spring-dashpot"}) {
         Scene scene = scene_of({std::string("contact.law=\"") + law + "\""});
         const Plan plan = make_plan(scene);
         Simulation whole = packed(scene, plan, 1);
         whole.advance(1234);
-        const auto file = scratch("go-on.grs");
+        const auto file = folder / "go-on.grs";
         whole.save_checkpoint(file);
         whole.advance(4321);
         scene.start.method = Start::Method::file;
@@ -269,9 +264,10 @@ TEST(Checkpoint, GoesOnBitByBit) {
 }
 
 TEST(Checkpoint, RefusesAnotherPlanAndADamagedFile) {
+    const test::TemporaryFolder folder;
     Scene scene = scene_of();
     Simulation simulation = packed(scene, make_plan(scene), 1);
-    const auto file = scratch("refuse.grs");
+    const auto file = folder / "refuse.grs";
     simulation.save_checkpoint(file);
     const auto message = [&](Scene s) {
         s.start.method = Start::Method::file;
