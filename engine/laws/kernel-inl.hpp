@@ -42,9 +42,11 @@ struct StoreHistory : Visitor<StoreHistory<L>> {
 
 template <class L>
 struct SameParameters : Visitor<SameParameters<L>> {
+    std::ptrdiff_t kinds;
     mutable const NumberOf<L>* at;
-    explicit SameParameters(const LawParameters& p) : at(p.numbers<NumberOf<L>>()) {}
-    HWY_INLINE void operator()(L& x) const { x = L(static_cast<double>(*at++)); }
+    SameParameters(const LawParameters& p, std::int32_t kind)
+        : kinds(p.kinds), at(p.numbers<NumberOf<L>>() + kind) {}
+    HWY_INLINE void operator()(L& x) const { x = L(static_cast<double>(*at)), at += kinds; }
 };
 
 template <class L>
@@ -151,7 +153,7 @@ template <class Law, class L, bool one_kind>
 void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
     using Number = NumberOf<L>;
     typename Law::template Parameters<L> p;
-    if constexpr (one_kind) p.each(SameParameters<L>(*in.parameters));
+    if constexpr (one_kind) p.each(SameParameters<L>(*in.parameters, in.kind[0]));
     const L step(in.step), ahead(in.ahead);
     for (int c = 0; c < in.count; c += L::count) {
         in.touch->fetch_some();
@@ -172,13 +174,20 @@ void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
     }
 }
 
+HWY_INLINE bool of_one_kind(const LawInput& in) {
+    std::int32_t others = 0;
+    for (int c = 0; c < in.count; ++c) others |= in.kind[c] ^ in.kind[0];
+    return others == 0;
+}
+
 template <class Law, class L>
 void step_any(const LawInput& in, void* history, ForceChunk& out) {
     auto* numbers = static_cast<NumberOf<L>*>(history);
     // There must be registers for two: AVX-512 has. (With floats two were no faster than one.)
     using Most = std::conditional_t<kLanes == 8 && L::count == 8, Twice<L>, L>;
-    in.parameters->kinds == 1 ? step_chunk<Law, Most, true>(in, numbers, out)
-                              : step_chunk<Law, L, false>(in, numbers, out);
+    // (A large grain among small ones: nearly all chunks are of one kind, and take a tenth less time so.)
+    in.parameters->kinds == 1 || of_one_kind(in) ? step_chunk<Law, Most, true>(in, numbers, out)
+                                                 : step_chunk<Law, L, false>(in, numbers, out);
 }
 
 template <class L>
