@@ -153,7 +153,8 @@ template <class Law, class L, bool one_kind>
 void step_chunk(const LawInput& in, NumberOf<L>* history, ForceChunk& out) {
     using Number = NumberOf<L>;
     typename Law::template Parameters<L> p;
-    if constexpr (one_kind) p.each(SameParameters<L>(*in.parameters, in.kind[0]));
+    if constexpr (one_kind)
+        p.each(SameParameters<L>(*in.parameters, in.parameters->kinds == 1 ? 0 : in.kind[0]));
     const L step(in.step), ahead(in.ahead);
     for (int c = 0; c < in.count; c += L::count) {
         in.touch->fetch_some();
