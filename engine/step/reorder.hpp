@@ -17,7 +17,7 @@ class Reorder {
   public:
     void reserve(std::size_t contacts) {
         together_.reserve(contacts / kBlock + 1);
-        room_.reserve(contacts / kLine + 1);
+        room_.reserve(contacts / kLine + 2);
     }
     // Contact order[c] is to come to c. `order` must outlive the moves.
     void set(const LargeArray<std::int32_t>& order) {
