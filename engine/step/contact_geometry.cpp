@@ -5,26 +5,10 @@
 #include "engine/vector/targets.hpp"
 //
 #include "engine/laws/row-inl.hpp"
-#include "engine/vector/records-inl.hpp"
+#include "engine/step/places-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
-
-template <class Records>
-HWY_INLINE const double* numbers(const Records& records) {
-    return reinterpret_cast<const double*>(records.data());
-}
-
-template <class D>
-HWY_INLINE Triple<LanesOf<D>> triple(const Four<D>& f) {
-    return {LanesOf<D>(f.a), LanesOf<D>(f.b), LanesOf<D>(f.c)};
-}
-
-HWY_INLINE Lanes nearest(Lanes x, Lanes period) {
-    const Lanes half = period * Lanes(0.5);
-    const Lanes low = select(x > half, x - period, x);
-    return select(x < -half, x + period, low);
-}
 
 // Of i's surface against j's, the centres' velocity and the spins' share of it being those of the middle of
 // the step, k that of its end. In the middle it was k + change: the velocity is taken with that and given

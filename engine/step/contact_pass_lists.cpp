@@ -17,26 +17,52 @@ class NearPairs {
         : grains_(grains), period_(period), gap_(gap), pass_(pass) {}
     void add(std::int32_t i, std::int32_t j) {
         first_[count_] = i, second_[count_] = j;
-        if (++count_ == kChunk) flush();
+        if (++count_ == kChunk) pass_chunk();
+    }
+    // A grain's partners, which it copies eight by eight, so that how many they are need not be predicted.
+    // What is behind them can be read up to `end`.
+    void add(std::int32_t i, const std::int32_t* partner, std::int32_t partners, const std::int32_t* end) {
+        if (end - partner < partners + kMore) {
+            for (std::int32_t k = 0; k < partners; ++k) add(i, partner[k]);
+            return;
+        }
+        for (std::int32_t k = 0; k < partners; k += kMore) {
+            std::fill_n(first_ + count_, kMore, i);
+            std::copy_n(partner + k, kMore, second_ + count_);
+            count_ += std::min(kMore, partners - k);
+            if (count_ >= kChunk) pass_chunk();
+        }
     }
     void flush() {
         // Up to a whole register, with what this thread may read.
         for (int k = count_; k > 0 && k % kBlock != 0; ++k)
             first_[k] = first_[k - 1], second_[k] = second_[k - 1];
-        std::uint64_t left = near_pairs(grains_, first_, second_, count_, period_, gap_);
-        left &= bits_of_first(count_);
-        for (; left != 0; left &= left - 1) {
-            const int k = std::countr_zero(left);
-            pass_(first_[k], second_[k]);
-        }
+        pass_near(count_);
         count_ = 0;
     }
 
   private:
+    static constexpr int kMore = 8;
+
+    void pass_chunk() {
+        pass_near(kChunk);
+        std::copy_n(first_ + kChunk, kMore, first_);
+        std::copy_n(second_ + kChunk, kMore, second_);
+        count_ -= kChunk;
+    }
+    void pass_near(int count) {
+        std::uint64_t left = near_pairs(grains_, first_, second_, count, period_, gap_);
+        left &= bits_of_first(count);
+        for (; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            pass_(first_[k], second_[k]);
+        }
+    }
+
     const Grains& grains_;
     const double period_, gap_;
     const Pass& pass_;
-    std::int32_t first_[kChunk] = {}, second_[kChunk] = {};
+    std::int32_t first_[kChunk + kMore] = {}, second_[kChunk + kMore] = {};
     int count_ = 0;
 };
 
@@ -158,10 +184,9 @@ void ContactPass::list_near_pairs(const ContactRules& rules, const Grains& grain
     };
     NearPairs pairs(grains, rules.period, skin, sort_in);
     for (const Pair& pair : incoming_) pairs.add(pair.first, pair.second);
-    for (std::int32_t i = begin_; i < end_; ++i) {
-        for (std::int32_t at = list.start[i], last = list.start[i + 1]; at < last; ++at)
-            pairs.add(i, list.partner[at]);
-    }
+    const std::int32_t *const start = list.start.data(), *const partner = list.partner.data();
+    for (std::int32_t i = begin_; i < end_; ++i)
+        pairs.add(i, partner + start[i], start[i + 1] - start[i], partner + list.partner.size());
     pairs.flush();
 }
 

@@ -53,10 +53,14 @@ void ContactTable::reserve(std::size_t room) {
     touching_.reserve(room / 64 + 1);
 }
 
-void ContactTable::reserve_candidates() {
-    const std::size_t room = (near_second_.size() * 9 / 8 + 64) / kBlock * kBlock;
-    near_first_.reserve(room);
-    near_second_.reserve(room);
+void ContactTable::make_room_for_candidates() {
+    if (near_second_.size() == near_second_.capacity()) {
+        const std::size_t room = (near_second_.size() * 9 / 8 + 64) / kBlock * kBlock;
+        near_first_.reserve(room);
+        near_second_.reserve(room);
+    }
+    near_second_.resize(near_second_.capacity());
+    near_first_.resize(near_second_.size());
 }
 
 // What stands behind the last contact repeats it, so that all that is read makes sense.
@@ -113,28 +117,17 @@ void ContactTable::permute(const LargeArray<std::int32_t>& order) {
 }
 
 void ContactTable::begin_candidates() {
-    near_first_.clear();
-    near_second_.clear();
+    near_first_.resize(near_second_.size());  // it has held the order
+    candidates_ = 0;
     cursor_ = 0;
 }
 
-bool ContactTable::holds(std::int32_t i, std::int32_t j) {
-    while (cursor_ < sorted_ && first_[cursor_] < i) ++cursor_;
-    for (std::int32_t c = cursor_; c < sorted_ && first_[c] == i; ++c) {
-        if (second_[c] == j) return true;
-    }
-    for (std::int32_t c = sorted_; c < size_; ++c) {  // of a loaded checkpoint only
-        if (first_[c] == i && second_[c] == j) return true;
-    }
-    return false;
-}
-
 void ContactTable::end_candidates() {
-    candidates_ = static_cast<std::int32_t>(near_first_.size());
-    while (near_first_.size() % kBlock != 0) {
-        near_first_.push_back(near_first_.back());
-        near_second_.push_back(near_second_.back());
-    }
+    const std::size_t room = (candidates_ + kBlock - 1) / kBlock * kBlock;
+    near_first_.resize(room);
+    near_second_.resize(room);
+    for (std::size_t c = candidates_; c < room; ++c)
+        near_first_[c] = near_first_[c - 1], near_second_[c] = near_second_[c - 1];
     admitted_.assign((candidates_ + 63) / 64, 0);
 }
 

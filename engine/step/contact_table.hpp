@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "engine/step/histories.hpp"
@@ -47,13 +48,14 @@ class ContactTable {
     // Drops what does not touch and sorts the rest; candidates are void.
     void sort();
 
-    // New candidates: begin_candidates(), then offer() pairs by rising i, then end_candidates(). A pair that
-    // has its place among the contacts is none.
+    // New candidates: begin_candidates(), then offer() pairs by rising i and j, then end_candidates(). A pair
+    // that has its place among the contacts is none.
     void begin_candidates();
     void offer(std::int32_t i, std::int32_t j) {
-        if (holds(i, j)) return;
-        if (near_second_.size() == near_second_.capacity()) reserve_candidates();
-        near_first_.push_back(i), near_second_.push_back(j);
+        if (candidates_ == std::ssize(near_second_)) make_room_for_candidates();
+        // No branch to mispredict: every pair is written, and the next one overwrites what is a contact.
+        near_first_[candidates_] = i, near_second_[candidates_] = j;
+        candidates_ += !holds(i, j);
     }
     void end_candidates();
     std::int32_t candidates() const { return candidates_; }
@@ -96,9 +98,25 @@ class ContactTable {
   private:
     void add(std::int32_t i, std::int32_t j);
     void reserve(std::size_t room);
-    void reserve_candidates();
+    void make_room_for_candidates();
     void add_candidates(std::int32_t c, std::uint64_t which);
-    bool holds(std::int32_t i, std::int32_t j);
+    static std::uint64_t key(std::int32_t i, std::int32_t j) {
+        return std::uint64_t{static_cast<std::uint32_t>(i)} << 32 | static_cast<std::uint32_t>(j);
+    }
+    // Asked for rising pairs.
+    bool holds(std::int32_t i, std::int32_t j) {
+        const std::uint64_t pair = key(i, j);
+        while (cursor_ < sorted_ && key(first_[cursor_], second_[cursor_]) < pair) ++cursor_;  // hardly ever
+        const bool found = cursor_ < sorted_ && key(first_[cursor_], second_[cursor_]) == pair;
+        cursor_ += found;
+        return found || holds_late(i, j);
+    }
+    bool holds_late(std::int32_t i, std::int32_t j) const {  // of a loaded checkpoint only
+        for (std::int32_t c = sorted_; c < size_; ++c) {
+            if (first_[c] == i && second_[c] == j) return true;
+        }
+        return false;
+    }
     bool before(std::int32_t a, std::int32_t b) const {
         return first_[a] != first_[b] ? first_[a] < first_[b] : second_[a] < second_[b];
     }
@@ -114,7 +132,7 @@ class ContactTable {
     std::int32_t candidates_ = 0;
     LargeArray<std::int32_t> near_first_, near_second_;
     std::vector<std::uint64_t> admitted_;  // a bit a candidate
-    std::int32_t cursor_ = 0;              // where offered pairs are looked for
+    std::int32_t cursor_ = 0;              // the first contact that may be offered next
 
     struct Batch {
         std::int32_t from, step;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/step/near_partners.hpp"
+
 namespace grainreel {
 
 void put_in_order(Cells& cells, Grains& grains, double skin, double period,
@@ -30,36 +32,40 @@ void make_room(std::vector<std::int32_t>& partner, std::size_t wanted) {
     partner.resize(partner.capacity());
 }
 
+// Partners from several grids, tiles, or both ends of a period: who merges lists relies on their order.
+void in_order(std::vector<std::int32_t>& partner, std::size_t from, std::size_t to) {
+    const auto begin = partner.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto end = partner.begin() + static_cast<std::ptrdiff_t>(to);
+    if (!std::is_sorted(begin, end)) std::sort(begin, end);
+}
+
 }  // namespace
 
 void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
                 std::int32_t end, NeighbourList& part) {
     part.start.resize(end - begin + 1);
+    std::vector<std::int32_t>& partner = part.partner;
     std::size_t count = 0;
-    const Place* place = grains.place.data();
     for (std::int32_t i = begin; i < end; ++i) {
         part.start[i - begin] = static_cast<std::int32_t>(count);
-        const Vec3 centre = place[i].position;
-        const double reach = place[i].radius + skin;
+        const Place& own = grains.place[i];
+        std::size_t candidates = count;
         for (const Cells::Level& level : cells.levels()) {
-            level.grid.near(centre, reach + level.largest,
+            level.grid.near(own.position, own.radius + skin + level.largest,
                             [&](const std::int32_t* first, const std::int32_t* last) {
                                 if (level.rising && last[-1] <= i) return;
-                                if (part.partner.size() < count + (last - first))
-                                    make_room(part.partner, count + (last - first));
-                                // Every candidate is written and the hits are kept: no branch to mispredict.
-                                std::int32_t* next = part.partner.data() + count;
-                                for (; first < last; ++first) {
-                                    const std::int32_t j = *first;
-                                    Vec3 apart = place[j].position - centre;
-                                    apart.x() = nearest_image(apart.x(), period);
-                                    const double limit = reach + place[j].radius;
-                                    *next = j;
-                                    next += (j > i) & (apart.squaredNorm() < limit * limit);
-                                }
-                                count = next - part.partner.data();
+                                const std::size_t more = candidates + (last - first);
+                                if (partner.size() < more + kNearSlack)
+                                    make_room(partner, more + kNearSlack);
+                                std::copy(first, last, partner.data() + candidates);
+                                candidates = more;
                             });
         }
+        const std::size_t from = count;
+        if (candidates > count)
+            count += keep_near(grains, i, skin, period, partner.data() + count,
+                               static_cast<std::int32_t>(candidates - count));
+        in_order(partner, from, count);
     }
     part.start[end - begin] = static_cast<std::int32_t>(count);
     part.partner.resize(count);

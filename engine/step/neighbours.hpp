@@ -14,7 +14,7 @@ namespace grainreel {
 
 struct NeighbourList {
     std::vector<std::int32_t> start;    // grain i's partners are partner[start[i]] .. partner[start[i + 1]]
-    std::vector<std::int32_t> partner;  // index of the other grain, always above i
+    std::vector<std::int32_t> partner;  // indices of the other grains, all above i, rising
     std::int32_t farthest_partner = 0;  // no partner's index is farther from i than this
 
     std::size_t size() const { return partner.size(); }

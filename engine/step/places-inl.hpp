@@ -1,0 +1,33 @@
+// Grains' places in registers.
+#if defined(GRAINREEL_STEP_PLACES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_STEP_PLACES_INL
+#undef GRAINREEL_STEP_PLACES_INL
+#else
+#define GRAINREEL_STEP_PLACES_INL
+#endif
+
+#include "engine/vector/records-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+template <class Records>
+HWY_INLINE const double* numbers(const Records& records) {
+    return reinterpret_cast<const double*>(records.data());
+}
+
+template <class D>
+HWY_INLINE Triple<LanesOf<D>> triple(const Four<D>& f) {
+    return {LanesOf<D>(f.a), LanesOf<D>(f.b), LanesOf<D>(f.c)};
+}
+
+HWY_INLINE Lanes nearest(Lanes x, Lanes period) {
+    const Lanes half = period * Lanes(0.5);
+    const Lanes low = select(x > half, x - period, x);
+    return select(x < -half, x + period, low);
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
