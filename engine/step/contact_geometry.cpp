@@ -231,18 +231,19 @@ struct AtWall {
 };
 HWY_INLINE AtWall at_wall(const double* place, const WallState& walls, const std::int32_t* i,
                           const std::int32_t* face, Triple<Lanes>& into) {
+    const Lanes zero(0.0);
     const auto grain = load_records(place, 4, i);
     const auto plane = load_records(numbers(walls.faces), 8, face);
-    const auto cylinder = load_records(numbers(walls.faces) + 4, 8, face);
     const Triple<Lanes> centre = triple(grain);
     into = triple(plane);
-    AtWall w;
-    w.radius = Lanes(grain.d);
+    AtWall w{{zero, zero, zero}, zero, into.dot(centre) - Lanes(plane.d), Lanes(grain.d), zero > zero};
+    if (!walls.any_round) return w;
+    const auto cylinder = load_records(numbers(walls.faces) + 4, 8, face);
     w.out_from_axis = centre - triple(cylinder);
-    w.out_from_axis.z = Lanes(0.0);
+    w.out_from_axis.z = zero;
     w.from_axis = root(w.out_from_axis.squared());
-    w.round = Lanes(cylinder.d) > Lanes(0.0);
-    w.distance = select(w.round, Lanes(cylinder.d) - w.from_axis, into.dot(centre) - Lanes(plane.d));
+    w.round = Lanes(cylinder.d) > zero;
+    w.distance = select(w.round, Lanes(cylinder.d) - w.from_axis, w.distance);
     return w;
 }
 
@@ -273,7 +274,8 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
         if (none(touching)) continue;
         out.touching |= bits(touching) << c;
 
-        const Lanes inverse = select(from_axis > Lanes(0.0), Lanes(1.0) / from_axis, Lanes(0.0));
+        Lanes inverse(0.0);
+        if (walls.any_round) inverse = select(from_axis > inverse, Lanes(1.0) / from_axis, inverse);
         const Triple<Lanes> k = select(round, out_from_axis * inverse, -into);
         put<Number>(k, out.normal, c);
         if (in.radius) put<Number>(radius, out.effective_radius, c);

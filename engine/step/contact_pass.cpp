@@ -27,16 +27,21 @@ LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& gro
                            rounded};
     group.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
     touch_.touching &= bits_of_first(chunk.count);  // not the fill
-    std::fill_n(kind_, kChunk, 0);
-    if (group.needs_rows()) {
-        for (int c = 0; c < chunk.count; ++c) {
-            const std::int32_t one = grains.species[chunk.first[c]];
-            kind_[c] =
-                group.row[group.of_pairs ? one * rules.species + grains.species[chunk.second[c]] : one];
-        }
-    }
-    return {chunk.count,          &touch_,  kind_, &group.parameters, times.since, times.ahead,
+    return {chunk.count,          &touch_,  kinds_of(rules, group, grains, chunk), &group.parameters, times.since, times.ahead,
             group.history_size(), &rolling_};
+}
+
+// Of a chunk's contacts, and of what fills it.
+const std::int32_t* ContactPass::kinds_of(const ContactRules& rules, const ContactGroup& group,
+                                          const Grains& grains, const Chunk& chunk) const {
+    static constexpr std::int32_t kOne[kChunk] = {};
+    if (!group.needs_rows()) return kOne;
+    for (int c = 0; c < chunk.count; ++c) {
+        const std::int32_t one = grains.species[chunk.first[c]];
+        kind_[c] = group.row[group.of_pairs ? one * rules.species + grains.species[chunk.second[c]] : one];
+    }
+    std::fill_n(kind_ + chunk.count, kChunk - chunk.count, 0);
+    return kind_;
 }
 
 namespace {
@@ -139,7 +144,7 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
                                  rounded,
                                  c < table.sorted()};
     group.of_pairs ? add_pairs(forces, in.grains)
-                   : add_walls(forces, loads_, in.walls, in.times.acts, in.grains);
+                   : add_walls({forces, in.walls, in.times.acts, in.grains});
     clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
 }
 

@@ -120,6 +120,8 @@ class ContactPass {
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                      const WallState& state, const Times& times, const Chunk& chunk,
                      const Halo::Bodies& bodies, bool rounded) const;
+    const std::int32_t* kinds_of(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
+                                 const Chunk& chunk) const;
     void compute_stretch(const Step& in, ContactTable& table, std::int32_t begin, std::int32_t end,
                          Vanguard* vanguard, CostClock& clock);
     void compute_chunk(const Step& in, ContactTable& table, std::int32_t c, int count, CostClock& clock);
@@ -140,8 +142,7 @@ class ContactPass {
     mutable TouchChunk touch_;
     mutable ForceChunk force_;
     mutable RollingChunk rolling_;
-    mutable std::int32_t kind_[kChunk] = {};  // of the chunk's contacts; where there is only one, 0
-    LoadScratch loads_;
+    mutable std::int32_t kind_[kChunk] = {};  // of the chunk's contacts, where there are several
     Ahead ahead_;
 };
 

@@ -131,28 +131,43 @@ void pairs(const ChunkOfContacts& chunk, Grains& grains) {
                   : pairs_at<Lanes>(chunk, grains.load.data());
 }
 
+// J: the work that walls do on their grains through forces on the walls.
+template <class L>
+HWY_INLINE void put_work(const WallForces& in, int c, const Triple<L>& force, double* work) {
+    alignas(64) double rows[3][L::count];
+    store_as(force.x, rows[0]), store_as(force.y, rows[1]), store_as(force.z, rows[2]);
+    const auto* at_end = reinterpret_cast<const double*>(in.walls.motion.data()) + 4;
+    for (int k = 0; k < L::count; k += kLanes) {
+        const auto v = load_records(at_end, sizeof(FaceMotion) / sizeof(double), in.contacts.second + c + k);
+        const Triple<Lanes> on_wall{load(rows[0] + k), load(rows[1] + k), load(rows[2] + k)};
+        store(on_wall.dot({v.a, v.b, v.c}) * Lanes(-in.step), work + k);
+    }
+}
+
 template <class L, bool rubs>
-void walls_of(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains) {
+void walls_of(const WallForces& in) {
+    const ChunkOfContacts& chunk = in.contacts;
+    alignas(64) double work[L::count];
     for (int c = 0; c < chunk.count; c += L::count) {
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
-        store_as(p.force.x, scratch.force[0] + c);
-        store_as(p.force.y, scratch.force[1] + c);
-        store_as(p.force.z, scratch.force[2] + c);
+        put_work<L>(in, c, p.force, work);
         const auto lost = by_contact<rubs>(p.force, p.first_loses);
         each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
             if (!chunk.touch->touches(c + k)) return;
-            take_off(numbers(grains.load[chunk.first[c + k]]), lost.template row<k>());
+            const std::int32_t grain = chunk.first[c + k];
+            take_off(numbers(in.grains.load[grain]), lost.template row<k>());
+            in.grains.wall_work[grain] += work[k];
         });
     }
 }
 
 template <class L>
-void walls_at(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains) {
-    chunk.rubs ? walls_of<L, true>(chunk, scratch, grains) : walls_of<L, false>(chunk, scratch, grains);
+void walls_at(const WallForces& in) {
+    in.contacts.rubs ? walls_of<L, true>(in) : walls_of<L, false>(in);
 }
 
-void walls(const ChunkOfContacts& chunk, LoadScratch& scratch, Grains& grains) {
-    chunk.rounded ? walls_at<FloatLanes>(chunk, scratch, grains) : walls_at<Lanes>(chunk, scratch, grains);
+void add_to_walls(const WallForces& in) {
+    in.contacts.rounded ? walls_at<FloatLanes>(in) : walls_at<Lanes>(in);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE
@@ -162,21 +177,14 @@ HWY_AFTER_NAMESPACE();
 namespace grainreel {
 
 HWY_EXPORT(pairs);
-HWY_EXPORT(walls);
+HWY_EXPORT(add_to_walls);
 
 void add_pairs(const ChunkOfContacts& chunk, Grains& grains) {
     HWY_DYNAMIC_DISPATCH(pairs)(chunk, grains);
 }
 
-void add_walls(const ChunkOfContacts& chunk, LoadScratch& scratch, const WallState& state, double step,
-               Grains& grains) {
-    HWY_DYNAMIC_DISPATCH(walls)(chunk, scratch, grains);
-    for (int c = 0; c < chunk.count; ++c) {
-        if (!chunk.touch->touches(c)) continue;
-        const Vec3& velocity = state.motion[chunk.second[c]].at_end;
-        const Vec3 on_wall(scratch.force[0][c], scratch.force[1][c], scratch.force[2][c]);
-        grains.wall_work[chunk.first[c]] -= on_wall.dot(velocity) * step;
-    }
+void add_walls(const WallForces& forces) {
+    HWY_DYNAMIC_DISPATCH(add_to_walls)(forces);
 }
 
 }  // namespace grainreel

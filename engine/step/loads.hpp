@@ -9,11 +9,6 @@
 
 namespace grainreel {
 
-// For add_walls() to work in.
-struct LoadScratch {
-    alignas(64) double force[3][kChunk]{};  // N, on walls
-};
-
 // A chunk's contacts.
 struct ChunkOfContacts {
     const std::int32_t *first, *second;  // of a wall contact: grain, face
@@ -28,8 +23,15 @@ struct ChunkOfContacts {
 
 // Adds them to the loads of their grains: each grain's one after the other, in the contacts' order.
 void add_pairs(const ChunkOfContacts& chunk, Grains& grains);
-// Of grains and walls: to the grains' loads, and what moving walls do to the work.
-void add_walls(const ChunkOfContacts& chunk, LoadScratch& scratch, const WallState& walls, double step,
-               Grains& grains);
+// Contacts with walls.
+struct WallForces {
+    const ChunkOfContacts& contacts;
+    const WallState& walls;
+    double step;  // s, that the forces act
+    Grains& grains;
+};
+
+// Adds them to the grains' loads, and what walls do as they move to the work.
+void add_walls(const WallForces& forces);
 
 }  // namespace grainreel

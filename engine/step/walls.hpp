@@ -24,6 +24,7 @@ struct alignas(64) FaceMotion {
 struct WallState {
     std::vector<FaceRecord> faces;  // where they are at the step's end
     std::vector<FaceMotion> motion;
+    bool any_round = false;  // a cylinder among them
 
     // From `before` to `now` within `step` seconds; without a step the velocity is that of `now`.
     void set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step);
