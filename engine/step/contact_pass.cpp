@@ -27,7 +27,8 @@ LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& gro
                            rounded};
     group.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
     touch_.touching &= bits_of_first(chunk.count);  // not the fill
-    return {chunk.count,          &touch_,  kinds_of(rules, group, grains, chunk), &group.parameters, times.since, times.ahead,
+    return {chunk.count,          &touch_,     kinds_of(rules, group, grains, chunk),
+            &group.parameters,    times.since, times.ahead,
             group.history_size(), &rolling_};
 }
 
@@ -143,8 +144,7 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
                                  group.rolling ? &rolling_ : nullptr,
                                  rounded,
                                  c < table.sorted()};
-    group.of_pairs ? add_pairs(forces, in.grains)
-                   : add_walls({forces, in.walls, in.times.acts, in.grains});
+    group.of_pairs ? add_pairs(forces, in.grains) : add_walls({forces, in.walls, in.times.acts, in.grains});
     clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
 }
 

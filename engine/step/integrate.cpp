@@ -51,12 +51,12 @@ struct MotionRecord {
         const Record<4> four = record_of(Vec3(x, x, x), fourth);
         return of(four, four);
     }
-    // As mixed precision reads it, with the radius that stands behind the position.
-    static HWY_INLINE Record<8> with_radius(const Record<size>& motion, const Record<4>& place) {
+    // As mixed precision reads it.
+    static HWY_INLINE Record<8> with_radius(const Record<size>& motion, double radius) {
         if constexpr (rubs)
-            return with_last(motion, both(place, place));
+            return with_last(motion, radius);
         else
-            return both(motion, with_last(record_of(0.0), place));
+            return both(motion, with_last(record_of(0.0), radius));
     }
     // Each half's fourth number, everywhere in it.
     static HWY_INLINE Record<size> fourths(const double* from) {
@@ -65,7 +65,7 @@ struct MotionRecord {
 };
 
 // Whether a pass over the grains ends a step, begins one, or both.
-template <bool ends, bool begins, bool rubs>
+template <bool ends, bool begins, bool rubs, bool drags>
 HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     using Whole = MotionRecord<rubs>;
     constexpr int size = Whole::size;
@@ -79,18 +79,19 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
     for (std::ptrdiff_t i = begin; i < end; ++i) {
         at.fetch_ahead(i);
         double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
-        const Record<size> gains = record_at<size>(load) * Whole::fourths(motion) + gravity;
+        const Record<size> gains = multiply_add(record_at<size>(load), Whole::fourths(motion), gravity);
         Record<size> now = record_at<size>(motion);
-        if (ends) now = (now + last * gains) * keep;
+        if (ends) now = multiply_add(last, gains, now);
+        if (ends && drags) now = now * keep;
         if (begins) {
-            now = now + next * gains;
+            now = multiply_add(next, gains, now);
             double* place = at.place + 4 * i;
-            const Record<4> moved = record_at<4>(place) + whole * first_four(now);
-            put(moved, place);
+            const double radius = place[3];
+            put(multiply_add(whole, first_four(now), record_at<4>(place)), place);
             put(nothing, load);
             const Record<size> relative = now - frame;
             fastest = larger_size(fastest, first_four(relative));
-            if (at.rounded) put_rounded(Whole::with_radius(relative, moved), at.rounded[i].velocity);
+            if (at.rounded) put_rounded(Whole::with_radius(relative, radius), at.rounded[i].velocity);
         }
         put(now, motion);
     }
@@ -101,8 +102,13 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
 
 template <bool ends, bool begins>
 HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
-    return in.rubs ? pass_of<ends, begins, true>(grains, in, begin, end)
-                   : pass_of<ends, begins, false>(grains, in, begin, end);
+    const auto of = [&](auto rubs, auto drags) HWY_ATTR {
+        return pass_of<ends, begins, rubs.value, drags.value>(grains, in, begin, end);
+    };
+    const std::true_type yes;
+    const std::false_type no;
+    if (in.keep == 1) return in.rubs ? of(yes, no) : of(no, no);
+    return in.rubs ? of(yes, yes) : of(no, yes);
 }
 
 Vec3 first_half(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {

@@ -28,7 +28,8 @@ std::int32_t near_ones(const Grains& grains, std::int32_t i, double skin, double
         const Lanes above(hn::PromoteTo(Doubles(), partners));
         const auto near =
             static_cast<std::uint8_t>(bits((apart.squared() < limit * limit) & (above > index)));
-        kept += static_cast<std::int32_t>(hn::CompressBitsStore(partners, &near, Indices(), candidates + kept));
+        kept +=
+            static_cast<std::int32_t>(hn::CompressBitsStore(partners, &near, Indices(), candidates + kept));
     }
     return kept;
 }

@@ -55,8 +55,7 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
                             [&](const std::int32_t* first, const std::int32_t* last) {
                                 if (level.rising && last[-1] <= i) return;
                                 const std::size_t more = candidates + (last - first);
-                                if (partner.size() < more + kNearSlack)
-                                    make_room(partner, more + kNearSlack);
+                                if (partner.size() < more + kNearSlack) make_room(partner, more + kNearSlack);
                                 std::copy(first, last, partner.data() + candidates);
                                 candidates = more;
                             });

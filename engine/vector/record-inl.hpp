@@ -94,16 +94,15 @@ HWY_INLINE Four record_of(double a, double b, double c, double d) {
 HWY_INLINE Record<4> record_of(const Vec3& v, double fourth = 0) {
     return record_of(v.x(), v.y(), v.z(), fourth);
 }
-// a, but with b's last number.
+// a, but with x as its last number.
 template <int size>
-HWY_INLINE Record<size> with_last(Record<size> a, const Record<size>& b) {
+HWY_INLINE Record<size> with_last(Record<size> a, double x) {
     constexpr int last = Record<size>::parts - 1, lanes = Record<size>::lanes;
-    if constexpr (lanes == 1) {
-        a.part[last] = b.part[last];
-    } else {
-        const typename Record<size>::D d;
-        a.part[last] = hn::IfThenElse(hn::FirstN(d, lanes - 1), a.part[last], b.part[last]);
-    }
+    const typename Record<size>::D d;
+    if constexpr (lanes == 1)
+        a.part[last] = hn::Set(d, x);
+    else
+        a.part[last] = hn::IfThenElse(hn::FirstN(d, lanes - 1), a.part[last], hn::Set(d, x));
     return a;
 }
 template <int size>
@@ -119,6 +118,12 @@ HWY_INLINE Record<size> operator-(Record<size> a, const Record<size>& b) {
 template <int size>
 HWY_INLINE Record<size> operator*(Record<size> a, const Record<size>& b) {
     for (int p = 0; p < a.parts; ++p) a.part[p] = hn::Mul(a.part[p], b.part[p]);
+    return a;
+}
+// a b + c, in one rounding where the processor has that.
+template <int size>
+HWY_INLINE Record<size> multiply_add(Record<size> a, const Record<size>& b, const Record<size>& c) {
+    for (int p = 0; p < a.parts; ++p) a.part[p] = hn::MulAdd(a.part[p], b.part[p], c.part[p]);
     return a;
 }
 template <int size>
