@@ -49,6 +49,11 @@ std::array<float, 4> clear_colour(const Colour& colour, bool transparent) {
             1.0f};
 }
 
+void copy(const Picture& from, const Rectangle& part, Picture& to) {
+    for (int y = part.y; y < part.y + part.height; ++y)
+        std::copy_n(from.pixel(part.x, y), 4 * part.width, to.pixel(part.x, y));
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -68,7 +73,7 @@ struct Renderer::Impl {
           solid(s, s.film.shows.ghosts),
           marks(scene, palette),
           sphere_painter(s, port.width, port.height, team, false),
-          picture(s.film.width, s.film.height) {
+          words(s.film.width, s.film.height) {
         if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
         if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none)
             ground.emplace(context->gl(), scene);
@@ -105,47 +110,56 @@ struct Renderer::Impl {
     std::optional<Exposure> exposure;
     ContainerShapes shapes;
     View eye;
-    Picture picture;
+    Picture words;    // beside the port, from picture to picture
+    Picture picture;  // of draw() without a place to draw into
 
-    void draw(const Frame& frame, const std::string& playback, double film_time, DrawTimes* times);
-    void draw_exposed(const Frame& frame, const View& view, Stopwatch& watch);
-    void draw_moment(const Frame& frame, const Frame* marked, const View& view, Stopwatch& watch);
+    void draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
+              DrawTimes* times);
+    void draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch);
+    void draw_moment(const Frame& frame, const Frame* marked, const View& view, Picture& into,
+                     Stopwatch& watch);
     const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
     const std::vector<std::uint32_t>& walls_before();
 };
 
-void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time,
+void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
                           DrawTimes* times) {
     context->make_current();
     Stopwatch watch(context->gl(), times);
     const View view = path.at(film_time);
-    overlay.write(picture, frame, playback, view);
+    overlay.write(words, frame, playback, view);
+    if (into.width != words.width || into.height != words.height) {
+        into = words;
+    } else if (!layout.plates) {
+        copy(words, layout.first, into);
+        copy(words, layout.second, into);
+    }
     watch.lap(&DrawTimes::overlay);
     if (frame.exposed.empty())
-        draw_moment(frame, nullptr, view, watch);
+        draw_moment(frame, nullptr, view, into, watch);
     else
-        draw_exposed(frame, view, watch);
-    overlay.lay_over(picture);
+        draw_exposed(frame, view, into, watch);
+    overlay.lay_over(into);
     watch.lap(&DrawTimes::overlay);
 }
 
 // Marks are those of the frame itself, in every moment.
-void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Stopwatch& watch) {
+void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch) {
     if (!exposure) exposure.emplace(port);
     const Frame marked = shown.of(exaggeration.shown(frame));
     for (const FramePtr& moment : frame.exposed) {
-        draw_moment(*moment, &marked, view, watch);
-        exposure->add(picture);
+        draw_moment(*moment, &marked, view, into, watch);
+        exposure->add(into);
     }
-    draw_moment(frame, &marked, view, watch);
-    exposure->add(picture);
-    exposure->develop(picture);
+    draw_moment(frame, &marked, view, into, watch);
+    exposure->add(into);
+    exposure->develop(into);
     watch.lap(&DrawTimes::readback);
 }
 
 // marked: whose marks are drawn; the frame's own when null.
 void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, const View& view,
-                                 Stopwatch& watch) {
+                                 Picture& into, Stopwatch& watch) {
     const Frame& frame = exaggeration.shown(true_frame);
     eye = scene.film.camera.follow ? view.moved_by(frame.wall_offset) : view;
     const Frame& all = shown.of(frame);
@@ -164,10 +178,10 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     marks.draw(
         eye, marked ? *marked : all, [&](std::size_t i) { return marked ? 1 : of_all.seen_share(i); },
         shapes.over);
-    compose({behind.read(), grains, ghosts, walls_before()}, port, picture, team);
+    compose({behind.read(), grains, ghosts, walls_before()}, port, into, team);
     for (const auto& [index, pixel] : covered) before.read()[index] = pixel;
     covered.clear();
-    if (scene.film.transparent) divide_by_alpha(picture, port);
+    if (scene.film.transparent) divide_by_alpha(into, port);
     watch.lap(&DrawTimes::readback);
 }
 
@@ -217,13 +231,18 @@ Renderer::Renderer(const Scene& scene, const PictureLayout& layout, int raster_t
 Renderer::~Renderer() = default;
 
 const Picture& Renderer::draw(const Frame& frame, const std::string& playback, double film_time) {
-    impl_->draw(frame, playback, film_time, nullptr);
+    draw_into(impl_->picture, frame, playback, film_time);
     return impl_->picture;
+}
+
+void Renderer::draw_into(Picture& picture, const Frame& frame, const std::string& playback,
+                         double film_time) {
+    impl_->draw(frame, playback, film_time, picture, nullptr);
 }
 
 DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) {
     DrawTimes times;
-    impl_->draw(frame, playback, 0, &times);
+    impl_->draw(frame, playback, 0, impl_->picture, &times);
     return times;
 }
 

@@ -33,6 +33,9 @@ class Renderer {
     // first frame, where a camera that moves is. The size is the scene's film size.
     const Picture& draw(const Frame& frame, const std::string& playback, double film_time = 0);
 
+    // The same into a picture of one's own: empty, or one that this renderer has drawn into before.
+    void draw_into(Picture& picture, const Frame& frame, const std::string& playback, double film_time);
+
     const View& view() const;  // of the last picture
     // The film's first frame, from which start heights are counted; without a call, the first one drawn.
     void start_from(const Frame& frame);

@@ -83,7 +83,7 @@ struct FilmMaker::Impl {
             std::optional<Picture> canvas = spare.pop();
             if (!canvas) return;
             const Watch::time_point start = Watch::now();
-            *canvas = drawer->draw(order->frames, order->playback);  // copies into the old buffer
+            drawer->draw(order->frames, order->playback, *canvas);
             draw_seconds += seconds_since(start);
             pictures.push({std::move(*canvas), std::move(order->frames.front()), std::move(order->playback)});
         }

@@ -48,7 +48,8 @@ using Frames = std::vector<FramePtr>;
 class Drawer {
   public:
     virtual ~Drawer() = default;
-    virtual const Picture& draw(const Frames& frames, const std::string& playback) = 0;
+    // Into an empty picture, or one that it has drawn before.
+    virtual void draw(const Frames& frames, const std::string& playback, Picture& into) = 0;
     virtual std::string description() const = 0;
     virtual std::string note() const { return {}; }  // what its user should know about it
 };

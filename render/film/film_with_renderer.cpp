@@ -10,8 +10,8 @@ class RendererDrawer final : public Drawer {
   public:
     RendererDrawer(const Scene& scene, const FilmOptions& options)
         : renderer_(with_orbit(scene, options), options.raster_threads, options.gl), rate_(scene.film.rate) {}
-    const Picture& draw(const Frames& frames, const std::string& playback) override {
-        return renderer_.draw(*frames.front(), playback, static_cast<double>(drawn_++) / rate_);
+    void draw(const Frames& frames, const std::string& playback, Picture& into) override {
+        renderer_.draw_into(into, *frames.front(), playback, static_cast<double>(drawn_++) / rate_);
     }
     std::string description() const override { return renderer_.gl_description(); }
     std::string note() const override { return renderer_.gl_note(); }

@@ -8,8 +8,8 @@ class SideBySideDrawer final : public Drawer {
     SideBySideDrawer(const std::vector<Panel>& panels, const Film& film, int raster_threads,
                      gl::Provider provider, std::size_t clock)
         : panels_(panels, film, raster_threads, provider), clock_(clock), rate_(film.rate) {}
-    const Picture& draw(const Frames& frames, const std::string& playback) override {
-        return panels_.draw(frames, playback, clock_, static_cast<double>(drawn_++) / rate_);
+    void draw(const Frames& frames, const std::string& playback, Picture& into) override {
+        into = panels_.draw(frames, playback, clock_, static_cast<double>(drawn_++) / rate_);
     }
     std::string description() const override { return panels_.gl_description(); }
     std::string note() const override { return panels_.gl_note(); }

@@ -118,14 +118,13 @@ inline Picture noise(int width, int height, int number) {
 class PaintingDrawer final : public Drawer {
   public:
     explicit PaintingDrawer(std::function<Picture(const Frame&)> paint) : paint_(std::move(paint)) {}
-    const Picture& draw(const Frames& frames, const std::string&) override {
-        return picture_ = paint_(*frames.front());
+    void draw(const Frames& frames, const std::string&, Picture& into) override {
+        into = paint_(*frames.front());
     }
     std::string description() const override { return "painted"; }
 
   private:
     std::function<Picture(const Frame&)> paint_;
-    Picture picture_;
 };
 
 inline DrawerMaker painting(std::function<Picture(const Frame&)> paint) {
