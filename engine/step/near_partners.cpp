@@ -26,10 +26,11 @@ std::int32_t near_ones(const Grains& grains, std::int32_t i, double skin, double
         const Lanes limit = reach + Lanes(other.d);
         const auto partners = hn::LoadU(Indices(), candidates + c);
         const Lanes above(hn::PromoteTo(Doubles(), partners));
-        const auto near =
-            static_cast<std::uint8_t>(bits((apart.squared() < limit * limit) & (above > index)));
+        // Highway wants eight bytes to be there.
+        const std::uint8_t near[8] = {
+            static_cast<std::uint8_t>(bits((apart.squared() < limit * limit) & (above > index)))};
         kept +=
-            static_cast<std::int32_t>(hn::CompressBitsStore(partners, &near, Indices(), candidates + kept));
+            static_cast<std::int32_t>(hn::CompressBitsStore(partners, near, Indices(), candidates + kept));
     }
     return kept;
 }

@@ -1,10 +1,13 @@
 // Neighbour lists against all pairs, for sizes that go through several grids.
 #include <gmock/gmock.h>
+#include <hwy/targets.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 #include <utility>
 
+#include "engine/step/contact_table.hpp"
 #include "engine/step/neighbours.hpp"
 #include "tests/physics/world.hpp"
 
@@ -35,6 +38,11 @@ Pairs listed(const NeighbourList& list) {
             pairs.insert({i, list.partner[at]});
     }
     return pairs;
+}
+
+// Who tells candidates from contacts relies on it.
+bool rise(const NeighbourList& list, std::int32_t i) {
+    return std::is_sorted(list.partner.begin() + list.start[i], list.partner.begin() + list.start[i + 1]);
 }
 
 Pairs all_near(const Grains& grains, double skin, double period) {
@@ -70,6 +78,7 @@ TEST_P(Neighbours, AreAllPairsThatAreNear) {
         const Pairs expected = all_near(grains, skin, period);
         EXPECT_GT(expected.size(), 80u);
         EXPECT_EQ(listed(whole), expected);
+        for (std::int32_t i = 0; i < n; ++i) EXPECT_TRUE(rise(whole, i)) << i;
         std::int32_t farthest = 0;
         for (const auto& [i, j] : expected) farthest = std::max(farthest, j - i);
         EXPECT_EQ(whole.farthest_partner, farthest);
@@ -78,6 +87,59 @@ TEST_P(Neighbours, AreAllPairsThatAreNear) {
 
 // Periods: none; that of the bed; one of which the largest grain's neighbourhood takes most.
 INSTANTIATE_TEST_SUITE_P(Periods, Neighbours, testing::Values(0.0, 0.1, 0.06));
+
+// The same on each instruction set.
+TEST(NeighboursAtWidths, AreTheSame) {
+    Grains grains = of_all_sizes(7);
+    Cells cells;
+    std::vector<std::int32_t> new_index;
+    put_in_order(cells, grains, 0.004, 0, new_index);
+    const Pairs expected = all_near(grains, 0.004, 0);
+    for (const std::int64_t target : {std::int64_t{HWY_STATIC_TARGET}, std::int64_t{HWY_SSE4},
+                                      std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}}) {
+        if ((hwy::SupportedTargets() & HWY_TARGETS & target) == 0) continue;
+        hwy::GetChosenTarget().Update(target);
+        NeighbourList list;
+        list_pairs(cells, grains, 0.004, 0, 0, static_cast<std::int32_t>(grains.size()), list);
+        EXPECT_EQ(listed(list), expected) << target;
+    }
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+// Candidates are the offered pairs that are no contacts, whichever these are.
+TEST(ContactTable, TellsCandidatesFromContacts) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 20; ++round) {
+        ContactTable table;
+        table.shape(1, sizeof(double));
+        Pairs candidates;
+        std::vector<std::pair<std::int32_t, std::int32_t>> near;
+        KeptContacts contacts;
+        for (std::int32_t i = 0; i < 60; ++i) {
+            for (std::int32_t j = i + 1; j < 80; j += 1 + static_cast<std::int32_t>(random() % 20)) {
+                const bool touches = random() % 3 == 0, is_near = random() % 10 != 0;
+                if (is_near) near.emplace_back(i, j);
+                if (is_near && !touches) candidates.insert({i, j});
+                if (!touches) continue;
+                contacts.first.push_back(i), contacts.second.push_back(j);
+                contacts.tag.push_back(0), contacts.history.push_back(0);
+            }
+        }
+        for (std::size_t k = 0; k < contacts.size(); ++k) table.take(contacts, k);
+        table.forget_order();
+        table.sort();
+        EXPECT_EQ(table.sorted(), static_cast<std::int32_t>(contacts.size()));
+        for (int again = 0; again < 2; ++again) {
+            table.begin_candidates();
+            for (const auto& [i, j] : near) table.offer(i, j);
+            table.end_candidates();
+            Pairs found;
+            for (std::int32_t c = 0; c < table.candidates(); ++c)
+                found.insert({table.near_first()[c], table.near_second()[c]});
+            EXPECT_EQ(found, candidates) << round;
+        }
+    }
+}
 
 // Pairs that part slowly after a fast impact: lists that are made for the speed of before would last hundreds
 // of steps, and contacts that are none any more be computed in each of them.
