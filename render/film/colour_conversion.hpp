@@ -31,7 +31,7 @@ class ColourConversion {
 
     int width_, height_;
     EvenSize coded_;
-    ScalerPtr scaler_;
+    ScalerPtr scaler_;  // of the same RGB in another order
     Picture padded_;  // only used when a size is odd
 };
 

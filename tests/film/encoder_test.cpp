@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/error.hpp"
@@ -92,6 +94,23 @@ TEST(ColourConversion, PureColoursAreTheirCodesRounded) {
     EXPECT_EQ(frame->data[0][0], 63);
     EXPECT_EQ(frame->data[1][0], 102);
     EXPECT_EQ(frame->data[2][0], 240);
+}
+
+// Where the film's tags say: on the left one of two columns, which is worth half of the sample.
+TEST(ColourConversion, ChromaSitsOnTheLeftColumn) {
+    Picture picture = flat(64, 64, 255, 0, 0);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 32; x < 64; ++x) std::copy_n(std::array{0, 0, 255}.begin(), 3, picture.pixel(x, y));
+    ColourConversion conversion(64, 64);
+    const AvFramePtr frame = yuv_frame(64, 64);
+    conversion.convert(picture, *frame);
+    const Code red = bt709_code(255, 0, 0), blue = bt709_code(0, 0, 255);
+    for (std::size_t plane = 1; plane < 3; ++plane) {
+        const std::uint8_t* row = frame->data[plane] + 10 * frame->linesize[plane];
+        EXPECT_NEAR(row[15], red[plane], 1);
+        EXPECT_NEAR(row[16], 0.25 * red[plane] + 0.75 * blue[plane], 1);
+        EXPECT_NEAR(row[17], blue[plane], 1);
+    }
 }
 
 TEST(ColourConversion, APaddedRowOrColumnRepeatsTheLastOne) {
