@@ -7,6 +7,7 @@
 namespace grainreel {
 namespace {
 
+// Upside down, as everything here is drawn: the first row of what OpenGL gives is then the picture's first.
 const char* const vertex_source = R"(#version 330 core
 layout(location = 0) in vec2 position;  // pixels from the top left
 layout(location = 1) in vec2 edge;
@@ -17,7 +18,7 @@ flat out vec4 paint;
 void main() {
     to_edge = edge;
     paint = colour;
-    gl_Position = vec4(2.0 * position.x / size.x - 1.0, 1.0 - 2.0 * position.y / size.y, 0.0, 1.0);
+    gl_Position = vec4(2.0 * position.x / size.x - 1.0, 2.0 * position.y / size.y - 1.0, 0.0, 1.0);
 }
 )";
 

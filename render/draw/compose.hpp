@@ -1,9 +1,6 @@
 // Lays the grains over what is behind them and under what is before them.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "engine/base/team.hpp"
 #include "render/draw/picture.hpp"
 #include "render/draw/view.hpp"
@@ -13,13 +10,12 @@ namespace grainreel {
 
 // All of the port's size; colours multiplied by alpha.
 struct Layers {
-    const std::vector<std::uint32_t>& behind;  // as OpenGL gives it, rows from the bottom
     const Layer& grains;
     const Layer* ghosts;  // laid over the grains at a part of their strength; may be null
-    const std::vector<std::uint32_t>& before;  // as behind
+    const Layer& before;
 };
 
-// The result goes into the port's part of the picture.
+// Over what is in the port's part of the picture.
 void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team);
 
 // From colours multiplied by their alpha, as layers have them, to plain ones, as pictures have them.

@@ -19,13 +19,18 @@ double floor_reach(const Container& container) {
     return std::hypot(outer_floor_half_width(container), half_depth) + drawn_thickness(container);
 }
 
+// Of kSide numbers each, added one after the other.
+void mean_of_five(const std::array<const float*, 5>& of, float* out) {
+    const auto [a, b, c, d, e] = of;
+    for (int i = 0; i < ShadowMap::kSide; ++i) out[i] = (a[i] + b[i] + c[i] + d[i] + e[i]) / 5;
+}
+
 }  // namespace
 
 ShadowMap::ShadowMap(const Scene& scene)
     : container_(scene.container),
       low_plate_(-1.4 * drawn_thickness(scene.container)),
-      cells_(kSide * kSide),
-      row_(kSide) {
+      cells_(kSide * kSide) {
     const double stroke =
         scene.drive.present ? scene.drive.amplitude * std::abs(scene.drive.direction.z()) : 0;
     height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
@@ -88,24 +93,24 @@ void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
     }
 }
 
-// Three box filters after each other, along both axes.
+// Three box filters after each other, along both axes; beyond the map there is no shadow.
 void ShadowMap::soften() {
-    constexpr int kReach = 2, kTimes = 3;
-    const auto along = [&](std::size_t first, std::size_t step) {
-        for (int i = 0; i < kSide; ++i) {
-            float sum = 0;
-            for (int k = std::max(0, i - kReach); k <= std::min(kSide - 1, i + kReach); ++k)
-                sum += cells_[first + k * step];
-            row_[static_cast<std::size_t>(i)] = sum / (2 * kReach + 1);
+    constexpr int kTimes = 3;
+    constexpr auto side = static_cast<std::size_t>(kSide);
+    std::array<float, side + 4> row{};
+    for (std::size_t j = 0; j < side; ++j)
+        for (int time = 0; time < kTimes; ++time) {
+            float* cells = &cells_[j * side];
+            std::copy_n(cells, side, &row[2]);
+            mean_of_five({&row[0], &row[1], &row[2], &row[3], &row[4]}, cells);
         }
-        for (int i = 0; i < kSide; ++i) cells_[first + i * step] = row_[static_cast<std::size_t>(i)];
-    };
-    for (int time = 0; time < kTimes; ++time)
-        for (std::size_t k = 0; k < kSide; ++k) {
-            along(k * kSide, 1);
-        }
-    for (int time = 0; time < kTimes; ++time)
-        for (std::size_t k = 0; k < kSide; ++k) along(k, kSide);
+    const std::array<float, side> none{};
+    for (int time = 0; time < kTimes; ++time) {
+        before_ = cells_;
+        const auto at = [&](std::size_t j) { return j < side ? &before_[j * side] : none.data(); };
+        for (std::size_t j = 0; j < side; ++j)
+            mean_of_five({at(j - 2), at(j - 1), at(j), at(j + 1), at(j + 2)}, &cells_[j * side]);
+    }
 }
 
 void ShadowMap::cast(const Frame& frame, const Vec3& to_key) {
@@ -235,7 +240,7 @@ void GroundPainter::paint(const View& view) const {
         const Vec3 seen = view.to_view(on_ground(u, v));
         const double w = view.orthographic ? 1 : seen.z();
         for (const double value : {2 * view.focal * seen.x() / view.port.width,
-                                   2 * view.focal * seen.y() / view.port.height, 0.0, w, u, v})
+                                   -2 * view.focal * seen.y() / view.port.height, 0.0, w, u, v})  // upside down
             corners.push_back(static_cast<float>(value));
     }
     array_.bind();

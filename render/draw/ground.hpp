@@ -39,7 +39,7 @@ class ShadowMap {
     double height_ = 0, low_plate_ = 0;
     Eigen::Vector2d low_{0, 0};
     double side_ = 1;
-    std::vector<float> cells_, row_;
+    std::vector<float> cells_, before_;
 };
 
 class GroundPainter {

@@ -17,6 +17,7 @@
 #include "render/draw/shown_grains.hpp"
 #include "render/draw/side_layer.hpp"
 #include "render/draw/spheres.hpp"
+#include "render/spheres/lay_over.hpp"
 #include "render/spheres/pixel.hpp"
 
 namespace grainreel {
@@ -99,8 +100,8 @@ struct Renderer::Impl {
     ShapePainter shape_painter;
     SideLayer behind, before;
     std::optional<SideLayer> marks_alone;  // where grains hide parts of the walls before them
-    std::vector<std::pair<std::size_t, std::uint32_t>> covered;  // of `before`: pixels as they were
-    std::vector<std::uint32_t> mended;                           // `marks_alone` over `before`
+    std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;  // of `before`: pixels as they were
+    std::optional<Layer> mended;                                    // `marks_alone` over `before`
     std::optional<GroundPainter> ground;
     Team team;
     ShownGrains shown, solid;  // of all: those that are not hidden; of these: those that are not ghosts
@@ -119,7 +120,7 @@ struct Renderer::Impl {
     void draw_moment(const Frame& frame, const Frame* marked, const View& view, Picture& into,
                      Stopwatch& watch);
     const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
-    const std::vector<std::uint32_t>& walls_before();
+    const Layer& walls_before();
 };
 
 void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
@@ -178,15 +179,16 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     marks.draw(
         eye, marked ? *marked : all, [&](std::size_t i) { return marked ? 1 : of_all.seen_share(i); },
         shapes.over);
-    compose({behind.read(), grains, ghosts, walls_before()}, port, into, team);
-    for (const auto& [index, pixel] : covered) before.read()[index] = pixel;
+    behind.read_into(into, port.x, port.y);
+    compose({grains, ghosts, walls_before()}, port, into, team);
+    for (const auto& [place, pixel] : covered) *place = pixel;
     covered.clear();
     if (scene.film.transparent) divide_by_alpha(into, port);
     watch.lap(&DrawTimes::readback);
 }
 
 // Walls before the grains, less what grains hide of them, and the marks over them.
-const std::vector<std::uint32_t>& Renderer::Impl::walls_before() {
+const Layer& Renderer::Impl::walls_before() {
     const std::vector<WallPixel>& pixels = sphere_painter.wall_pixels();
     const bool bared = std::any_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.bared > 0; });
     if (!bared) {
@@ -195,19 +197,23 @@ const std::vector<std::uint32_t>& Renderer::Impl::walls_before() {
         return before.read();
     }
     before.draw(shape_painter, shapes.before.shapes, {});
-    std::vector<std::uint32_t>& walls = before.read();
+    Layer& walls = before.read();
     for (const WallPixel& pixel : pixels) {
-        const std::size_t index = static_cast<std::size_t>(port.height - 1 - pixel.y) * port.width + pixel.x;
-        covered.emplace_back(index, walls[index]);
-        walls[index] = faded(walls[index], 1 - pixel.bared);
+        std::uint32_t& place = walls.row(pixel.y)[pixel.x];
+        covered.emplace_back(&place, place);
+        place = faded(place, 1 - pixel.bared);
     }
     if (shapes.over.vertices().empty()) return walls;
     if (!marks_alone) marks_alone.emplace(context->gl(), port, clear);
     marks_alone->draw(shape_painter, shapes.over, {});
+    const Layer& marked = marks_alone->read();
     mended = walls;
-    const std::vector<std::uint32_t>& marked = marks_alone->read();
-    for (std::size_t i = 0; i < mended.size(); ++i) mended[i] = over(marked[i], mended[i]);
-    return mended;
+    for (int y = 0; y < port.height; ++y) {
+        const Layer::Span span = marked.spans[static_cast<std::size_t>(y)];
+        lay_over(mended->row(y) + span.begin, marked.row(y) + span.begin, span.end - span.begin);
+        mended->spans[static_cast<std::size_t>(y)] = hull(walls.spans[static_cast<std::size_t>(y)], span);
+    }
+    return *mended;
 }
 
 const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const {

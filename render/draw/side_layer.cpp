@@ -49,8 +49,7 @@ SideLayer::SideLayer(const gl::Functions& gl, const Rectangle& port, const std::
       target_(gl, port.width, port.height, bytes),
       clear_colour_(clear_colour),
       width_(port.width),
-      height_(port.height),
-      pixels_(static_cast<std::size_t>(port.width) * port.height) {}
+      height_(port.height) {}
 
 // Notes what will have been drawn.
 Rectangle SideLayer::part_to_draw(const Shapes& shapes, const Under& under) {
@@ -70,7 +69,7 @@ Rectangle SideLayer::part_to_draw(const Shapes& shapes, const Under& under) {
 }
 
 void SideLayer::draw_within(const Rectangle& part) const {
-    gl_.Scissor(part.x, height_ - part.y - part.height, part.width, part.height);
+    gl_.Scissor(part.x, part.y, part.width, part.height);
 }
 
 void SideLayer::draw(const ShapePainter& painter, const Shapes& shapes, const Under& under) {
@@ -78,33 +77,46 @@ void SideLayer::draw(const ShapePainter& painter, const Shapes& shapes, const Un
     if (empty(part)) return;
     target_.bind();
     // llvmpipe draws a rectangle to clear a part, which for more than a quarter takes longer than to clear
-    // all. (What is kept of the rest is in pixels_.)
-    const bool large = 4 * area(part) > static_cast<std::int64_t>(width_) * height_;
-    if (large) gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
+    // all.
+    const Rectangle all{0, 0, width_, height_};
+    const Rectangle anew = 4 * area(part) > area(all) ? all : part;
+    if (area(anew) < area(all)) gl_.Enable(GL_SCISSOR_TEST);
+    draw_within(anew);
+    gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
     gl_.Enable(GL_SCISSOR_TEST);
-    draw_within(part);
-    if (!large) gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
     if (under.paint) {
         draw_within(last_under_);  // of its pixels most would be clear
         under.paint();
-        draw_within(part);
+        draw_within(anew);
     }
     painter.paint(shapes, width_, height_);
     gl_.Disable(GL_SCISSOR_TEST);
     stale_ = hull(stale_, part);
 }
 
-std::vector<std::uint32_t>& SideLayer::read() {
-    if (empty(stale_)) return pixels_;
-    const int below = height_ - stale_.y - stale_.height;
+Layer& SideLayer::read() {
+    if (!layer_) layer_.emplace(width_, height_);
+    if (empty(stale_)) return *layer_;
+    read_part(stale_, layer_->row(stale_.y) + stale_.x, width_);
+    // Beside the shapes there is nothing but the clear colour, which is clear where a layer is asked for.
+    std::fill(layer_->spans.begin(), layer_->spans.end(), Layer::Span{});
+    for (int y = last_shapes_.y; y < last_shapes_.y + last_shapes_.height; ++y)
+        layer_->spans[static_cast<std::size_t>(y)] = {last_shapes_.x, last_shapes_.x + last_shapes_.width};
+    stale_ = {};
+    return *layer_;
+}
+
+void SideLayer::read_into(Picture& picture, int x, int y) const {
+    read_part({0, 0, width_, height_}, picture.pixel(x, y), picture.width);
+}
+
+// row_length: pixels.
+void SideLayer::read_part(const Rectangle& part, void* to, int row_length) const {
     target_.bind();
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_.PixelStorei(GL_PACK_ROW_LENGTH, width_);
-    gl_.ReadPixels(stale_.x, below, stale_.width, stale_.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                   pixels_.data() + static_cast<std::size_t>(below) * width_ + stale_.x);
+    gl_.PixelStorei(GL_PACK_ROW_LENGTH, row_length);
+    gl_.ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, to);
     gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
-    stale_ = {};
-    return pixels_;
 }
 
 }  // namespace grainreel

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
-#include <vector>
+#include <optional>
 
 #include "render/draw/canvas.hpp"
+#include "render/draw/picture.hpp"
 #include "render/draw/view.hpp"
 #include "render/gl/objects.hpp"
+#include "render/spheres/layer.hpp"
 
 namespace grainreel {
 
@@ -26,22 +27,25 @@ class SideLayer {
 
     void draw(const ShapePainter& painter, const Shapes& shapes, const Under& under);
 
-    // Pixels, rows from the bottom; what is changed there stays until it is drawn again.
-    std::vector<std::uint32_t>& read();
+    // What is changed there stays until it is drawn again.
+    Layer& read();
+    // The same into a part of a picture, as large as the layer.
+    void read_into(Picture& picture, int x, int y) const;
 
   private:
     Rectangle part_to_draw(const Shapes& shapes, const Under& under);
     void draw_within(const Rectangle& part) const;
+    void read_part(const Rectangle& part, void* to, int row_length) const;
 
     const gl::Functions& gl_;
     gl::Framebuffer target_;
     const std::array<float, 4> clear_colour_;
     const int width_, height_;
-    Rectangle stale_;  // drawn since the last read()
+    Rectangle stale_;  // of layer_: drawn since the last read()
     bool drawn_ = false;
     Shapes last_;
     Rectangle last_shapes_, last_under_;  // where they were drawn
-    std::vector<std::uint32_t> pixels_;
+    std::optional<Layer> layer_;
 };
 
 }  // namespace grainreel

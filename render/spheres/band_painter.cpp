@@ -42,7 +42,9 @@ void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
     const Visibility& seen = job.visibility;
     const std::uint32_t* row = seen.row(y);
     std::uint32_t* out = layer.row(y);
-    std::fill_n(out, layer.width, 0u);
+    Layer::Span& span = layer.spans[static_cast<std::size_t>(y)];
+    std::fill(out + span.begin, out + span.end, 0u);
+    span = {layer.width, 0};
     sphere_kernels().mark_edges(row, seen.row(std::max(0, y - 1)),
                                 seen.row(std::min(y + 1, seen.height() - 1)), layer.width,
                                 edges_.room(layer.width));
@@ -50,15 +52,18 @@ void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
         const int end = edges_.next(x);
         if (end == x) {
             take_edge(job, x++, y);
+            span = {std::min(span.begin, x - 1), x};
             continue;
         }
         const std::uint32_t number = paints(job, row[x]) ? row[x] : 0;
+        if (number) span = {std::min(span.begin, x), end};
         if (number && end - x >= kLongRun)
             paint_run(job, y, x, end, number - 1, out);
         else if (number)
             for (int at = x; at < end; ++at) take_pixel(at, y, number - 1);
         x = end;
     }
+    if (span.begin > span.end) span = {};
 }
 
 void BandPainter::paint_run(const PaintJob& job, int y, int x0, int x1, std::uint32_t grain,
