@@ -11,7 +11,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int kLongRun = 8;          // pixels: from here on a run fills a register well enough
 constexpr int kManyNeighbours = 40;  // from here on they are looked through for each few pixels
 
 // number: index + 1 of a grain, or 0 for none.
@@ -22,19 +21,26 @@ bool paints(const PaintJob& job, std::uint32_t number) {
 }  // namespace
 
 void BandPainter::paint(const PaintJob& job, int y0, int y1, Layer& layer) {
+    runs_.clear();
     parts_.clear();
     soft_.clear();
     block_size_ = 0;
-    make_room(static_cast<std::size_t>(layer.width));
     for (int y = y0; y < y1; ++y) paint_row(job, y, layer);
     settle_edges(job);
+    light_runs(job, layer);
     light_parts(job);
     encode(layer);
 }
 
 void BandPainter::make_room(std::size_t points) {
     if (x_.size() >= points + kPointBlock) return;
-    for (auto* room : {&x_, &y_, &red_, &green_, &blue_}) room->resize(points + kPointBlock);
+    for (auto* room : {&x_, &y_, &red_, &green_, &blue_}) room->resize(2 * points + kPointBlock);
+}
+
+// The rest of the last register has to be of the grain, too.
+void BandPainter::pad(std::size_t points) {
+    std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(points), kPointBlock, x_[0]);
+    std::fill_n(y_.begin() + static_cast<std::ptrdiff_t>(points), kPointBlock, y_[0]);
 }
 
 // Runs of pixels that show one grain, between edges.
@@ -55,35 +61,13 @@ void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
             span = {std::min(span.begin, x - 1), x};
             continue;
         }
-        const std::uint32_t number = paints(job, row[x]) ? row[x] : 0;
-        if (number) span = {std::min(span.begin, x), end};
-        if (number && end - x >= kLongRun)
-            paint_run(job, y, x, end, number - 1, out);
-        else if (number)
-            for (int at = x; at < end; ++at) take_pixel(at, y, number - 1);
+        if (paints(job, row[x])) {
+            runs_.push_back({row[x] - 1, x, y, end - x});
+            span = {std::min(span.begin, x), end};
+        }
         x = end;
     }
     if (span.begin > span.end) span = {};
-}
-
-void BandPainter::paint_run(const PaintJob& job, int y, int x0, int x1, std::uint32_t grain,
-                            std::uint32_t* out) {
-    const int count = x1 - x0;
-    for (int i = 0; i < count + kPointBlock; ++i)
-        x_[static_cast<std::size_t>(i)] = static_cast<float>(x0 + i) + 0.5f;
-    std::fill_n(y_.begin(), count + kPointBlock, static_cast<float>(y) + 0.5f);
-    light(job, grain, {x_.data(), y_.data(), red_.data(), green_.data(), blue_.data(), count});
-    const ToneTable& tone = ToneTable::get();
-    for (int i = 0; i < count; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        out[x0 + i] = tone.pixel(red_[at], green_[at], blue_[at]);
-    }
-}
-
-void BandPainter::take_pixel(int x, int y, std::uint32_t grain) {
-    parts_.push_back({grain, static_cast<std::uint32_t>(soft_.size()), static_cast<float>(x) + 0.5f,
-                      static_cast<float>(y) + 0.5f, 1});
-    soft_.push_back({x, y});
 }
 
 void BandPainter::take_edge(const PaintJob& job, int x, int y) {
@@ -112,34 +96,65 @@ void BandPainter::settle_edges(const PaintJob& job) {
     block_size_ = 0;
 }
 
-// Sorted by grain, so that all of a grain's parts are lit together.
-void BandPainter::light_parts(const PaintJob& job) {
+// Sorts by grain, and calls light(grain, begin, end) with each one's part of `sorted`, so that it fills registers.
+template <class Of, class Light>
+void BandPainter::for_each_grain(const PaintJob& job, const std::vector<Of>& all, std::vector<Of>& sorted,
+                                 const Light& light) {
     count_.resize(std::max(count_.size(), job.visibility.shown().size()), 0);
     met_.clear();
-    for (const Part& part : parts_)
-        if (count_[job.slot_of[part.grain]]++ == 0) met_.push_back(part.grain);
+    for (const Of& one : all)
+        if (count_[job.slot_of[one.grain]]++ == 0) met_.push_back(one.grain);
     std::uint32_t sum = 0;
     for (const std::uint32_t grain : met_) {
         const std::uint32_t count = count_[job.slot_of[grain]];
         count_[job.slot_of[grain]] = sum;
         sum += count;
     }
-    sorted_.resize(parts_.size());
-    for (const Part& part : parts_) sorted_[count_[job.slot_of[part.grain]]++] = part;
+    sorted.resize(all.size());
+    for (const Of& one : all) sorted[count_[job.slot_of[one.grain]]++] = one;
     std::size_t begin = 0;
     for (const std::uint32_t grain : met_) {
         const std::size_t end = count_[job.slot_of[grain]];
         count_[job.slot_of[grain]] = 0;
-        make_room(end - begin);
-        for (std::size_t i = begin; i < end; ++i) x_[i - begin] = sorted_[i].x, y_[i - begin] = sorted_[i].y;
-        std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(end - begin), kPointBlock, x_[0]);
-        std::fill_n(y_.begin() + static_cast<std::ptrdiff_t>(end - begin), kPointBlock, y_[0]);
-        light(
-            job, grain,
-            {x_.data(), y_.data(), red_.data(), green_.data(), blue_.data(), static_cast<int>(end - begin)});
-        add_parts(begin, end);
+        light(grain, begin, end);
         begin = end;
     }
+}
+
+void BandPainter::light_runs(const PaintJob& job, Layer& layer) {
+    const ToneTable& tone = ToneTable::get();
+    for_each_grain(job, runs_, sorted_runs_, [&](std::uint32_t grain, std::size_t begin, std::size_t end) {
+        std::size_t points = 0;
+        for (std::size_t r = begin; r < end; ++r) {
+            const Run& run = sorted_runs_[r];
+            make_room(points + static_cast<std::size_t>(run.count));
+            for (int i = 0; i < run.count; ++i, ++points) {
+                x_[points] = static_cast<float>(run.x + i) + 0.5f;
+                y_[points] = static_cast<float>(run.y) + 0.5f;
+            }
+        }
+        pad(points);
+        light(job, grain,
+              {x_.data(), y_.data(), red_.data(), green_.data(), blue_.data(), static_cast<int>(points)});
+        points = 0;
+        for (std::size_t r = begin; r < end; ++r) {
+            const Run& run = sorted_runs_[r];
+            std::uint32_t* out = layer.row(run.y) + run.x;
+            for (int i = 0; i < run.count; ++i, ++points)
+                out[i] = tone.pixel(red_[points], green_[points], blue_[points]);
+        }
+    });
+}
+
+void BandPainter::light_parts(const PaintJob& job) {
+    for_each_grain(job, parts_, sorted_, [&](std::uint32_t grain, std::size_t begin, std::size_t end) {
+        make_room(end - begin);
+        for (std::size_t i = begin; i < end; ++i) x_[i - begin] = sorted_[i].x, y_[i - begin] = sorted_[i].y;
+        pad(end - begin);
+        light(job, grain,
+              {x_.data(), y_.data(), red_.data(), green_.data(), blue_.data(), static_cast<int>(end - begin)});
+        add_parts(begin, end);
+    });
 }
 
 void BandPainter::add_parts(std::size_t begin, std::size_t end) {

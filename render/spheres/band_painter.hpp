@@ -30,6 +30,11 @@ class BandPainter {
     void paint(const PaintJob& job, int y0, int y1, Layer& layer);
 
   private:
+    // Pixels of a row between edges, which show one grain and nothing else.
+    struct Run {
+        std::uint32_t grain;
+        int x, y, count;
+    };
     // A part of a pixel that one grain takes.
     struct Part {
         std::uint32_t grain, pixel;  // index; place among `soft_`
@@ -42,10 +47,12 @@ class BandPainter {
     };
 
     void paint_row(const PaintJob& job, int y, Layer& layer);
-    void paint_run(const PaintJob& job, int y, int x0, int x1, std::uint32_t grain, std::uint32_t* out);
-    void take_pixel(int x, int y, std::uint32_t grain);
     void take_edge(const PaintJob& job, int x, int y);
     void settle_edges(const PaintJob& job);
+    template <class Of, class Light>
+    void for_each_grain(const PaintJob& job, const std::vector<Of>& all, std::vector<Of>& sorted,
+                        const Light& light);
+    void light_runs(const PaintJob& job, Layer& layer);
     void light_parts(const PaintJob& job);
     void add_parts(std::size_t begin, std::size_t end);
     void light(const PaintJob& job, std::uint32_t grain, const LitPoints& points);
@@ -53,10 +60,12 @@ class BandPainter {
                           const LitPoints& points);
     void encode(Layer& layer) const;
     void make_room(std::size_t points);
+    void pad(std::size_t points);
 
     RowBits edges_;
+    std::vector<Run> runs_, sorted_runs_;
     std::vector<Part> parts_, sorted_;
-    std::vector<std::uint32_t> count_, met_;  // parts a grain shown (kept at 0); grains met in this band
+    std::vector<std::uint32_t> count_, met_;  // entries a grain shown (kept at 0); grains met in this band
     std::vector<Soft> soft_;
     EdgeBlock block_;
     std::uint32_t block_who_[kCandidates][kPointBlock] = {};
