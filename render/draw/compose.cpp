@@ -20,6 +20,9 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
     team.run([&](int member) {
         for (int y = member; y < port.height; y += team.size()) {
             auto* out = reinterpret_cast<std::uint32_t*>(picture.pixel(port.x, port.y + y));
+            std::fill_n(out, port.width, layers.background);
+            if (layers.ground) layers.ground->shade(y, out);
+            lay_row(layers.behind, y, out);
             lay_row(layers.grains, y, out);
             if (layers.ghosts) lay_row(*layers.ghosts, y, out, kGhost);
             lay_row(layers.before, y, out);

@@ -1,7 +1,10 @@
-// Lays the grains over what is behind them and under what is before them.
+// Lays the grains over what is behind them, the ground and the background, and under what is before them.
 #pragma once
 
+#include <cstdint>
+
 #include "engine/base/team.hpp"
+#include "render/draw/ground.hpp"
 #include "render/draw/picture.hpp"
 #include "render/draw/view.hpp"
 #include "render/spheres/layer.hpp"
@@ -10,12 +13,15 @@ namespace grainreel {
 
 // All of the port's size; colours multiplied by alpha.
 struct Layers {
+    std::uint32_t background;
+    const Ground* ground;  // may be null
+    const Layer& behind;
     const Layer& grains;
     const Layer* ghosts;  // laid over the grains at a part of their strength; may be null
     const Layer& before;
 };
 
-// Over what is in the port's part of the picture.
+// The result goes into the port's part of the picture.
 void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team);
 
 // From colours multiplied by their alpha, as layers have them, to plain ones, as pictures have them.

@@ -1,71 +1,42 @@
-// The shadow that container and grains throw on a ground under them.
+// The ground under the container, which shows nothing but a shadow, and fades towards the rim of the picture.
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <vector>
 
-#include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/draw/shadow_map.hpp"
 #include "render/draw/view.hpp"
-#include "render/gl/objects.hpp"
 
 namespace grainreel {
 
-// A map of the ground, in the lab: how much of the key light is taken, 0 to 1. Soft, since the lamp is wide.
-class ShadowMap {
+class Ground {
   public:
-    static constexpr int kSide = 192;  // cells
-
-    // The ground lies under the lowest point that the container reaches. Only for scenes with a container.
-    explicit ShadowMap(const Scene& scene);
-
-    // to_key: unit, in the lab.
-    void cast(const Frame& frame, const Vec3& to_key);
-
-    const std::vector<float>& cells() const { return cells_; }  // rows along y, x fastest
-    double height() const { return height_; }                   // m, z of the ground
-    Eigen::Vector2d low() const { return low_; }                // m, the map's corner
-    double side() const { return side_; }                       // m
-
-  private:
-    void place(const Vec3& to_key);
-    void add_plate(const Frame& frame, const Vec3& to_key);
-    void add_grains(const Frame& frame, const Vec3& to_key);
-    void soften();
-    // Where the light that passes `point` meets the ground, in cells.
-    Eigen::Vector2d fall(const Vec3& point, const Vec3& to_key) const;
-
-    const Container container_;
-    double height_ = 0, low_plate_ = 0;
-    Eigen::Vector2d low_{0, 0};
-    double side_ = 1;
-    std::vector<float> cells_, before_;
-};
-
-class GroundPainter {
-  public:
-    GroundPainter(const gl::Functions& gl, const Scene& scene);
+    // As wide and high as the port. Only for scenes with a container.
+    Ground(const Scene& scene, const Rectangle& port);
 
     void update(const Frame& frame, const View& view);
-    // Pixels, from the port's top left, outside of which there is no shadow.
-    Rectangle where(const View& view) const;
-    // Into the framebuffer that is bound, of the port's size.
-    void paint(const View& view) const;
+
+    // Darkens a row of the port, counted from the top. Threads may share the rows.
+    void shade(int y, std::uint32_t* pixels) const;
 
   private:
+    void darken();
     Vec3 on_ground(double u, double v) const;  // of the map's places from 0 to 1, in the lab
-    bool is_seen(const View& view) const;
+    Vec3 seen_at(double x, double y) const;
+    bool is_seen() const;
+    Rectangle where() const;
 
-    const gl::Functions& gl_;
+    static constexpr int kStride = ShadowMap::kSide + 2;
+
     ShadowMap map_;
-    gl::Program program_;
-    gl::VertexArray array_;
-    gl::Buffer corners_;
-    gl::Texture texture_;
     const float strength_;
-    std::array<float, ShadowMap::kSide> rim_{};  // by which the shadow fades towards the rim of the map
-    std::vector<std::uint8_t> bytes_;
-    Rectangle dark_;  // cells of the map, outside of which all are 0
+    const int width_, height_;
+    std::vector<float> rim_;     // by which the shadow fades towards the rim of the map
+    std::vector<float> across_;  // by which it fades towards the picture's left and right
+    std::vector<float> dark_;    // strength of the shadow, 0 to 255: the map's cells and a clear one all around
+    Rectangle dark_cells_;       // of the map, outside of which all is clear
+    View view_;
+    Rectangle part_;  // pixels of the port, outside of which there is no shadow
 };
 
 }  // namespace grainreel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "engine/base/error.hpp"
@@ -42,12 +43,10 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-constexpr std::array<float, 4> clear{0, 0, 0, 0};
-
-std::array<float, 4> clear_colour(const Colour& colour, bool transparent) {
-    if (transparent) return clear;
-    return {static_cast<float>(colour.red), static_cast<float>(colour.green), static_cast<float>(colour.blue),
-            1.0f};
+std::uint32_t background(const Colour& colour, bool transparent) {
+    const auto byte = [](double value) { return static_cast<std::uint32_t>(std::lround(255 * value)); };
+    if (transparent) return 0;
+    return byte(colour.red) | byte(colour.green) << 8 | byte(colour.blue) << 16 | 0xff000000u;
 }
 
 void copy(const Picture& from, const Rectangle& part, Picture& to) {
@@ -67,8 +66,8 @@ struct Renderer::Impl {
           overlay(scene, palette, layout, path.at(0)),
           context(gl::make_context(provider, raster_threads)),
           shape_painter(context->gl()),
-          behind(context->gl(), port, clear_colour(palette.background, s.film.transparent)),
-          before(context->gl(), port, clear),
+          behind(context->gl(), port),
+          before(context->gl(), port),
           team(raster_threads),
           shown(s, s.film.shows.hidden),
           solid(s, s.film.shows.ghosts),
@@ -77,7 +76,7 @@ struct Renderer::Impl {
           words(s.film.width, s.film.height) {
         if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
         if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none)
-            ground.emplace(context->gl(), scene);
+            ground.emplace(scene, port);
     }
 
     // What is deleted belongs to the context that is current.
@@ -102,7 +101,7 @@ struct Renderer::Impl {
     std::optional<SideLayer> marks_alone;  // where grains hide parts of the walls before them
     std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;  // of `before`: pixels as they were
     std::optional<Layer> mended;                                    // `marks_alone` over `before`
-    std::optional<GroundPainter> ground;
+    std::optional<Ground> ground;
     Team team;
     ShownGrains shown, solid;  // of all: those that are not hidden; of these: those that are not ghosts
     Marks marks;
@@ -169,9 +168,7 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     watch.lap(&DrawTimes::walls);
     if (ground) ground->update(opaque, eye);
     watch.lap(&DrawTimes::shadow);
-    SideLayer::Under shadow;
-    if (ground) shadow = {ground->where(eye), [&] { ground->paint(eye); }};
-    behind.draw(shape_painter, shapes.behind.shapes, shadow);
+    const Layer& walls_behind = behind.draw(shape_painter, shapes.behind.shapes);
     watch.lap(&DrawTimes::walls);
     const Layer& grains = draw_grains(sphere_painter, opaque, watch);
     const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, all, watch) : nullptr;
@@ -179,8 +176,9 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     marks.draw(
         eye, marked ? *marked : all, [&](std::size_t i) { return marked ? 1 : of_all.seen_share(i); },
         shapes.over);
-    behind.read_into(into, port.x, port.y);
-    compose({grains, ghosts, walls_before()}, port, into, team);
+    compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr, walls_behind,
+             grains, ghosts, walls_before()},
+            port, into, team);
     for (const auto& [place, pixel] : covered) *place = pixel;
     covered.clear();
     if (scene.film.transparent) divide_by_alpha(into, port);
@@ -193,20 +191,18 @@ const Layer& Renderer::Impl::walls_before() {
     const bool bared = std::any_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.bared > 0; });
     if (!bared) {
         shapes.before.shapes.append(shapes.over);
-        before.draw(shape_painter, shapes.before.shapes, {});
-        return before.read();
+        return before.draw(shape_painter, shapes.before.shapes);
     }
-    before.draw(shape_painter, shapes.before.shapes, {});
-    Layer& walls = before.read();
+    before.draw(shape_painter, shapes.before.shapes);
+    Layer& walls = before.layer();
     for (const WallPixel& pixel : pixels) {
         std::uint32_t& place = walls.row(pixel.y)[pixel.x];
         covered.emplace_back(&place, place);
         place = faded(place, 1 - pixel.bared);
     }
     if (shapes.over.vertices().empty()) return walls;
-    if (!marks_alone) marks_alone.emplace(context->gl(), port, clear);
-    marks_alone->draw(shape_painter, shapes.over, {});
-    const Layer& marked = marks_alone->read();
+    if (!marks_alone) marks_alone.emplace(context->gl(), port);
+    const Layer& marked = marks_alone->draw(shape_painter, shapes.over);
     mended = walls;
     for (int y = 0; y < port.height; ++y) {
         const Layer::Span span = marked.spans[static_cast<std::size_t>(y)];

@@ -1,7 +1,9 @@
 #include "render/draw/side_layer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace grainreel {
 namespace {
@@ -44,79 +46,50 @@ Rectangle area_of(const Shapes& shapes, int width, int height) {
 
 }  // namespace
 
-SideLayer::SideLayer(const gl::Functions& gl, const Rectangle& port, const std::array<float, 4>& clear_colour)
+SideLayer::SideLayer(const gl::Functions& gl, const Rectangle& port)
     : gl_(gl),
       target_(gl, port.width, port.height, bytes),
-      clear_colour_(clear_colour),
       width_(port.width),
-      height_(port.height) {}
+      height_(port.height),
+      layer_(port.width, port.height) {}
 
-// Notes what will have been drawn.
-Rectangle SideLayer::part_to_draw(const Shapes& shapes, const Under& under) {
-    const Rectangle place = under.paint ? under.where : Rectangle();
-    const Rectangle below = on_layer(static_cast<float>(place.x), static_cast<float>(place.y),
-                                     static_cast<float>(place.x + place.width),
-                                     static_cast<float>(place.y + place.height), width_, height_);
-    Rectangle part = hull(below, last_under_);
-    last_under_ = below;
-    if (drawn_ && shapes == last_) return part;
-    const Rectangle above = area_of(shapes, width_, height_);
-    part = drawn_ ? hull(part, hull(above, last_shapes_)) : Rectangle{0, 0, width_, height_};
-    last_shapes_ = above;
+// Notes what will have been drawn; where that differs from what is there.
+Rectangle SideLayer::part_to_draw(const Shapes& shapes) {
+    if (drawn_ && shapes == last_) return {};
+    const Rectangle now = area_of(shapes, width_, height_);
+    const Rectangle part = drawn_ ? hull(now, last_part_) : Rectangle{0, 0, width_, height_};
+    last_part_ = now;
     last_ = shapes;
     drawn_ = true;
     return part;
 }
 
-void SideLayer::draw_within(const Rectangle& part) const {
-    gl_.Scissor(part.x, part.y, part.width, part.height);
-}
-
-void SideLayer::draw(const ShapePainter& painter, const Shapes& shapes, const Under& under) {
-    const Rectangle part = part_to_draw(shapes, under);
-    if (empty(part)) return;
+const Layer& SideLayer::draw(const ShapePainter& painter, const Shapes& shapes) {
+    const Rectangle part = part_to_draw(shapes);
+    if (empty(part)) return layer_;
     target_.bind();
     // llvmpipe draws a rectangle to clear a part, which for more than a quarter takes longer than to clear
     // all.
-    const Rectangle all{0, 0, width_, height_};
-    const Rectangle anew = 4 * area(part) > area(all) ? all : part;
-    if (area(anew) < area(all)) gl_.Enable(GL_SCISSOR_TEST);
-    draw_within(anew);
-    gl_.ClearBufferfv(GL_COLOR, 0, clear_colour_.data());
-    gl_.Enable(GL_SCISSOR_TEST);
-    if (under.paint) {
-        draw_within(last_under_);  // of its pixels most would be clear
-        under.paint();
-        draw_within(anew);
-    }
+    const bool large = 4 * area(part) > static_cast<std::int64_t>(width_) * height_;
+    gl_.Scissor(part.x, part.y, part.width, part.height);
+    if (!large) gl_.Enable(GL_SCISSOR_TEST);
+    constexpr std::array<float, 4> clear{0, 0, 0, 0};
+    gl_.ClearBufferfv(GL_COLOR, 0, clear.data());
     painter.paint(shapes, width_, height_);
     gl_.Disable(GL_SCISSOR_TEST);
-    stale_ = hull(stale_, part);
+    read(part);
+    return layer_;
 }
 
-Layer& SideLayer::read() {
-    if (!layer_) layer_.emplace(width_, height_);
-    if (empty(stale_)) return *layer_;
-    read_part(stale_, layer_->row(stale_.y) + stale_.x, width_);
-    // Beside the shapes there is nothing but the clear colour, which is clear where a layer is asked for.
-    std::fill(layer_->spans.begin(), layer_->spans.end(), Layer::Span{});
-    for (int y = last_shapes_.y; y < last_shapes_.y + last_shapes_.height; ++y)
-        layer_->spans[static_cast<std::size_t>(y)] = {last_shapes_.x, last_shapes_.x + last_shapes_.width};
-    stale_ = {};
-    return *layer_;
-}
-
-void SideLayer::read_into(Picture& picture, int x, int y) const {
-    read_part({0, 0, width_, height_}, picture.pixel(x, y), picture.width);
-}
-
-// row_length: pixels.
-void SideLayer::read_part(const Rectangle& part, void* to, int row_length) const {
-    target_.bind();
+void SideLayer::read(const Rectangle& part) {
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_.PixelStorei(GL_PACK_ROW_LENGTH, row_length);
-    gl_.ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, to);
+    gl_.PixelStorei(GL_PACK_ROW_LENGTH, width_);
+    gl_.ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                   layer_.row(part.y) + part.x);
     gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
+    std::fill(layer_.spans.begin(), layer_.spans.end(), Layer::Span{});
+    for (int y = last_part_.y; y < last_part_.y + last_part_.height; ++y)
+        layer_.spans[static_cast<std::size_t>(y)] = {last_part_.x, last_part_.x + last_part_.width};
 }
 
 }  // namespace grainreel
