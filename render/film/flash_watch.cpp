@@ -13,26 +13,44 @@ constexpr std::size_t kMostTurns = 7;           // three pairs, and half of one
 constexpr int kEvery = 4;                       // pixels: a mean wants no more
 constexpr double kTogether = 0.05;              // s, within which changes are one
 
-double luminance(const std::uint8_t* pixel) {
-    static const std::array<double, 256> linear = [] {
-        std::array<double, 256> table{};
-        for (std::size_t i = 0; i < table.size(); ++i) table[i] = to_linear(static_cast<double>(i) / 255);
+// Each colour's part of the relative luminance, by its byte.
+using Parts = std::array<std::array<float, 256>, 3>;
+const Parts& parts_of_luminance() {
+    static const Parts parts = [] {
+        Parts table{};
+        for (std::size_t i = 0; i < 256; ++i) {
+            const double linear = to_linear(static_cast<double>(i) / 255);
+            table[0][i] = static_cast<float>(0.2126 * linear);
+            table[1][i] = static_cast<float>(0.7152 * linear);
+            table[2][i] = static_cast<float>(0.0722 * linear);
+        }
         return table;
     }();
-    return 0.2126 * linear[pixel[0]] + 0.7152 * linear[pixel[1]] + 0.0722 * linear[pixel[2]];
+    return parts;
 }
 
 }  // namespace
 
 void FlashWatch::add(const Picture& picture) {
     const double now = static_cast<double>(frames_++) / rate_;
+    const Parts& parts = parts_of_luminance();
     std::array<double, kAcross * kDown> sum{}, count{};
+    // The first pixel looked at of the place to the right of `place`, or the row's end.
+    const auto end_of = [&](int place) {
+        const int first = ((place + 1) * picture.width + kAcross - 1) / kAcross;
+        return std::min((first + kEvery - 1) / kEvery * kEvery, picture.width);
+    };
     for (int y = 0; y < picture.height; y += kEvery)
-        for (int x = 0; x < picture.width; x += kEvery) {
-            const auto place =
-                static_cast<std::size_t>(y * kDown / picture.height * kAcross + x * kAcross / picture.width);
-            sum[place] += luminance(picture.pixel(x, y));
-            count[place] += 1;
+        for (int place = 0, x = 0; place < kAcross; ++place) {
+            const int begin = x, end = end_of(place);
+            float row = 0;
+            for (; x < end; x += kEvery) {
+                const std::uint8_t* pixel = picture.pixel(x, y);
+                row += parts[0][pixel[0]] + parts[1][pixel[1]] + parts[2][pixel[2]];
+            }
+            const auto at = static_cast<std::size_t>(y * kDown / picture.height * kAcross + place);
+            sum[at] += row;
+            count[at] += (x - begin + kEvery - 1) / kEvery;
         }
     for (std::size_t i = 0; i < places_.size(); ++i)
         if (count[i] > 0) take(places_[i], sum[i] / count[i], now);

@@ -139,9 +139,8 @@ void BandPainter::light_runs(const PaintJob& job, Layer& layer) {
         points = 0;
         for (std::size_t r = begin; r < end; ++r) {
             const Run& run = sorted_runs_[r];
-            std::uint32_t* out = layer.row(run.y) + run.x;
-            for (int i = 0; i < run.count; ++i, ++points)
-                out[i] = tone.pixel(red_[points], green_[points], blue_[points]);
+            tone.pixels(&red_[points], &green_[points], &blue_[points], run.count, layer.row(run.y) + run.x);
+            points += static_cast<std::size_t>(run.count);
         }
     });
 }

@@ -41,7 +41,6 @@ void Neighbourhood::find_occluders(std::size_t slot, std::uint32_t pool) {
         const float reach = own.radius + (1 + kReach) * other.radius;
         if (j != i && dx * dx + dy * dy + dz * dz < reach * reach) into.found.push_back(j);
     });
-    std::sort(into.found.begin(), into.found.end());
     for (const std::uint32_t j : into.found) {
         const ViewSphere& other = (*spheres_)[j];
         const float taken = weight(own, other);

@@ -10,18 +10,17 @@ namespace grainreel {
 class ToneTable {
   public:
     static const ToneTable& get();
-    std::uint32_t byte(float linear) const {
-        const float clamped = linear < 0 ? 0 : linear > 1 ? 1 : linear;
-        return bytes_[static_cast<std::size_t>(clamped * (kSteps - 1) + 0.5f)];
-    }
-    // Opaque.
-    std::uint32_t pixel(float red, float green, float blue) const {
-        return byte(red) | byte(green) << 8 | byte(blue) << 16 | 0xff000000u;
-    }
+    std::uint32_t byte(float linear) const { return bytes_[static_cast<std::size_t>(step(linear))]; }
+    // Opaque pixels, `count` of them.
+    void pixels(const float* red, const float* green, const float* blue, int count, std::uint32_t* out) const;
 
   private:
     static constexpr int kSteps = 4096;
     ToneTable();
+    static int step(float linear) {
+        const float positive = linear < 0 ? 0 : linear, clamped = positive > 1 ? 1 : positive;
+        return static_cast<int>(clamped * (kSteps - 1) + 0.5f);
+    }
     std::array<std::uint8_t, kSteps> bytes_{};
 };
 
