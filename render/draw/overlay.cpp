@@ -1,6 +1,7 @@
 #include "render/draw/overlay.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "engine/base/error.hpp"
@@ -30,6 +31,7 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
       type_(type_scale(scene.film)),
       plan_(plan_numbers({nullptr, type_, palette_}, scene, layout.second.width, layout.second.height,
                          layout.portrait)),
+      strips_(strips()),
       first_plates_(plates_around(
           first_part({nullptr, type_, palette_}, scene, &view, layout, layout.first.width).boxes, type_,
           layout.first)),
@@ -39,6 +41,30 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
       second_(blank(layout.second, second_plates_)) {
     draw_still(view);
     make_plots();
+}
+
+Overlay::Strips Overlay::strips() const {
+    const int width = layout_.second.width, middle = static_cast<int>(plan_.caption_x - 0.5 * type_.gap);
+    const auto strip = [&](double from, double to) {
+        const int top = static_cast<int>(from),
+                  bottom = std::min(static_cast<int>(to), layout_.second.height);
+        return Rectangle{0, top, width, std::max(0, bottom - top)};
+    };
+    Strips all{strip(0, plan_.clock_end), strip(plan_.caption, plan_.caption_end),
+               strip(plan_.note, plan_.note_end), strip(plan_.dial - 0.4 * type_.gap, plan_.dial_end)};
+    if (plan_.caption_beside) {
+        all.clock.width = all.caption.x = middle;
+        all.caption.width = width - middle;
+    }
+    return all;
+}
+
+std::vector<Rectangle> Overlay::moving() const {
+    std::vector<Rectangle> parts{strips_.clock, strips_.caption, strips_.note};
+    if (scene_.drive.present && plan_.has_dial) parts.push_back(strips_.dial);
+    parts.insert(parts.end(), plan_.plots.begin(), plan_.plots.end());
+    for (Rectangle& part : parts) part.x += layout_.second.x, part.y += layout_.second.y;
+    return parts;
 }
 
 CairoSurface Overlay::blank(const Rectangle& part, const std::vector<Rectangle>& plates) const {
@@ -57,6 +83,8 @@ void Overlay::draw_still(const View& view) {
     draw_still_numbers(view);
     drawn_for_ = view;
     written_ = false;
+    static std::atomic<std::uint64_t> numbers{0};
+    still_number_ = ++numbers;
 }
 
 void Overlay::draw_still_numbers(const View& view) {
@@ -114,39 +142,28 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
         copy_surface(first_.get(), layout_.first, picture);
         copy_surface(still_.get(), layout_.second, picture);
     }
-    const int width = layout_.second.width, middle = static_cast<int>(plan_.caption_x - 0.5 * type_.gap);
-    const auto strip = [&](double from, double to) {
-        const int top = static_cast<int>(from),
-                  bottom = std::min(static_cast<int>(to), layout_.second.height);
-        return Rectangle{0, top, width, std::max(0, bottom - top)};
-    };
-    Rectangle clock_part = strip(0, plan_.clock_end), caption_part = strip(plan_.caption, plan_.caption_end);
-    if (plan_.caption_beside) {
-        clock_part.width = caption_part.x = middle;
-        caption_part.width = width - middle;
-    }
     const std::string clock = clock_words(scene_, frame), caption = playback_text(frame, playback);
     if (!written_ || clock != clock_)
-        renew(picture, clock_part, [&](cairo_t* on) {
+        renew(picture, strips_.clock, [&](cairo_t* on) {
             clock_block({on, type_, palette_}, scene_, frame, plan_.x, plan_.clock);
         });
     if (!written_ || caption != caption_)
-        renew(picture, caption_part, [&](cairo_t* on) {
+        renew(picture, strips_.caption, [&](cairo_t* on) {
             const Writer writer{on, type_, palette_};
             if (!caption.empty())
                 writer.write(plan_.caption_x, plan_.caption, caption, writer.minor(), palette_.faint_ink,
                              plan_.caption_wrap, plan_.caption_lines);
         });
     const std::string note = note_text(scene_, frame);
-    if (plan_.note_end > plan_.note && (!written_ || note != note_))
-        renew(picture, strip(plan_.note, plan_.note_end), [&](cairo_t* on) {
+    if (strips_.note.height > 0 && (!written_ || note != note_))
+        renew(picture, strips_.note, [&](cairo_t* on) {
             note_block({on, type_, palette_}, note, plan_.x, plan_.note + 0.5 * type_.gap, plan_.inner);
         });
     // The hand is drawn where the drive is; before the drive there is none.
     const double angle = frame.time < 0 ? -1 : frame.phase;
     const double stroke = frame.floor_offset.dot(scene_.drive.direction);
     if (scene_.drive.present && plan_.has_dial && (!written_ || angle != angle_ || stroke != stroke_))
-        renew(picture, strip(plan_.dial - 0.4 * type_.gap, plan_.dial_end), [&](cairo_t* on) {
+        renew(picture, strips_.dial, [&](cairo_t* on) {
             dial_block({on, type_, palette_}, scene_.drive, &frame, plan_.radius, plan_.x, plan_.dial);
         });
     renew_plots(picture, frame);

@@ -4,6 +4,7 @@
 
 #include <cairo.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,16 @@ class Overlay {
     // After the picture was drawn: the plates, if there are any.
     void lay_over(Picture& picture) const;
 
+    // As Picture has them; of the gutters.
+    std::uint64_t still() const { return still_number_; }
+    std::vector<Rectangle> moving() const;
+
   private:
+    // Parts of the second gutter whose words change, from its corner.
+    struct Strips {
+        Rectangle clock, caption, note, dial;
+    };
+    Strips strips() const;
     CairoSurface blank(const Rectangle& part, const std::vector<Rectangle>& plates) const;
     void draw_still(const View& view);
     void draw_still_numbers(const View& view);
@@ -41,11 +51,13 @@ class Overlay {
     const PictureLayout layout_;
     const TypeScale type_;
     const NumbersPlan plan_;
+    const Strips strips_;
     const std::vector<Rectangle> first_plates_, second_plates_;  // from the gutters' corners
     CairoSurface first_, still_, second_;
     std::vector<Plot> plots_;
     View drawn_for_;
     bool written_ = false;
+    std::uint64_t still_number_ = 0;
     // What is in the picture now.
     std::string clock_, caption_, note_;
     double angle_ = 0, stroke_ = 0;

@@ -115,6 +115,7 @@ struct Renderer::Impl {
 
     void draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
               DrawTimes* times);
+    void copy_words(Picture& into) const;
     void draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch);
     void draw_moment(const Frame& frame, const Frame* marked, const View& view, Picture& into,
                      Stopwatch& watch);
@@ -128,12 +129,7 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
     Stopwatch watch(context->gl(), times);
     const View view = path.at(film_time);
     overlay.write(words, frame, playback, view);
-    if (into.width != words.width || into.height != words.height) {
-        into = words;
-    } else if (!layout.plates) {
-        copy(words, layout.first, into);
-        copy(words, layout.second, into);
-    }
+    copy_words(into);
     watch.lap(&DrawTimes::overlay);
     if (frame.exposed.empty())
         draw_moment(frame, nullptr, view, into, watch);
@@ -141,6 +137,25 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
         draw_exposed(frame, view, into, watch);
     overlay.lay_over(into);
     watch.lap(&DrawTimes::overlay);
+}
+
+// Where it has been drawn before, most of the words are there.
+void Renderer::Impl::copy_words(Picture& into) const {
+    const bool fits = into.width == words.width && into.height == words.height;
+    if (!fits) into = words;
+    if (layout.plates) {
+        into.still = 0;
+        return;
+    }
+    if (fits && into.still == overlay.still()) {
+        for (const Rectangle& part : overlay.moving()) copy(words, part, into);
+        return;
+    }
+    copy(words, layout.first, into);
+    copy(words, layout.second, into);
+    into.still = overlay.still();
+    into.moving = overlay.moving();
+    into.moving.push_back(port);
 }
 
 // Marks are those of the frame itself, in every moment.

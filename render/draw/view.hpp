@@ -5,13 +5,9 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/draw/rectangle.hpp"
 
 namespace grainreel {
-
-// Pixels, from the top left corner of the whole picture.
-struct Rectangle {
-    int x = 0, y = 0, width = 0, height = 0;
-};
 
 // View coordinates: x right, y up, z away from the eye.
 struct View {

@@ -67,12 +67,17 @@ HWY_INLINE void luma(D d, const std::uint8_t* pixels, std::uint8_t* to) {
                    Colours<D>{colour(all), colour(hn::ShiftRight<8>(all)), colour(hn::ShiftRight<16>(all))}, to);
 }
 
-void luma_row(const std::uint8_t* pixels, int width, std::uint8_t* to) {
+// Columns from begin to end.
+struct Columns {
+    int begin, end;
+};
+
+void luma_row(const std::uint8_t* pixels, const Columns& columns, std::uint8_t* to) {
     const Pixels d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    int x = 0;
-    for (; x + lanes <= width; x += lanes) luma(d, pixels + 4 * x, to + x);
-    for (; x < width; ++x) luma(OnePixel(), pixels + 4 * x, to + x);
+    int x = columns.begin;
+    for (; x + lanes <= columns.end; x += lanes) luma(d, pixels + 4 * x, to + x);
+    for (; x < columns.end; ++x) luma(OnePixel(), pixels + 4 * x, to + x);
 }
 
 // Sums of pixels, 16 bits a colour: red and blue side by side, green by itself.
@@ -129,7 +134,7 @@ HWY_INLINE Halves<Pixels> every_other(const RowPair& rows, int x) {
 }
 #endif
 
-void chroma_row(const RowPair& rows, int width, std::uint8_t* cb, std::uint8_t* cr) {
+void chroma_row(const RowPair& rows, const Columns& columns, std::uint8_t* cb, std::uint8_t* cr) {
     const auto one = [&](int x) {
         const OnePixel single;
         const auto column = [&](int at) { return halves(single, rows.upper + 4 * at, rows.lower + 4 * at); };
@@ -137,21 +142,24 @@ void chroma_row(const RowPair& rows, int width, std::uint8_t* cb, std::uint8_t* 
         const Halves<OnePixel> sums = sum(sum(middle, middle), sum(column(std::max(x - 1, 0)), column(x + 1)));
         chroma(single, sums, cb + x / 2, cr + x / 2);
     };
-    one(0);
-    int x = 2;
+    int x = columns.begin;
+    if (x == 0) one(x), x = 2;
 #if HWY_TARGET != HWY_SCALAR
     const int step = 2 * static_cast<int>(hn::Lanes(Pixels()));
-    for (; x + step <= width; x += step) chroma(Pixels(), every_other(rows, x), cb + x / 2, cr + x / 2);
+    for (; x + step <= columns.end; x += step)
+        chroma(Pixels(), every_other(rows, x), cb + x / 2, cr + x / 2);
 #endif
-    for (; x < width; x += 2) one(x);
+    for (; x < columns.end; x += 2) one(x);
 }
 
-void convert(const Picture& picture, const YuvPlanes& to) {
-    for (int y = 0; y < picture.height; y += 2) {
+// `part` begins and ends with even columns and rows.
+void convert(const Picture& picture, const Rectangle& part, const YuvPlanes& to) {
+    const Columns columns{part.x, part.x + part.width};
+    for (int y = part.y; y < part.y + part.height; y += 2) {
         const RowPair rows{picture.pixel(0, y), picture.pixel(0, y + 1)};
-        luma_row(rows.upper, picture.width, to.y + y * to.y_stride);
-        luma_row(rows.lower, picture.width, to.y + (y + 1) * to.y_stride);
-        chroma_row(rows, picture.width, to.cb + y / 2 * to.cb_stride, to.cr + y / 2 * to.cr_stride);
+        luma_row(rows.upper, columns, to.y + y * to.y_stride);
+        luma_row(rows.lower, columns, to.y + (y + 1) * to.y_stride);
+        chroma_row(rows, columns, to.cb + y / 2 * to.cb_stride, to.cr + y / 2 * to.cr_stride);
     }
 }
 
@@ -166,8 +174,17 @@ namespace grainreel {
 HWY_EXPORT(convert);
 
 void to_bt709(const Picture& picture, const YuvPlanes& to) {
+    to_bt709(picture, {0, 0, picture.width, picture.height}, to);
+}
+
+void to_bt709(const Picture& picture, const Rectangle& part, const YuvPlanes& to) {
     GRAINREEL_CHECK(picture.width > 0 && picture.width % 2 == 0 && picture.height % 2 == 0);
-    HWY_DYNAMIC_DISPATCH(convert)(picture, to);
+    const auto even = [](int at) { return at / 2 * 2; };
+    const int x = even(std::max(part.x, 0)), y = even(std::max(part.y, 0));
+    // The next column's chroma looks at the last one, too.
+    const int right = std::min(even(part.x + part.width + 2), picture.width);
+    const int bottom = std::min(even(part.y + part.height + 1), picture.height);
+    if (x < right && y < bottom) HWY_DYNAMIC_DISPATCH(convert)(picture, {x, y, right - x, bottom - y}, to);
 }
 
 }  // namespace grainreel

@@ -19,5 +19,7 @@ struct YuvPlanes {
 // columns (H.273, Chroma420SampleLocType 0) and is the mean of both rows, and of the columns with 1 : 2 : 1, of which the
 // first stands in for the one before it. Within 0.51 of a code of the formula.
 void to_bt709(const Picture& picture, const YuvPlanes& to);
+// The same for a part of it, whose codes alone are written, and those of the pixels beside it that it shows in.
+void to_bt709(const Picture& picture, const Rectangle& part, const YuvPlanes& to);
 
 }  // namespace grainreel

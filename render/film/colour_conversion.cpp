@@ -36,8 +36,14 @@ void ColourConversion::convert(const Picture& picture, AVFrame& target) {
     GRAINREEL_CHECK(picture.width == width_ && picture.height == height_);
     const Picture& source = even(picture);
     if (target.format == AV_PIX_FMT_YUV420P) {
-        to_bt709(source, {target.data[0], target.data[1], target.data[2], target.linesize[0], target.linesize[1],
-                          target.linesize[2]});
+        const YuvPlanes planes{target.data[0],     target.data[1],     target.data[2],
+                               target.linesize[0], target.linesize[1], target.linesize[2]};
+        if (picture.still != 0 && picture.still == still_) {
+            for (const Rectangle& part : picture.moving) to_bt709(source, part, planes);
+        } else {
+            to_bt709(source, planes);
+        }
+        still_ = picture.still;
         return;
     }
     GRAINREEL_CHECK(scaler_);

@@ -23,7 +23,7 @@ class ColourConversion {
     int coded_width() const { return coded_.width; }
     int coded_height() const { return coded_.height; }
 
-    // `target`: of the coded size, writable.
+    // `target`: of the coded size, writable; it holds the picture converted before, if there is one.
     void convert(const Picture& picture, AVFrame& target);
 
   private:
@@ -32,7 +32,8 @@ class ColourConversion {
     int width_, height_;
     EvenSize coded_;
     ScalerPtr scaler_;  // of the same RGB in another order
-    Picture padded_;  // only used when a size is odd
+    Picture padded_;    // only used when a size is odd
+    std::uint64_t still_ = 0;  // of the picture converted before
 };
 
 }  // namespace grainreel

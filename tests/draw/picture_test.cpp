@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -75,6 +77,32 @@ TEST(Pictures, WhatMovesLeavesNothingBehind) {
     Renderer renderer(scene, 1);
     for (std::size_t i = 0; i < frames.size(); ++i)
         EXPECT_EQ(changed(alone[i], renderer.draw(frames[i], ""), renderer.view().port).count, 0) << i;
+}
+
+// Drawn in turn into three pictures, each is as one drawn alone, and those with one number differ only where
+// they say that they may.
+TEST(Pictures, AreAlikeOutsideOfWhatMoves) {
+    const Scene scene = wedge();
+    Renderer renderer(scene, 1);
+    std::array<Picture, 3> ring;
+    for (std::size_t i = 0; i < 9; ++i) {
+        Frame frame = scattered(100 + 50 * static_cast<int>(i));
+        frame.time += 0.013 * static_cast<double>(i);
+        frame.phase = 0.1 * static_cast<double>(i);
+        const std::string playback = i / 2 % 2 ? "slow motion" : "";
+        Picture& picture = ring[i % 3];
+        renderer.draw_into(picture, frame, playback, 0);
+        EXPECT_EQ(picture.rgba, Renderer(scene, 1).draw(frame, playback).rgba) << i;
+        ASSERT_NE(picture.still, 0u);
+        const Picture& last = ring[(i + 2) % 3];
+        if (i == 0) continue;
+        EXPECT_EQ(picture.still, last.still);
+        Picture masked = last;
+        for (const Rectangle& part : picture.moving)
+            for (int y = part.y; y < part.y + part.height; ++y)
+                std::copy_n(picture.pixel(part.x, y), 4 * part.width, masked.pixel(part.x, y));
+        EXPECT_EQ(picture.rgba, masked.rgba) << i;
+    }
 }
 
 // Laid over a colour, a transparent picture is the one drawn on that colour.

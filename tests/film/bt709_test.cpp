@@ -78,6 +78,24 @@ TEST(Bt709, LeavesTheRestOfLongerRowsAlone) {
         for (int x = 17; x < 20; ++x) EXPECT_EQ(codes.cb[static_cast<std::size_t>(y * 20 + x)], 7);
 }
 
+// Parts of all places and sizes: as if all had been converted, and nothing far from the part is touched.
+TEST(Bt709, APartsCodesAreThoseOfTheWholePicture) {
+    constexpr int width = 90, height = 8;
+    const Picture before = noise(width, height, 3);
+    const Converted old_codes = converted(before);
+    for (int x = 0; x < 40; x += 3)
+        for (const int across : {1, 2, 7, 34, 50}) {
+            const Rectangle part{x, x % 5, across, 3};
+            Picture after = before;
+            for (int row = part.y; row < part.y + part.height; ++row)
+                std::copy_n(noise(width, height, 4).pixel(part.x, row), 4 * part.width,
+                            after.pixel(part.x, row));
+            Converted codes = old_codes;
+            to_bt709(after, part, {codes.y.data(), codes.cb.data(), codes.cr.data(), width, width / 2, width / 2});
+            EXPECT_EQ(codes, converted(after)) << x << ' ' << across;
+        }
+}
+
 TEST(Bt709, EveryInstructionSetGivesTheSameBits) {
     const Picture picture = noise(150, 10, 2);
     const Converted best = converted(picture);
