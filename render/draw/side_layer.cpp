@@ -10,21 +10,6 @@ namespace {
 
 constexpr gl::TextureFormat bytes{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 
-bool empty(const Rectangle& part) {
-    return part.width <= 0 || part.height <= 0;
-}
-
-std::int64_t area(const Rectangle& part) {
-    return static_cast<std::int64_t>(part.width) * part.height;
-}
-
-Rectangle hull(const Rectangle& a, const Rectangle& b) {
-    if (empty(a)) return b;
-    if (empty(b)) return a;
-    const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
-    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
-}
-
 // Of what lies between the two corners, the pixels that a layer has.
 Rectangle on_layer(float x0, float y0, float x1, float y1, int width, int height) {
     const auto pixel = [](float at, int size) {
@@ -47,49 +32,51 @@ Rectangle area_of(const Shapes& shapes, int width, int height) {
 }  // namespace
 
 SideLayer::SideLayer(const gl::Functions& gl, const Rectangle& port)
-    : gl_(gl),
-      target_(gl, port.width, port.height, bytes),
-      width_(port.width),
-      height_(port.height),
-      layer_(port.width, port.height) {}
-
-// Notes what will have been drawn; where that differs from what is there.
-Rectangle SideLayer::part_to_draw(const Shapes& shapes) {
-    if (drawn_ && shapes == last_) return {};
-    const Rectangle now = area_of(shapes, width_, height_);
-    const Rectangle part = drawn_ ? hull(now, last_part_) : Rectangle{0, 0, width_, height_};
-    last_part_ = now;
-    last_ = shapes;
-    drawn_ = true;
-    return part;
-}
+    : gl_(gl), width_(port.width), height_(port.height), layer_(port.width, port.height) {}
 
 const Layer& SideLayer::draw(const ShapePainter& painter, const Shapes& shapes) {
-    const Rectangle part = part_to_draw(shapes);
-    if (empty(part)) return layer_;
-    target_.bind();
-    // llvmpipe draws a rectangle to clear a part, which for more than a quarter takes longer than to clear
-    // all.
-    const bool large = 4 * area(part) > static_cast<std::int64_t>(width_) * height_;
-    gl_.Scissor(part.x, part.y, part.width, part.height);
-    if (!large) gl_.Enable(GL_SCISSOR_TEST);
+    if (shapes == last_) return layer_;
+    last_ = shapes;
+    const Rectangle part = area_of(shapes, width_, height_);
+    forget_beside(part);
+    if (part.width <= 0 || part.height <= 0) return layer_;
+    bind(part);
     constexpr std::array<float, 4> clear{0, 0, 0, 0};
     gl_.ClearBufferfv(GL_COLOR, 0, clear.data());
     painter.paint(shapes, width_, height_);
-    gl_.Disable(GL_SCISSOR_TEST);
-    read(part);
+    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl_.PixelStorei(GL_PACK_ROW_LENGTH, width_);
+    gl_.ReadPixels(0, 0, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, layer_.row(part.y) + part.x);
+    gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
     return layer_;
 }
 
-void SideLayer::read(const Rectangle& part) {
-    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_.PixelStorei(GL_PACK_ROW_LENGTH, width_);
-    gl_.ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                   layer_.row(part.y) + part.x);
-    gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
-    std::fill(layer_.spans.begin(), layer_.spans.end(), Layer::Span{});
-    for (int y = last_part_.y; y < last_part_.y + last_part_.height; ++y)
-        layer_.spans[static_cast<std::size_t>(y)] = {last_part_.x, last_part_.x + last_part_.width};
+// A target for a part of the port; no larger, because to clear it takes as long as to draw.
+void SideLayer::bind(const Rectangle& part) {
+    constexpr int kStep = 64;  // pixels, so that shapes that grow slowly do not want a new one each time
+    if (!target_ || part.width > target_->width() || part.height > target_->height()) {
+        const auto room = [](int needed, int now) {
+            return std::max(now, (needed + kStep - 1) / kStep * kStep);
+        };
+        const int width = room(part.width, target_ ? target_->width() : 0);
+        const int height = room(part.height, target_ ? target_->height() : 0);
+        target_.emplace(gl_, width, height, bytes);
+    }
+    target_->bind();
+    gl_.Viewport(-part.x, -part.y, width_, height_);
+}
+
+// What was drawn before goes where nothing will be drawn now.
+void SideLayer::forget_beside(const Rectangle& part) {
+    for (int y = 0; y < height_; ++y) {
+        Layer::Span& span = layer_.spans[static_cast<std::size_t>(y)];
+        const bool drawn = part.width > 0 && y >= part.y && y < part.y + part.height;
+        const Layer::Span now = drawn ? Layer::Span{part.x, part.x + part.width} : Layer::Span{};
+        std::uint32_t* row = layer_.row(y);
+        for (int x = span.begin; x < span.end; ++x)
+            if (x < now.begin || x >= now.end) row[x] = 0;
+        span = now;
+    }
 }
 
 }  // namespace grainreel

@@ -1,6 +1,8 @@
 // What OpenGL draws on one side of the grains: drawn again, and read again, only when it has changed.
 #pragma once
 
+#include <optional>
+
 #include "render/draw/canvas.hpp"
 #include "render/draw/view.hpp"
 #include "render/gl/objects.hpp"
@@ -18,15 +20,13 @@ class SideLayer {
     Layer& layer() { return layer_; }
 
   private:
-    Rectangle part_to_draw(const Shapes& shapes);
-    void read(const Rectangle& part);
+    void bind(const Rectangle& part);
+    void forget_beside(const Rectangle& part);
 
     const gl::Functions& gl_;
-    gl::Framebuffer target_;
     const int width_, height_;
-    bool drawn_ = false;
+    std::optional<gl::Framebuffer> target_;  // of a part of the layer
     Shapes last_;
-    Rectangle last_part_;  // where they were drawn
     Layer layer_;
 };
 

@@ -60,6 +60,8 @@ class Framebuffer {
     Framebuffer& operator=(const Framebuffer&) = delete;
 
     void bind() const;  // also sets the viewport
+    int width() const { return width_; }
+    int height() const { return height_; }
 
   private:
     const Functions& gl_;
