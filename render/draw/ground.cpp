@@ -104,7 +104,8 @@ void Ground::shade(int y, std::uint32_t* pixels) const {
     if (y < part_.y || y >= part_.y + part_.height) return;
     const Vec3 first = seen_at(part_.x + 0.5, y + 0.5), step = seen_at(part_.x + 1.5, y + 0.5) - first;
     // The middle of the first cell lies half a cell from the map's corner, and one from that of `dark_`.
-    const Vec3 shifted = first + 0.5 * first.z() * Vec3(1, 1, 0), shifted_step = step + 0.5 * step.z() * Vec3(1, 1, 0);
+    const Vec3 shifted = first + 0.5 * first.z() * Vec3(1, 1, 0),
+               shifted_step = step + 0.5 * step.z() * Vec3(1, 1, 0);
     shade_row({dark_.data(), kStride}, {shifted.cast<float>(), shifted_step.cast<float>()},
               across_.data() + part_.x, margin(y, height_, height_), pixels + part_.x, part_.width);
 }

@@ -33,8 +33,8 @@ class Ground {
     const int width_, height_;
     std::vector<float> rim_;     // by which the shadow fades towards the rim of the map
     std::vector<float> across_;  // by which it fades towards the picture's left and right
-    std::vector<float> dark_;    // strength of the shadow, 0 to 255: the map's cells and a clear one all around
-    Rectangle dark_cells_;       // of the map, outside of which all is clear
+    std::vector<float> dark_;  // strength of the shadow, 0 to 255: the map's cells and a clear one all around
+    Rectangle dark_cells_;     // of the map, outside of which all is clear
     View view_;
     Rectangle part_;  // pixels of the port, outside of which there is no shadow
 };

@@ -191,8 +191,8 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     marks.draw(
         eye, marked ? *marked : all, [&](std::size_t i) { return marked ? 1 : of_all.seen_share(i); },
         shapes.over);
-    compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr, walls_behind,
-             grains, ghosts, walls_before()},
+    compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
+             walls_behind, grains, ghosts, walls_before()},
             port, into, team);
     for (const auto& [place, pixel] : covered) *place = pixel;
     covered.clear();

@@ -71,12 +71,12 @@ void shade(const ShadeMap& map, const MapWalk& walk, const float* across, float 
         const Between u = between(hn::Mul(place(walk, 0, pixel), inverse), map.side);
         const Between v = between(hn::Mul(place(walk, 1, pixel), inverse), map.side);
         const V faded = hn::Mul(hn::LoadU(d, whole ? across + x : margin), hn::Set(d, all));
-        const auto dark = hn::BitCast(
-            p, hn::ConvertTo(I(), hn::MulAdd(strength(map, u, v), faded, hn::Set(d, 0.5f))));
+        const auto dark =
+            hn::BitCast(p, hn::ConvertTo(I(), hn::MulAdd(strength(map, u, v), faded, hn::Set(d, 0.5f))));
         if (hn::AllTrue(p, hn::Eq(dark, hn::Zero(p)))) continue;
         std::uint32_t* to = whole ? pixels + x : below;
-        const auto shaded = hn::Add(hn::ShiftLeft<24>(dark),
-                                    scaled_all(p, hn::LoadU(p, to), hn::Sub(hn::Set(p, 255), dark)));
+        const auto shaded =
+            hn::Add(hn::ShiftLeft<24>(dark), scaled_all(p, hn::LoadU(p, to), hn::Sub(hn::Set(p, 255), dark)));
         hn::StoreU(shaded, p, to);
         if (!whole) {
             for (int i = 0; i < left; ++i) pixels[x + i] = below[i];

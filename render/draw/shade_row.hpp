@@ -12,8 +12,8 @@ struct ShadeMap {
     int side;
 };
 
-// (u, v, w) of the first pixel, and what it grows by from each to the next: u/w, v/w is the place on the map, in
-// cells from the middle of the first one. What lies beside the map is not darkened.
+// (u, v, w) of the first pixel, and what it grows by from each to the next: u/w, v/w is the place on the map,
+// in cells from the middle of the first one. What lies beside the map is not darkened.
 struct MapWalk {
     Eigen::Vector3f first, step;
 };

@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "render/film/bt709.cpp"
 #include "engine/vector/targets.hpp"
 //
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ using OnePixel = hn::CappedTag<std::uint32_t, 1>;
 
 constexpr int kBits = 16;  // of the shares' fractions
 
-// What a code is made of: shares of the colours, 219 or 224 codes to 255 levels; and the code of black or grey.
+// What a code is made of: shares of the colours, 219 or 224 codes to 255 levels; and the code of black or
+// grey.
 struct Share {
     int red, green, blue, zero;
 };
@@ -27,9 +29,9 @@ constexpr int fixed(double share) {
 }
 constexpr double kRed = 0.2126, kGreen = 0.7152, kBlue = 0.0722;
 constexpr double kY = 219.0 / 255, kCb = 224.0 / 255 / 1.8556, kCr = 224.0 / 255 / 1.5748;
-constexpr Share kLuma{fixed(kY * kRed), fixed(kY * kGreen), fixed(kY * kBlue), 16};
-constexpr Share kToBlue{fixed(-kCb * kRed), fixed(-kCb * kGreen), fixed(kCb * (1 - kBlue)), 128};
-constexpr Share kToRed{fixed(kCr * (1 - kRed)), fixed(-kCr * kGreen), fixed(-kCr * kBlue), 128};
+constexpr Share kLuma{fixed(kY * kRed), fixed(kY* kGreen), fixed(kY* kBlue), 16};
+constexpr Share kToBlue{fixed(-kCb * kRed), fixed(-kCb* kGreen), fixed(kCb*(1 - kBlue)), 128};
+constexpr Share kToRed{fixed(kCr * (1 - kRed)), fixed(-kCr* kGreen), fixed(-kCr* kBlue), 128};
 
 template <class D>
 using Numbers = hn::Vec<hn::RebindToSigned<D>>;
@@ -63,8 +65,8 @@ HWY_INLINE void luma(D d, const std::uint8_t* pixels, std::uint8_t* to) {
     const auto low = hn::Set(d, 0xffu);
     const auto all = pixels_at(d, pixels);
     const auto colour = [&](auto shifted) { return hn::BitCast(numbers, hn::And(shifted, low)); };
-    store_codes<0>(kLuma,
-                   Colours<D>{colour(all), colour(hn::ShiftRight<8>(all)), colour(hn::ShiftRight<16>(all))}, to);
+    store_codes<0>(
+        kLuma, Colours<D>{colour(all), colour(hn::ShiftRight<8>(all)), colour(hn::ShiftRight<16>(all))}, to);
 }
 
 // Columns from begin to end.
@@ -76,7 +78,10 @@ void luma_row(const std::uint8_t* pixels, const Columns& columns, std::uint8_t* 
     const Pixels d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     int x = columns.begin;
-    for (; x + lanes <= columns.end; x += lanes) luma(d, pixels + 4 * x, to + x);
+    for (; x + lanes <= columns.end; x += lanes) {
+        hwy::Prefetch(pixels + 4 * (x + 512));  // another processor has just drawn them: 0.8 of the time
+        luma(d, pixels + 4 * x, to + x);
+    }
     for (; x < columns.end; ++x) luma(OnePixel(), pixels + 4 * x, to + x);
 }
 
@@ -139,15 +144,15 @@ void chroma_row(const RowPair& rows, const Columns& columns, std::uint8_t* cb, s
         const OnePixel single;
         const auto column = [&](int at) { return halves(single, rows.upper + 4 * at, rows.lower + 4 * at); };
         const Halves<OnePixel> middle = column(x);
-        const Halves<OnePixel> sums = sum(sum(middle, middle), sum(column(std::max(x - 1, 0)), column(x + 1)));
+        const Halves<OnePixel> sums =
+            sum(sum(middle, middle), sum(column(std::max(x - 1, 0)), column(x + 1)));
         chroma(single, sums, cb + x / 2, cr + x / 2);
     };
     int x = columns.begin;
     if (x == 0) one(x), x = 2;
 #if HWY_TARGET != HWY_SCALAR
     const int step = 2 * static_cast<int>(hn::Lanes(Pixels()));
-    for (; x + step <= columns.end; x += step)
-        chroma(Pixels(), every_other(rows, x), cb + x / 2, cr + x / 2);
+    for (; x + step <= columns.end; x += step) chroma(Pixels(), every_other(rows, x), cb + x / 2, cr + x / 2);
 #endif
     for (; x < columns.end; x += 2) one(x);
 }

@@ -31,8 +31,8 @@ class ColourConversion {
 
     int width_, height_;
     EvenSize coded_;
-    ScalerPtr scaler_;  // of the same RGB in another order
-    Picture padded_;    // only used when a size is odd
+    ScalerPtr scaler_;         // of the same RGB in another order
+    Picture padded_;           // only used when a size is odd
     std::uint64_t still_ = 0;  // of the picture converted before
 };
 

@@ -96,7 +96,8 @@ void BandPainter::settle_edges(const PaintJob& job) {
     block_size_ = 0;
 }
 
-// Sorts by grain, and calls light(grain, begin, end) with each one's part of `sorted`, so that it fills registers.
+// Sorts by grain, and calls light(grain, begin, end) with each one's part of `sorted`, so that it fills
+// registers.
 template <class Of, class Light>
 void BandPainter::for_each_grain(const PaintJob& job, const std::vector<Of>& all, std::vector<Of>& sorted,
                                  const Light& light) {
@@ -150,8 +151,9 @@ void BandPainter::light_parts(const PaintJob& job) {
         make_room(end - begin);
         for (std::size_t i = begin; i < end; ++i) x_[i - begin] = sorted_[i].x, y_[i - begin] = sorted_[i].y;
         pad(end - begin);
-        light(job, grain,
-              {x_.data(), y_.data(), red_.data(), green_.data(), blue_.data(), static_cast<int>(end - begin)});
+        light(
+            job, grain,
+            {x_.data(), y_.data(), red_.data(), green_.data(), blue_.data(), static_cast<int>(end - begin)});
         add_parts(begin, end);
     });
 }

@@ -27,7 +27,8 @@ void ToneTable::pixels(const float* red, const float* green, const float* blue, 
     for (int first = 0; first < count; first += kSome) {
         const int some = std::min(kSome, count - first);
         for (int c = 0; c < 3; ++c)
-            for (int i = 0; i < some; ++i) steps[c][static_cast<std::size_t>(i)] = step(colours[c][first + i]);
+            for (int i = 0; i < some; ++i)
+                steps[c][static_cast<std::size_t>(i)] = step(colours[c][first + i]);
         for (int i = 0; i < some; ++i) {
             const auto byte = [&](int c) -> std::uint32_t {
                 return bytes_[static_cast<std::size_t>(steps[c][static_cast<std::size_t>(i)])];

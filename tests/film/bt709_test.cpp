@@ -91,7 +91,8 @@ TEST(Bt709, APartsCodesAreThoseOfTheWholePicture) {
                 std::copy_n(noise(width, height, 4).pixel(part.x, row), 4 * part.width,
                             after.pixel(part.x, row));
             Converted codes = old_codes;
-            to_bt709(after, part, {codes.y.data(), codes.cb.data(), codes.cr.data(), width, width / 2, width / 2});
+            to_bt709(after, part,
+                     {codes.y.data(), codes.cb.data(), codes.cr.data(), width, width / 2, width / 2});
             EXPECT_EQ(codes, converted(after)) << x << ' ' << across;
         }
 }
