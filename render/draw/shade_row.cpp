@@ -23,7 +23,7 @@ struct Between {
 HWY_INLINE Between between(V at, int side) {
     const F d;
     // Beside the map, or nowhere: the clear rim. (What is no number becomes 0.)
-    const V inside = hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, static_cast<float>(side) - 1.01f));
+    const V inside = hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, static_cast<float>(side) - 1.0001f));
     const auto cell = hn::ConvertTo(I(), inside);
     return {cell, hn::Sub(inside, hn::ConvertTo(d, cell))};
 }
