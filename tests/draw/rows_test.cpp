@@ -80,7 +80,8 @@ Shaded shaded(int count, unsigned seed) {
     Shaded s;
     s.cells.assign(kSide * kSide, 0);
     for (int j = 1; j < kSide - 1; ++j)
-        for (int i = 1; i < kSide - 1; ++i) s.cells[static_cast<std::size_t>(j * kSide + i)] = between(0, 255);
+        for (int i = 1; i < kSide - 1; ++i)
+            s.cells[static_cast<std::size_t>(j * kSide + i)] = between(0, 255);
     // From beside the map across it to its other side; on some walks the horizon comes first.
     const Eigen::Vector3f from(-3, between(0, kSide), 1), to(kSide + 3, between(0, kSide), 1);
     const float near = between(0.5, 2), far = seed % 3 == 0 ? -0.2f : between(0.5, 2);
