@@ -1,7 +1,6 @@
 #include "render/draw/renderer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>

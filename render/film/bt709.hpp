@@ -1,5 +1,5 @@
 // From sRGB pixels to what a video codec stores: Y'CbCr of ITU-R BT.709-6 in limited range, chroma halved
-// both ways. Our own in place of swscale's: a third of the time, rounded to the nearest code, and chroma
+// both ways. Our own in place of swscale's: half the time, rounded to the nearest code, and chroma
 // where the film says it is. Integers only: the same bits with every instruction set.
 #pragma once
 
