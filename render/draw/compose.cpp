@@ -26,6 +26,7 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
             lay_row(layers.grains, y, out);
             if (layers.ghosts) lay_row(*layers.ghosts, y, out, kGhost);
             lay_row(layers.before, y, out);
+            if (layers.marks) lay_row(*layers.marks, y, out);
         }
     });
 }

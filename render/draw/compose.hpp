@@ -19,6 +19,7 @@ struct Layers {
     const Layer& grains;
     const Layer* ghosts;  // laid over the grains at a part of their strength; may be null
     const Layer& before;
+    const Layer* marks;  // over all others; may be null
 };
 
 // The result goes into the port's part of the picture.

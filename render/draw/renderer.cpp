@@ -17,7 +17,6 @@
 #include "render/draw/shown_grains.hpp"
 #include "render/draw/side_layer.hpp"
 #include "render/draw/spheres.hpp"
-#include "render/spheres/lay_over.hpp"
 #include "render/spheres/pixel.hpp"
 
 namespace grainreel {
@@ -99,7 +98,6 @@ struct Renderer::Impl {
     SideLayer behind, before;
     std::optional<SideLayer> marks_alone;  // where grains hide parts of the walls before them
     std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;  // of `before`: pixels as they were
-    std::optional<Layer> mended;                                    // `marks_alone` over `before`
     std::optional<Ground> ground;
     Team team;
     ShownGrains shown, solid;  // of all: those that are not hidden; of these: those that are not ghosts
@@ -119,7 +117,7 @@ struct Renderer::Impl {
     void draw_moment(const Frame& frame, const Frame* marked, const View& view, Picture& into,
                      Stopwatch& watch);
     const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
-    const Layer& walls_before();
+    const Layer* draw_before();
 };
 
 void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
@@ -190,8 +188,9 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     marks.draw(
         eye, marked ? *marked : all, [&](std::size_t i) { return marked ? 1 : of_all.seen_share(i); },
         shapes.over);
+    const Layer* marked_alone = draw_before();
     compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
-             walls_behind, grains, ghosts, walls_before()},
+             walls_behind, grains, ghosts, before.layer(), marked_alone},
             port, into, team);
     for (const auto& [place, pixel] : covered) *place = pixel;
     covered.clear();
@@ -199,31 +198,22 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     watch.lap(&DrawTimes::readback);
 }
 
-// Walls before the grains, less what grains hide of them, and the marks over them.
-const Layer& Renderer::Impl::walls_before() {
+// Walls before the grains, less what grains hide of them, with the marks over them; where grains hide some,
+// the marks are a layer of their own, which it gives back.
+const Layer* Renderer::Impl::draw_before() {
     const std::vector<WallPixel>& pixels = sphere_painter.wall_pixels();
     const bool bared = std::any_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.bared > 0; });
-    if (!bared) {
-        shapes.before.shapes.append(shapes.over);
-        return before.draw(shape_painter, shapes.before.shapes);
-    }
+    if (!bared) shapes.before.shapes.append(shapes.over);
     before.draw(shape_painter, shapes.before.shapes);
-    Layer& walls = before.layer();
+    if (!bared) return nullptr;
     for (const WallPixel& pixel : pixels) {
-        std::uint32_t& place = walls.row(pixel.y)[pixel.x];
+        std::uint32_t& place = before.layer().row(pixel.y)[pixel.x];
         covered.emplace_back(&place, place);
         place = faded(place, 1 - pixel.bared);
     }
-    if (shapes.over.vertices().empty()) return walls;
+    if (shapes.over.vertices().empty()) return nullptr;
     if (!marks_alone) marks_alone.emplace(context->gl(), port);
-    const Layer& marked = marks_alone->draw(shape_painter, shapes.over);
-    mended = walls;
-    for (int y = 0; y < port.height; ++y) {
-        const Layer::Span span = marked.spans[static_cast<std::size_t>(y)];
-        lay_over(mended->row(y) + span.begin, marked.row(y) + span.begin, span.end - span.begin);
-        mended->spans[static_cast<std::size_t>(y)] = hull(walls.spans[static_cast<std::size_t>(y)], span);
-    }
-    return *mended;
+    return &marks_alone->draw(shape_painter, shapes.over);
 }
 
 const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const {

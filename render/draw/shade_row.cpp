@@ -75,9 +75,7 @@ void shade(const ShadeMap& map, const MapWalk& walk, const float* across, float 
             hn::BitCast(p, hn::ConvertTo(I(), hn::MulAdd(strength(map, u, v), faded, hn::Set(d, 0.5f))));
         if (hn::AllTrue(p, hn::Eq(dark, hn::Zero(p)))) continue;
         std::uint32_t* to = whole ? pixels + x : below;
-        const auto shaded =
-            hn::Add(hn::ShiftLeft<24>(dark), scaled_all(p, hn::LoadU(p, to), hn::Sub(hn::Set(p, 255), dark)));
-        hn::StoreU(shaded, p, to);
+        hn::StoreU(over_all(p, hn::ShiftLeft<24>(dark), hn::LoadU(p, to)), p, to);
         if (!whole) {
             for (int i = 0; i < left; ++i) pixels[x + i] = below[i];
         }

@@ -18,8 +18,7 @@ void lay(std::uint32_t* below, const std::uint32_t* top, int count, std::uint32_
         auto above = hn::LoadU(d, top + x);
         if (hn::AllTrue(d, hn::Eq(above, hn::Zero(d)))) continue;
         if (strength != 255) above = scaled_all(d, above, hn::Set(d, strength));
-        const auto left = hn::Sub(hn::Set(d, 255), hn::ShiftRight<24>(above));
-        hn::StoreU(hn::Add(above, scaled_all(d, hn::LoadU(d, below + x), left)), d, below + x);
+        hn::StoreU(over_all(d, above, hn::LoadU(d, below + x)), d, below + x);
     }
     for (; x < count; ++x) below[x] = over(scaled(top[x], strength), below[x]);
 }

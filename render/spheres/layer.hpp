@@ -1,7 +1,6 @@
 // A picture to be laid over others: 8-bit sRGB, multiplied by its alpha.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -11,12 +10,6 @@ struct Layer {
     // Of a row: from the first pixel that is not clear to after the last.
     struct Span {
         int begin = 0, end = 0;
-
-        friend Span hull(Span a, Span b) {
-            if (a.begin == a.end) return b;
-            if (b.begin == b.end) return a;
-            return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
-        }
     };
     int width = 0, height = 0;
     std::vector<std::uint32_t> pixels;  // rows from the top; red in the lowest byte, alpha in the highest

@@ -1,4 +1,4 @@
-// scaled() of pixel.hpp for a register of pixels.
+// scaled() and over() of pixel.hpp for a register of pixels.
 #if defined(GRAINREEL_SPHERES_PIXELS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_PIXELS_INL
 #undef GRAINREEL_SPHERES_PIXELS_INL
@@ -25,6 +25,11 @@ HWY_INLINE V scaled_all(D d, V pixels, V share) {
     };
     return hn::Add(pair(hn::And(pixels, even)),
                    hn::ShiftLeft<8>(pair(hn::And(hn::ShiftRight<8>(pixels), even))));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V over_all(D d, V top, V below) {
+    return hn::Add(top, scaled_all(d, below, hn::Sub(hn::Set(d, 255), hn::ShiftRight<24>(top))));
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -1,6 +1,5 @@
 // Rows of pixels laid over each other and darkened, many at once, against one at a time.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,21 +9,10 @@
 #include "render/draw/shade_row.hpp"
 #include "render/spheres/lay_over.hpp"
 #include "render/spheres/pixel.hpp"
+#include "tests/instruction_sets.hpp"
 
 namespace grainreel::test {
 namespace {
-
-template <class Work>
-void for_each_instruction_set(const Work& work) {
-    const std::int64_t supported = hwy::SupportedTargets();
-    for (const std::int64_t target : {HWY_AVX3, HWY_AVX2, HWY_SSE4, HWY_EMU128 | HWY_SCALAR}) {
-        if (!(supported & target)) continue;
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::GetChosenTarget().Update(target);
-        work();
-    }
-    hwy::GetChosenTarget().Update(supported);
-}
 
 // Multiplied by their alpha, a third of them clear.
 std::vector<std::uint32_t> pixels(std::size_t count, unsigned seed) {
@@ -38,7 +26,7 @@ std::vector<std::uint32_t> pixels(std::size_t count, unsigned seed) {
 }
 
 TEST(LayOver, IsOverForEachPixel) {
-    for_each_instruction_set([] {
+    for_each_instruction_set([](std::int64_t) {
         for (const std::uint32_t strength : {255u, 90u, 0u})
             for (std::size_t count = 0; count < 70; ++count) {
                 const auto top = pixels(count + 1, 1), below = pixels(count + 1, 2);
@@ -95,7 +83,7 @@ Shaded shaded(int count, unsigned seed) {
 }
 
 TEST(ShadeRow, DarkensByWhatTheMapSays) {
-    for_each_instruction_set([] {
+    for_each_instruction_set([](std::int64_t) {
         for (int count = 1; count < 80; ++count) {
             const Shaded s = shaded(count, static_cast<unsigned>(count));
             for (int x = 0; x < count; ++x) {

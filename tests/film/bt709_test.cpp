@@ -1,7 +1,6 @@
 #include "render/film/bt709.hpp"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
+#include "tests/instruction_sets.hpp"
 
 namespace grainreel::test {
 namespace {
@@ -100,13 +100,7 @@ TEST(Bt709, APartsCodesAreThoseOfTheWholePicture) {
 TEST(Bt709, EveryInstructionSetGivesTheSameBits) {
     const Picture picture = noise(150, 10, 2);
     const Converted best = converted(picture);
-    const std::int64_t supported = hwy::SupportedTargets();
-    for (const std::int64_t target : {HWY_AVX2, HWY_SSE4, HWY_EMU128 | HWY_SCALAR}) {
-        if (!(supported & target)) continue;
-        hwy::GetChosenTarget().Update(target);
-        EXPECT_EQ(converted(picture), best) << hwy::TargetName(target);
-    }
-    hwy::GetChosenTarget().Update(supported);
+    for_each_instruction_set([&](std::int64_t) { EXPECT_EQ(converted(picture), best); });
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "engine/laws/walton_braun_speed-inl.hpp"
 #include "engine/laws/walton_braun_table-inl.hpp"
 #include "engine/step/histories.hpp"
+#include "tests/instruction_sets.hpp"
 #include "tests/physics/one_lane.hpp"
 #include "tests/physics/world.hpp"
 
@@ -28,21 +29,13 @@ using namespace HWY_NAMESPACE;
 // The instruction set of the kernels in use.
 std::int64_t used = 0;
 
-// Calls work() for each instruction set that this processor has and the kernels are compiled for.
+// Calls work() for each, and notes which it is.
 template <class Work>
 void for_each_width(const Work& work) {
-    for (const std::int64_t target :
-         {std::int64_t{HWY_SCALAR}, std::int64_t{HWY_EMU128}, std::int64_t{HWY_SSE4}, std::int64_t{HWY_AVX2},
-          std::int64_t{HWY_AVX3}}) {
-        const bool plain = target == HWY_SCALAR || target == HWY_EMU128;
-        if (!plain && !(hwy::SupportedTargets() & target)) continue;
-        if (!plain && !(HWY_TARGETS & target)) continue;
-        hwy::GetChosenTarget().Update(target);
+    test::for_each_instruction_set([&](std::int64_t target) {
         used = target;
-        SCOPED_TRACE(hwy::TargetName(target));
         work();
-    }
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
 }
 
 // Kernels of these fuse multiplications with additions.
