@@ -14,8 +14,9 @@ namespace grainreel::test {
 template <class Work>
 void for_each_instruction_set(const Work& work) {
     const std::int64_t supported = hwy::SupportedTargets();
-    for (const std::int64_t target : {std::int64_t{HWY_SCALAR}, std::int64_t{HWY_EMU128}, std::int64_t{HWY_SSE4},
-                                      std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}}) {
+    for (const std::int64_t target :
+         {std::int64_t{HWY_SCALAR}, std::int64_t{HWY_EMU128}, std::int64_t{HWY_SSE4}, std::int64_t{HWY_AVX2},
+          std::int64_t{HWY_AVX3}}) {
         const bool plain = target == HWY_SCALAR || target == HWY_EMU128;
         if (!plain && !(supported & HWY_TARGETS & target)) continue;
         hwy::GetChosenTarget().Update(target);
