@@ -93,7 +93,7 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
         table.begin_step();
         each_touching_candidate(rules, in.group, table, grains, state, &found_[g].candidates,
                                 [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
-        table.end_step();
+        note_loaded(in.group.of_pairs, table, table.end_step(), table.size());
         compute_stretch(in, table, table.late(), table.size(), nullptr, clock);
         compute_stretch(in, table, 0, table.sorted(), g == 0 ? &vanguard : nullptr, clock);
     }

@@ -55,6 +55,9 @@ class ContactPass {
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                  const std::vector<Face>& faces, const Pose& pose, double skin);
 
+    // Of the own grains, those that have contacts.
+    const Loaded& loaded() const { return loaded_; }
+
     // Contacts under own grains that no longer touch, and are computed all the same until the next refresh.
     std::int64_t parted() const;
 
@@ -102,6 +105,8 @@ class ContactPass {
     };
 
     bool owns(std::int32_t grain) const { return grain >= begin_ && grain < end_; }
+    void note_loaded(const ContactRules& rules);
+    void note_loaded(bool of_pairs, const ContactTable& table, std::int32_t begin, std::int32_t end);
     void list_near_pairs(const ContactRules& rules, const Grains& grains, const NeighbourList& list,
                          double skin);
     void list_near_walls(const ContactRules& rules, const Grains& grains,
@@ -135,6 +140,7 @@ class ContactPass {
     };
     std::vector<Pair> incoming_;  // listed pairs of an earlier thread's grain and an own one
     Halo halo_;
+    Loaded loaded_;
     struct Found {
         FoundPairs contacts, candidates;  // the sorted contacts
     };

@@ -212,9 +212,27 @@ void ContactPass::list_candidates(const ContactRules& rules, const Grains& grain
     for (ContactTable& table : tables_) table.end_candidates();
 }
 
+void ContactPass::note_loaded(bool of_pairs, const ContactTable& table, std::int32_t begin,
+                              std::int32_t end) {
+    for (std::int32_t c = begin; c < end; ++c) {
+        loaded_.note(table.first()[c]);
+        if (of_pairs) loaded_.note(table.second()[c]);
+    }
+}
+
+void ContactPass::note_loaded(const ContactRules& rules) {
+    loaded_.clear(begin_, end_);
+    for (std::size_t g = 0; g < tables_.size(); ++g) {
+        tables_[g].each_stretch([&](std::int32_t begin, std::int32_t end) {
+            note_loaded(rules.groups[g].of_pairs, tables_[g], begin, end);
+        });
+    }
+}
+
 void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                           const std::vector<Face>& faces, const Pose& pose, double skin) {
     for (ContactTable& table : tables_) table.sort();
+    note_loaded(rules);
     list_candidates(rules, grains, lists, faces, pose, skin);
 }
 
@@ -255,6 +273,7 @@ void ContactPass::restore(const ContactRules& rules, const std::vector<KeptConta
         }
         tables_[g].end_restore(steps);
     }
+    note_loaded(rules);
 }
 
 }  // namespace grainreel

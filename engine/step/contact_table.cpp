@@ -140,8 +140,10 @@ void ContactTable::add_candidates(std::int32_t c, std::uint64_t which) {
     }
 }
 
-void ContactTable::end_step() {
-    if (!batches_.empty() && batches_.back().step == step_) fill_up();
+std::int32_t ContactTable::end_step() {
+    if (batches_.empty() || batches_.back().step != step_) return size_;
+    fill_up();
+    return std::max(batches_.back().from, late());
 }
 
 void ContactTable::keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const {

@@ -67,7 +67,7 @@ class ContactTable {
     void admit(std::int32_t c, std::uint64_t touching) {
         if (const std::uint64_t news = touching & ~admitted_[c / 64]; news != 0) add_candidates(c, news);
     }
-    void end_step();
+    std::int32_t end_step();  // the first of them; size() for none
     // Of the 64 candidates from c on: those that have become contacts.
     std::uint64_t admitted(std::int32_t c) const { return admitted_[c / 64]; }
 

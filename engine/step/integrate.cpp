@@ -11,28 +11,41 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
+constexpr std::uint64_t kAllTogether = (1 << kTogether) - 1;
+
 // Of grain i: position and radius; motion; force and torque.
 struct Numbers {
     double *place, *motion, *load;
-    RoundedMotion* rounded;
+    float* rounded;
+    const Loaded* loaded;
     bool large;
-    explicit Numbers(Grains& g)
+    Numbers(Grains& g, const Loaded* some)
         : place(reinterpret_cast<double*>(g.place.data())),
           motion(reinterpret_cast<double*>(g.motion.data())),
           load(reinterpret_cast<double*>(g.load.data())),
-          rounded(g.rounded.empty() ? nullptr : g.rounded.data()),
+          rounded(g.rounded.empty() ? nullptr : reinterpret_cast<float*>(g.rounded.data())),
+          loaded(some && some->few() ? some : nullptr),
           large(g.size() >= kLargeBed) {}
 
-    // Some grains ahead of i: what contacts have not brought to the cache already, which is all of it where
-    // the bed is large, and what they read a copy of.
-    HWY_INLINE void fetch_ahead(std::ptrdiff_t i) const {
+    // Bit k: whether grain i + k may have a load.
+    HWY_INLINE std::uint64_t loads_from(std::ptrdiff_t i) const {
+        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : ~std::uint64_t{0};
+    }
+
+    // Four grains some way ahead of those at i, whose `loads` begin there: what contacts have not brought to
+    // the cache already, which is all of it where the bed is large, and what they read a copy of.
+    HWY_INLINE void fetch_ahead(std::ptrdiff_t i, std::uint64_t loads) const {
         constexpr std::ptrdiff_t ahead = 32;
+        if (!large && !rounded) return;
         const std::ptrdiff_t later = i + ahead;
-        if (large || rounded) __builtin_prefetch(motion + 8 * later, 1);
+        for (std::ptrdiff_t k = later; k < later + kTogether; ++k) __builtin_prefetch(motion + 8 * k, 1);
         if (!large) return;
-        __builtin_prefetch(place + 4 * later, 1);
-        __builtin_prefetch(load + 8 * later, 1);
-        if (rounded) __builtin_prefetch(rounded + later, 1);
+        for (std::ptrdiff_t k = later; k < later + kTogether; k += 2) __builtin_prefetch(place + 4 * k, 1);
+        if (rounded)
+            for (std::ptrdiff_t k = later; k < later + kTogether; k += 2)
+                __builtin_prefetch(rounded + 8 * k, 1);
+        if ((loads >> ahead & kAllTogether) == 0) return;
+        for (std::ptrdiff_t k = later; k < later + kTogether; ++k) __builtin_prefetch(load + 8 * k, 1);
     }
 };
 
@@ -69,18 +82,17 @@ template <bool ends, bool begins, bool rubs, bool drags>
 HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     using Whole = MotionRecord<rubs>;
     constexpr int size = Whole::size;
-    const Numbers at(grains);
+    const Numbers at(grains, in.loaded);
     const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
     const Record<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
     const Record<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
     const Record<size> gravity = Whole::of(record_of(in.gravity), zero);
     const Record<size> frame = Whole::of(record_of(in.frame), zero);
     Record<4> fastest = zero;
-    for (std::ptrdiff_t i = begin; i < end; ++i) {
-        at.fetch_ahead(i);
+    const auto go_on = [&](std::ptrdiff_t i, auto has_load) HWY_ATTR {
         double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
-        const Record<size> gains = multiply_add(record_at<size>(load), Whole::fourths(motion), gravity);
-        Record<size> now = record_at<size>(motion);
+        Record<size> now = record_at<size>(motion), gains = gravity;
+        if (has_load.value) gains = multiply_add(record_at<size>(load), Whole::fourths(motion), gravity);
         if (ends) now = multiply_add(last, gains, now);
         if (ends && drags) now = now * keep;
         if (begins) {
@@ -88,13 +100,23 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
             double* place = at.place + 4 * i;
             const double radius = place[3];
             put(multiply_add(whole, first_four(now), record_at<4>(place)), place);
-            put(nothing, load);
+            if (has_load.value) put(nothing, load);
             const Record<size> relative = now - frame;
             fastest = larger_size(fastest, first_four(relative));
-            if (at.rounded) put_rounded(Whole::with_radius(relative, radius), at.rounded[i].velocity);
+            if (at.rounded) put_rounded(Whole::with_radius(relative, radius), at.rounded + 8 * i);
         }
         put(now, motion);
+    };
+    std::ptrdiff_t i = begin;
+    for (; i + kTogether <= end; i += kTogether) {
+        const std::uint64_t loads = at.loads_from(i);
+        at.fetch_ahead(i, loads);
+        if (loads & kAllTogether)
+            for (int k = 0; k < kTogether; ++k) go_on(i + k, std::true_type());
+        else
+            for (int k = 0; k < kTogether; ++k) go_on(i + k, std::false_type());
     }
+    for (; i < end; ++i) go_on(i, std::true_type());
     HWY_ALIGN double f[4];
     put(fastest, f);
     return {f[0], f[1], f[2]};
@@ -168,7 +190,8 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
 }
 
 void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {
-    const std::int32_t end = std::min(complete, vanguard.end);
+    const std::int32_t many = complete - vanguard.next;
+    const std::int32_t end = std::min(vanguard.next + many - many % kTogether, vanguard.end);
     if (end <= vanguard.next) return;
     vanguard.fastest = vanguard.fastest.cwiseMax(kick_and_go_on(grains, vanguard.kicks, vanguard.next, end));
     vanguard.next = end;

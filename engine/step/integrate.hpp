@@ -4,18 +4,24 @@
 #include <cstdint>
 
 #include "engine/state/grains.hpp"
+#include "engine/step/loaded.hpp"
 
 namespace grainreel {
 
 struct KickInput {
-    Vec3 gravity{0, 0, 0};  // m/s2
-    bool rubs = false;      // spins follow torques
-    double keep = 1;        // share of velocity and spin that drag leaves after an ending kick
-    Vec3 frame{0, 0, 0};    // m/s, velocity against which speeds are measured and motion is rounded
-    double end_kick = 0;    // s, by the forces of now
-    double begin_kick = 0;  // s, by the same forces once more
-    double drift = 0;       // s
+    Vec3 gravity{0, 0, 0};           // m/s2
+    bool rubs = false;               // spins follow torques
+    double keep = 1;                 // share of velocity and spin that drag leaves after an ending kick
+    Vec3 frame{0, 0, 0};             // m/s, velocity against which speeds are measured and motion is rounded
+    double end_kick = 0;             // s, by the forces of now
+    double begin_kick = 0;           // s, by the same forces once more
+    double drift = 0;                // s
+    const Loaded* loaded = nullptr;  // the loads of its other grains are left alone; nullptr: of none
 };
+
+// Loads are left alone where so many grains in a row have none: grain by grain, a processor could not predict
+// it.
+constexpr int kTogether = 4;
 
 // Begins: kick and drift of the grains [begin, end); loads are used up and set to zero. Returns the largest
 // components (m/s) of their velocities against the frame.
@@ -36,7 +42,7 @@ struct Vanguard {
     std::int32_t next = 0;  // [begin, next) have gone on
     Vec3 fastest{0, 0, 0};  // m/s, of these
 };
-// All of them below `complete`.
+// All of them below `complete`, but for a few, so that the others can be taken together.
 void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete);
 
 // A drift alone. Loads stay.

@@ -67,6 +67,7 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
     std::int64_t n = from;
     std::size_t stage = 0;
     Evaluation at = evaluation(n, stage, step);
+    kicks.loaded = &mine.contacts.loaded();
     kicks = kicks_before(at, stage, true, step, kicks);
     for (bool first = true; n < to; first = false) {
         move(member, first, kicks);
