@@ -1,6 +1,7 @@
 #include "engine/step/halo.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "engine/base/prefetch.hpp"
@@ -17,6 +18,34 @@ int numbers_of(const Grains& grains) {
     return kPosition + (grains.rounded.empty() ? kDoubles : kFloats);
 }
 constexpr int kMostNumbers = kPosition + 6;
+constexpr int kBits = 64;  // of a word
+constexpr std::int32_t words_for(std::int32_t count) {
+    return (count + kBits - 1) / kBits;
+}
+constexpr std::int32_t lines_for(std::int32_t count) {
+    return (words_for(count) + count * kMostNumbers + 7) / 8;
+}
+
+bool all_come(const double* words, std::int32_t count) {
+    std::int32_t come = 0;
+    for (std::int32_t w = 0; w < words_for(count); ++w) {
+        std::uint64_t word;
+        std::memcpy(&word, words + w, sizeof word);
+        come += std::popcount(word);
+    }
+    return come == count;
+}
+
+void set_copy(Grains& grains, std::int32_t copy, const double* from) {
+    std::memcpy(grains.place.data()[copy].position.data(), from, kPosition * sizeof(double));
+    if (!grains.rounded.empty()) {
+        std::memcpy(&grains.rounded.data()[copy], from + kPosition, sizeof(RoundedMotion));
+        return;
+    }
+    Motion& motion = grains.motion.data()[copy];
+    std::memcpy(motion.velocity.data(), from + kPosition, 3 * sizeof(double));
+    std::memcpy(motion.spin.data(), from + kPosition + 3, 3 * sizeof(double));
+}
 
 }  // namespace
 
@@ -34,62 +63,82 @@ void Halo::begin_list() {
 }
 
 // A little more, or each new list would ask for memory.
-void Halo::make_room(std::int32_t at) {
+void Halo::make_room(std::int32_t at, int owners) {
     at_ = at;
     const std::size_t room = foreign_.size() + foreign_.size() / 4 + kBlock;
     if (foreign_.capacity() >= foreign_.size() + kBlock) return;
     foreign_.reserve(room);
-    for (auto& box : box_) box.reserve(room * kMostNumbers / 8 + 1);
+    for (auto& box : box_) box.reserve(lines_for(static_cast<std::int32_t>(room)) + 2 * owners);
 }
 
 void Halo::end_list(Grains& grains, const Shares& shares) {
     std::sort(foreign_.begin(), foreign_.end());
     part_.clear();
-    for (const std::int32_t share : shares) {
-        part_.push_back(static_cast<std::int32_t>(std::lower_bound(foreign_.begin(), foreign_.end(), share) -
-                                                  foreign_.begin()));
+    std::int32_t at = 0, line = 0;
+    for (std::size_t owner = 0; owner + 1 < shares.size(); ++owner) {
+        const auto next = std::lower_bound(foreign_.begin() + at, foreign_.end(), shares[owner + 1]);
+        const auto end = static_cast<std::int32_t>(next - foreign_.begin());
+        part_.push_back({at, end, line});
+        line += lines_for(end - at);
+        at = end;
     }
-    for (auto& box : box_) box.resize(foreign_.size() * kMostNumbers / 8 + 1);
+    for (auto& box : box_) box.resize(line);
+    for (std::int32_t k = 0; k < size(); ++k) {
+        slot_[place_in_slots(foreign_[k])] = at_ + k;
+        grains.load.data()[at_ + k] = {};
+    }
+    copy(grains);
+}
+
+void Halo::copy(Grains& grains) const {
     for (std::int32_t k = 0; k < size(); ++k) {
         const std::int32_t i = foreign_[k], copy = at_ + k;
-        slot_[place_in_slots(i)] = copy;
         grains.place.data()[copy] = grains.place[i];
         grains.motion.data()[copy] = grains.motion[i];
-        grains.load.data()[copy] = {};
+        if (!grains.rounded.empty()) grains.rounded.data()[copy] = grains.rounded[i];
     }
 }
 
 // A line that the reader has had must be taken back from it, which is three times as fast if asked for ahead.
-void Halo::put(const Grains& grains, int owner, int box) {
+void Halo::put(const Grains& grains, const Loaded* loaded, int owner, int box) {
     constexpr int kAhead = 16 * 8;
     const int numbers = numbers_of(grains);
-    double* const begin = box_[box].data()->number;
-    for (std::int32_t k = part_[owner]; k < part_[owner + 1]; ++k) {
-        double* const to = begin + static_cast<std::ptrdiff_t>(k) * numbers;
-        fetch_to_write(to + kAhead);
-        const std::int32_t i = foreign_[k];
-        std::memcpy(to, grains.place[i].position.data(), kPosition * sizeof(double));
-        if (!grains.rounded.empty()) {
-            std::memcpy(to + kPosition, &grains.rounded[i], sizeof(RoundedMotion));
-            continue;
+    const bool all = !loaded || !loaded->few();
+    const Part part = part_[owner];
+    double* words = box_[box].data()[part.line].number;
+    double* to = words + words_for(part.end - part.begin);
+    for (std::int32_t k = part.begin; k < part.end; k += kBits, ++words) {
+        std::uint64_t comes = 0;
+        for (int bit = 0; bit < std::min(kBits, part.end - k); ++bit) {
+            const std::int32_t i = foreign_[k + bit];
+            if (!all && !loaded->has(i)) continue;
+            comes |= std::uint64_t{1} << bit;
+            fetch_to_write(to + kAhead);
+            std::memcpy(to, grains.place[i].position.data(), kPosition * sizeof(double));
+            if (!grains.rounded.empty()) {
+                std::memcpy(to + kPosition, &grains.rounded[i], sizeof(RoundedMotion));
+            } else {
+                std::memcpy(to + kPosition, grains.motion[i].velocity.data(), 3 * sizeof(double));
+                std::memcpy(to + kPosition + 3, grains.motion[i].spin.data(), 3 * sizeof(double));
+            }
+            to += numbers;
         }
-        std::memcpy(to + kPosition, grains.motion[i].velocity.data(), 3 * sizeof(double));
-        std::memcpy(to + kPosition + 3, grains.motion[i].spin.data(), 3 * sizeof(double));
+        std::memcpy(words, &comes, sizeof comes);
     }
 }
-
-void Halo::get(Grains& grains, int box) {
+void Halo::get(Grains& grains, int box, const Flight& flight) {
     const int numbers = numbers_of(grains);
-    const double* from = box_[box].data()->number;
-    for (std::int32_t copy = at_; copy < at_ + size(); ++copy, from += numbers) {
-        std::memcpy(grains.place.data()[copy].position.data(), from, kPosition * sizeof(double));
-        if (!grains.rounded.empty()) {
-            std::memcpy(&grains.rounded.data()[copy], from + kPosition, sizeof(RoundedMotion));
-            continue;
+    for (const Part& part : part_) {
+        const std::int32_t words = words_for(part.end - part.begin);
+        const double* word = box_[box].data()[part.line].number;
+        const double* from = word + words;
+        if (!all_come(word, part.end - part.begin)) fly(grains, flight, at_ + part.begin, at_ + part.end);
+        for (std::int32_t k = part.begin; k < part.end; k += kBits, ++word) {
+            std::uint64_t comes;
+            std::memcpy(&comes, word, sizeof comes);
+            for (; comes != 0; comes &= comes - 1, from += numbers)
+                set_copy(grains, at_ + k + std::countr_zero(comes), from);
         }
-        Motion& motion = grains.motion.data()[copy];
-        std::memcpy(motion.velocity.data(), from + kPosition, 3 * sizeof(double));
-        std::memcpy(motion.spin.data(), from + kPosition + 3, 3 * sizeof(double));
     }
 }
 

@@ -2,6 +2,9 @@
 // owners write to and this thread reads. So nobody reads what another thread writes, one barrier a step is
 // enough, and a processor keeps the lines of the grains that it integrates.
 //
+// Where few grains have contacts, only those come through the box: the copies of the others fly here as the
+// grains do there, by the same sums, which takes less time than a line that two processors share.
+//
 // Copies stand where contacts can reach them like grains: behind the last grain, in room that the grains'
 // arrays have beyond their size.
 #pragma once
@@ -13,6 +16,7 @@
 #include "engine/base/large_array.hpp"
 #include "engine/laws/touch_chunk.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/step/integrate.hpp"
 
 namespace grainreel {
 
@@ -33,16 +37,20 @@ class alignas(64) Halo {
         if (slot == kNone) foreign_.push_back(grain), slot = kNeeded;
     }
     std::int32_t size() const { return static_cast<std::int32_t>(foreign_.size()); }
-    // Makes room for as many as are needed now, the copies' indices being those from `at` on.
-    void make_room(std::int32_t at);
-    // Ends a list. Sets all of the copies but their motion, for which the grains' arrays have room.
+    // Makes room for as many of so many threads as are needed now, the copies' indices being those from `at`
+    // on.
+    void make_room(std::int32_t at, int owners);
+    // Ends a list. The grains' arrays have room for the copies.
     void end_list(Grains& grains, const Shares& shares);
+    // Sets all copies from the grains where they are: while no thread moves any.
+    void copy(Grains& grains) const;
 
-    // By the owner: its grains as they are now, into one of two boxes. Who takes the boxes in turn needs no
-    // barrier but that between put() and get().
-    void put(const Grains& grains, int owner, int box);
-    // By the thread itself: to the copies.
-    void get(Grains& grains, int box);
+    // By the owner: its grains as they are now, into one of two boxes; if few are `loaded`, only those
+    // (nullptr: all). Who takes the boxes in turn needs no barrier but that between put() and get().
+    void put(const Grains& grains, const Loaded* loaded, int owner, int box);
+    // By the thread itself: to the copies. Those that have not come go on as their owner had all go on, from
+    // the last put(), get() or copy().
+    void get(Grains& grains, int box, const Flight& flight);
 
     // Where the bodies of `count` pairs, at most kChunk, and of what fills their last block, stand: foreign
     // ones among the copies. Valid until the next call.
@@ -60,6 +68,11 @@ class alignas(64) Halo {
     struct alignas(64) Line {
         double number[8];
     };
+    // The copies [begin, end) of foreign_, of one owner, and its lines in a box: a bit a copy, whether it
+    // comes, then the numbers of those that do.
+    struct Part {
+        std::int32_t begin, end, line;
+    };
     bool all_own(const std::int32_t* first, const std::int32_t* second, int count) const;
     Bodies find_foreign(const std::int32_t* first, const std::int32_t* second, int count);
     std::int32_t place_in_slots(std::int32_t i) const {
@@ -69,11 +82,11 @@ class alignas(64) Halo {
 
     static constexpr std::int32_t kNone = -1, kNeeded = -2;  // slots without a copy, or not yet
     std::int32_t begin_ = 0, end_ = 0, at_ = 0;
-    std::int32_t lowest_ = 0;              // grain that may be read
-    std::vector<std::int32_t> foreign_;    // rising
-    std::vector<std::int32_t> slot_;       // of the grains [lowest_, begin_), then of those from end_ on
-    std::vector<std::int32_t> part_;       // a thread: where its grains begin in foreign_
-    std::array<LargeArray<Line>, 2> box_;  // grain by grain
+    std::int32_t lowest_ = 0;            // grain that may be read
+    std::vector<std::int32_t> foreign_;  // rising
+    std::vector<std::int32_t> slot_;     // of the grains [lowest_, begin_), then of those from end_ on
+    std::vector<Part> part_;             // of each thread
+    std::array<LargeArray<Line>, 2> box_;
     alignas(64) std::int32_t first_[kChunk] = {}, second_[kChunk] = {};
 };
 

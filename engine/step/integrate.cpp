@@ -18,18 +18,20 @@ struct Numbers {
     double *place, *motion, *load;
     float* rounded;
     const Loaded* loaded;
+    const std::uint64_t otherwise;
     bool large;
-    Numbers(Grains& g, const Loaded* some)
+    Numbers(Grains& g, const KickInput& in)
         : place(reinterpret_cast<double*>(g.place.data())),
           motion(reinterpret_cast<double*>(g.motion.data())),
           load(reinterpret_cast<double*>(g.load.data())),
           rounded(g.rounded.empty() ? nullptr : reinterpret_cast<float*>(g.rounded.data())),
-          loaded(some && some->few() ? some : nullptr),
+          loaded(in.loaded && in.loaded->few() ? in.loaded : nullptr),
+          otherwise(in.unloaded ? 0 : ~std::uint64_t{0}),
           large(g.size() >= kLargeBed) {}
 
     // Bit k: whether grain i + k may have a load.
     HWY_INLINE std::uint64_t loads_from(std::ptrdiff_t i) const {
-        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : ~std::uint64_t{0};
+        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : otherwise;
     }
 
     // Four grains some way ahead of those at i, whose `loads` begin there: what contacts have not brought to
@@ -82,11 +84,12 @@ template <bool ends, bool begins, bool rubs, bool drags>
 HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     using Whole = MotionRecord<rubs>;
     constexpr int size = Whole::size;
-    const Numbers at(grains, in.loaded);
+    const Numbers at(grains, in);
     const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
     const Record<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
     const Record<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
-    const Record<size> gravity = Whole::of(record_of(in.gravity), zero);
+    const Vec3 no_minus_zero = in.gravity + Vec3::Zero();  // as with a load of zero
+    const Record<size> gravity = Whole::of(record_of(no_minus_zero), zero);
     const Record<size> frame = Whole::of(record_of(in.frame), zero);
     Record<4> fastest = zero;
     const auto go_on = [&](std::ptrdiff_t i, auto has_load) HWY_ATTR {
@@ -187,6 +190,14 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
     const Vec3 fastest = HWY_DYNAMIC_DISPATCH(both_halves)(grains, in, begin, end);
     turn(grains, in, begin, end);
     return fastest;
+}
+
+void fly(Grains& grains, const Flight& flight, std::int32_t begin, std::int32_t end) {
+    KickInput kicks = flight.kicks;
+    kicks.unloaded = true;
+    kicks.loaded = nullptr;
+    flight.begins ? HWY_DYNAMIC_DISPATCH(first_half)(grains, kicks, begin, end)
+                  : HWY_DYNAMIC_DISPATCH(both_halves)(grains, kicks, begin, end);
 }
 
 void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {

@@ -17,6 +17,7 @@ struct KickInput {
     double begin_kick = 0;           // s, by the same forces once more
     double drift = 0;                // s
     const Loaded* loaded = nullptr;  // the loads of its other grains are left alone; nullptr: of none
+    bool unloaded = false;           // no grain has a load
 };
 
 // Loads are left alone where so many grains in a row have none: grain by grain, a processor could not predict
@@ -32,6 +33,14 @@ void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t 
 
 // An end and a beginning at once, the same bits as one after the other.
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// What moves a step's grains, for those that have no load: theirs is not looked at, nor how they stand, nor
+// how fast they are.
+struct Flight {
+    const KickInput& kicks;
+    bool begins;  // kick_and_drift(), or kick_and_go_on()
+};
+void fly(Grains& grains, const Flight& flight, std::int32_t begin, std::int32_t end);
 
 // A stretch of grains that begin their next step while others still wait for forces: while they are in the
 // cache, which saves a second way through memory. Nobody may need them as they were: no contact that is yet

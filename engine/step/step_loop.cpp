@@ -34,7 +34,7 @@ void StepLoop::restart() {
         // The first half kick wants the forces of where the grains are now: a step of no length gives them.
         round_motion(grains_, {}, share_[member], share_[member + 1]);
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
-        exchange(member);
+        copy_foreign(member);
         Vanguard none;
         members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, none, idle);
     });
@@ -69,9 +69,10 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
     Evaluation at = evaluation(n, stage, step);
     kicks.loaded = &mine.contacts.loaded();
     kicks = kicks_before(at, stage, true, step, kicks);
+    copy_foreign(member);
     for (bool first = true; n < to; first = false) {
         move(member, first, kicks);
-        begin_evaluation(member, at, step, kicks);
+        begin_evaluation(member, first, at, step, kicks);
         const Evaluation now = at;
         if (++stage == scheme_.stages.size()) stage = 0, ++n;
         if (n < to) {
@@ -155,23 +156,33 @@ void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
     ahead.next = ahead.begin;
 }
 
+// What others have changed of their grains since the last step: before anyone moves any.
+void StepLoop::copy_foreign(int member) {
+    if (team_.size() == 1) return;
+    team_.barrier(member);
+    members_[member].contacts.halo().copy(grains_);
+    team_.barrier(member);
+}
+
 // Where threads wait for each other, once a step: the grains that others read go out, and theirs come in.
-void StepLoop::exchange(int member) {
+void StepLoop::exchange(int member, const Flight& flight) {
     Member& mine = members_[member];
     mine.box = 1 - mine.box;
     mine.told[mine.box] = {mine.fastest, mine.contacts.parted()};
+    const Loaded* const loaded = scheme_.corrects ? nullptr : &mine.contacts.loaded();
     for (int other = 0; other < team_.size(); ++other)
-        if (other != member) members_[other].contacts.halo().put(grains_, member, mine.box);
+        if (other != member) members_[other].contacts.halo().put(grains_, loaded, member, mine.box);
     team_.barrier(member);
-    mine.contacts.halo().get(grains_, mine.box);
+    mine.contacts.halo().get(grains_, mine.box, flight);
 }
 
 // Where all grains are now, and what may touch.
-void StepLoop::begin_evaluation(int member, const Evaluation& at, double step, const KickInput& kicks) {
+void StepLoop::begin_evaluation(int member, bool first, const Evaluation& at, double step,
+                                const KickInput& kicks) {
     Member& mine = members_[member];
     mine.clock.lap(Cost::integrate);
     mine.walls.set(around_.faces, at.before, at.now, at.since);
-    exchange(member);
+    exchange(member, {kicks, first});
     mine.clock.lap(Cost::other);
     renew_contacts(member, at, step, kicks);
     mine.clock.lap(Cost::neighbours);

@@ -131,8 +131,9 @@ class StepLoop {
     KickInput kicks_before(const Evaluation& at, std::size_t stage, bool first, double step,
                            KickInput kicks) const;
     void move(int member, bool first, const KickInput& kicks);
-    void exchange(int member);
-    void begin_evaluation(int member, const Evaluation& at, double step, const KickInput& kicks);
+    void copy_foreign(int member);
+    void exchange(int member, const Flight& flight);
+    void begin_evaluation(int member, bool first, const Evaluation& at, double step, const KickInput& kicks);
     void send_ahead(int member, bool goes_on, const KickInput& kicks);
     void evaluate(int member, const Evaluation& at);
     void end_run(int member, double step, KickInput kicks);

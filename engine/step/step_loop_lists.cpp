@@ -113,7 +113,6 @@ void StepLoop::refresh(int member) {
     if (team_.size() == 1) return;
     mine.contacts.list_foreign(rules_, grains_, share_);
     team_.barrier(member);
-    exchange(member);
 }
 
 // Copies of one thread after those of another, none of them in a line with the next thread's.
@@ -123,7 +122,7 @@ void StepLoop::place_halos() {
     std::int32_t end = n;
     for (Member& m : members_) {
         const std::int32_t at = (end + kApart - 1) / kApart * kApart;
-        m.contacts.halo().make_room(at);
+        m.contacts.halo().make_room(at, team_.size());
         end = at + m.contacts.halo().size();
     }
     if (team_.size() > 1) reserve_copies(grains_, end - n);
