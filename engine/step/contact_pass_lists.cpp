@@ -86,6 +86,16 @@ int owner_of(const Shares& shares, std::int32_t grain) {
                             (shares.begin() + 1));
 }
 
+void ContactPass::count_contacts(const std::vector<std::int32_t>& index,
+                                 std::vector<std::int32_t>& count) const {
+    for (const ContactTable& table : tables_) {
+        table.each_stretch([&](std::int32_t begin, std::int32_t end) {
+            for (std::int32_t c = begin; c < end; ++c)
+                if (owns(table.first()[c])) count[index[table.first()[c]]] += table.touches(c);
+        });
+    }
+}
+
 void ContactPass::renumber(const ContactRules& rules, int member, const Renumbering& to,
                            std::vector<KeptContacts>& leaving) {
     leaving.resize(tables_.size());

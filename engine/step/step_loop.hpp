@@ -169,6 +169,7 @@ class StepLoop {
     std::vector<Member> members_;
     Shares share_, last_share_;
     std::vector<std::int32_t> new_index_;  // of the grains before the last reordering
+    std::vector<std::int32_t> contacts_;   // of each grain, as first body, when the lists were made
 
     // Where and how the grains and walls were when the lists were made.
     std::vector<Eigen::Vector3f> listed_at_;  // half the memory, and its rounding is allowed for

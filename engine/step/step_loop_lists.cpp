@@ -1,5 +1,6 @@
 // The step loop's lists: made anew, refreshed, and histories handed over.
 #include <algorithm>
+#include <numeric>
 
 #include "engine/step/step_loop.hpp"
 
@@ -12,8 +13,10 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
         note_speeds();
         next_skin_ = skin_after(lasted);  // skin_ may still be read by others
         put_in_order(cells_, grains_, next_skin_, around_.period, new_index_);
+        contacts_.assign(grains_.size(), 0);
     }
     team_.barrier(member);
+    mine.contacts.count_contacts(new_index_, contacts_);
     const std::int64_t n = static_cast<std::int64_t>(grains_.size());
     const auto begin = static_cast<std::int32_t>(n * member / team_.size());
     const auto end = static_cast<std::int32_t>(n * (member + 1) / team_.size());
@@ -74,7 +77,7 @@ void StepLoop::note_listing(const Pose& pose, double time) {
 // How fast the threads have worked since the lists were made last, against each other: processors that others
 // use too differ by half for seconds. Equal where nothing is known.
 void StepLoop::note_speeds() {
-    constexpr double kMost = 2, kNewShare = 0.5;
+    constexpr double kMost = 2, kNewShare = 0.8;
     const auto time_of = [&](int t) { return team_.busy(t) - members_[t].busy_before; };
     double work = 0, time = 0;
     for (int t = 0; t < team_.size(); ++t) work += members_[t].work, time += time_of(t);
@@ -87,22 +90,26 @@ void StepLoop::note_speeds() {
 }
 
 // Ranges of grains for the threads, of about as much work as they are fast: a grain costs about as much as
-// three listed pairs. The bits do not depend on it.
+// three listed pairs, a contact as five. The bits do not depend on it.
 void StepLoop::share_out() {
     const std::int32_t n = static_cast<std::int32_t>(grains_.size());
-    const auto work = [&](std::int32_t i) { return 3.0 * i + lists_.pairs.start[i]; };
-    double speed_of_all = 0, speed_before = 0;
+    const auto work = [&](std::int32_t i, double contacts) {
+        return 3.0 * i + lists_.pairs.start[i] + 5 * contacts;
+    };
+    const double all = work(n, std::accumulate(contacts_.begin(), contacts_.end(), 0.0));
+    double speed_of_all = 0, speed_before = 0, contacts = 0;
     for (const Member& m : members_) speed_of_all += m.speed;
     last_share_ = share_;
     share_.assign(team_.size() + 1, n);
     share_[0] = 0;
     std::int32_t i = 0;
     for (int t = 0; t < team_.size(); ++t) {
-        const std::int32_t begin = i;
+        const double before = work(i, contacts);
         speed_before += members_[t].speed;
-        while (i < n && work(i) * speed_of_all < work(n) * speed_before) ++i;
-        share_[t + 1] = i = t + 1 < team_.size() ? i : n;
-        members_[t].work = work(i) - work(begin);
+        while (i < n && (t + 1 == team_.size() || work(i, contacts) * speed_of_all < all * speed_before))
+            contacts += contacts_[i++];
+        share_[t + 1] = i;
+        members_[t].work = work(i, contacts) - before;
     }
 }
 
