@@ -10,26 +10,18 @@ namespace grainreel {
 namespace {
 
 constexpr double kMostBoxesPerGrain = 8;  // an empty tall container must not cost memory or time
+constexpr std::size_t kFew = 4;           // levels of less than one in so many grains are few
 
 }  // namespace
 
 void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
-               const std::array<int, 3>& axes, double period) {
+               const GridFrame& frame) {
     const std::size_t n = members.size();
-    Vec3 low = place[members[0]].position, high = low;
-    for (const std::int32_t i : members) {
-        low = low.cwiseMin(place[i].position);
-        high = high.cwiseMax(place[i].position);
-    }
-    periodic_ = period > 0;
-    if (periodic_) {
-        low.x() = -period / 2;
-        high.x() = period / 2;
-    }
-    axes_ = axes;
-    const auto along = [&](const Vec3& v) { return Vec3(v[axes[0]], v[axes[1]], v[axes[2]]); };
-    const Vec3 size = along(high - low);
-    const double most = kMostBoxesPerGrain * static_cast<double>(n) + 64;
+    periodic_ = frame.period > 0;
+    axes_ = frame.axes;
+    const auto along = [&](const Vec3& v) { return Vec3(v[axes_[0]], v[axes_[1]], v[axes_[2]]); };
+    const Vec3 size = along(frame.high - frame.low);
+    const double most = kMostBoxesPerGrain * static_cast<double>(frame.grains) + 64;
     const auto boxes = [&](double w) {
         double product = 1;
         for (int a = 0; a < 3; ++a) product *= std::max(1.0, std::floor(size[a] / w));
@@ -40,14 +32,16 @@ void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& 
         count_[a] = std::max(1, static_cast<int>(size[a] / width));
         inverse_width_[a] = size[a] > 0 ? count_[a] / size[a] : 0.0;
     }
-    origin_ = along(low);
-    tile_bits_ = n < kLargeBed ? kOneTileBits : kTileBits;
+    origin_ = along(frame.low);
+    width_ = width;
+    tile_bits_ = frame.grains < kLargeBed ? kOneTileBits : kTileBits;
+    is_near_.clear();
 
     const std::int64_t total = static_cast<std::int64_t>(count_[0]) * count_[1] * count_[2];
     start_.assign(total + 1, 0);
     box_.resize(n);
     for (std::size_t m = 0; m < n; ++m) {
-        box_[m] = box_of(place[members[m]].position);
+        box_[m] = static_cast<std::int32_t>(box_of(place[members[m]].position));
         ++start_[box_[m]];
     }
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
@@ -55,10 +49,19 @@ void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& 
     for (std::size_t m = n; m-- > 0;) in_order_[--start_[box_[m]]] = members[m];
 }
 
-std::int32_t Grid::box_of(const Vec3& position) const {
-    std::array<int, 3> at{};
-    for (int a = 0; a < 3; ++a) at[a] = std::clamp(box(position[axes_[a]] - origin_[a], a), 0, count_[a] - 1);
-    return static_cast<std::int32_t>(index(at[0], at[1], at[2]));
+void Grid::mark_surroundings(const LargeArray<Place>& place, const std::vector<std::int32_t>& members) {
+    if (periodic_) return;
+    is_near_.assign(start_.size() - 1, false);
+    for (const std::int32_t i : members) {
+        const auto around = [&](int a) {
+            const int own = box_of(place[i].position, a);
+            return std::array<int, 2>{std::max(own - 1, 0), std::min(own + 1, count_[a] - 1)};
+        };
+        const std::array<int, 2> x = around(0), y = around(1), z = around(2);
+        for (int at_z = z[0]; at_z <= z[1]; ++at_z)
+            for (int at_y = y[0]; at_y <= y[1]; ++at_y)
+                for (int at_x = x[0]; at_x <= x[1]; ++at_x) is_near_[index(at_x, at_y, at_z)] = true;
+    }
 }
 
 // Octave by octave of radii, from the smallest up.
@@ -78,29 +81,49 @@ void Cells::sort_into_levels(const LargeArray<Place>& place) {
     std::erase_if(levels_, [](const Level& level) { return level.members.empty(); });
 }
 
+Cells::Level& Cells::most_frequent() {
+    const auto fewer = [](const Level& a, const Level& b) { return a.members.size() < b.members.size(); };
+    return *std::max_element(levels_.begin(), levels_.end(), fewer);
+}
+
+namespace {
+
+GridFrame frame_of(const LargeArray<Place>& place, double period) {
+    GridFrame frame{place[0].position, place[0].position, place.size(), {0, 1, 2}, period};
+    for (const Place& p : place) {
+        frame.low = frame.low.cwiseMin(p.position);
+        frame.high = frame.high.cwiseMax(p.position);
+    }
+    if (period > 0) {
+        frame.low.x() = -period / 2;
+        frame.high.x() = period / 2;
+        return frame;
+    }
+    const Vec3 size = frame.high - frame.low;
+    std::sort(frame.axes.begin(), frame.axes.end(),
+              [&](int a, int b) { return std::tuple(size[a], a) < std::tuple(size[b], b); });
+    return frame;
+}
+
+}  // namespace
+
 const std::vector<std::int32_t>& Cells::order(const LargeArray<Place>& place, double skin, double period) {
     sort_into_levels(place);
-    const auto fewer = [](const Level& a, const Level& b) { return a.members.size() < b.members.size(); };
-    Level& most = *std::max_element(levels_.begin(), levels_.end(), fewer);
+    Level& most = most_frequent();
     most.members.resize(place.size());  // all of them, until lay()
     std::iota(most.members.begin(), most.members.end(), 0);
-    axes_ = {0, 1, 2};
-    if (period == 0) {
-        Vec3 low = place[0].position, high = low;
-        for (const Place& p : place) low = low.cwiseMin(p.position), high = high.cwiseMax(p.position);
-        const Vec3 size = high - low;
-        std::sort(axes_.begin(), axes_.end(),
-                  [&](int a, int b) { return std::tuple(size[a], a) < std::tuple(size[b], b); });
-    }
-    most.grid.lay(place, most.members, 2 * most.largest + skin, axes_, period);
+    frame_ = frame_of(place, period);
+    most.grid.lay(place, most.members, 2 * most.largest + skin, frame_);
     return most.grid.in_order();
 }
 
-void Cells::lay(const LargeArray<Place>& place, double skin, double period) {
+void Cells::lay(const LargeArray<Place>& place, double skin) {
     sort_into_levels(place);
     for (Level& level : levels_) {
-        level.grid.lay(place, level.members, 2 * level.largest + skin, axes_, period);
+        level.grid.lay(place, level.members, 2 * level.largest + skin, frame_);
+        level.leads = &level == &most_frequent();
         level.rising = level.grid.in_order() == level.members;
+        if (level.members.size() < place.size() / kFew) level.grid.mark_surroundings(place, level.members);
     }
 }
 

@@ -12,27 +12,42 @@
 
 namespace grainreel {
 
+// What the grids over a bed have in common. `axes`: along which boxes follow each other, fastest first.
+// `period` (m): of x, centred on 0, which is then the fastest; 0 for none.
+struct GridFrame {
+    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, around all grains
+    std::size_t grains = 0;
+    std::array<int, 3> axes{0, 1, 2};
+    double period = 0;
+};
+
 // A grid over some of the grains.
 class Grid {
   public:
-    // Boxes over the members (indices of grains, rising) of edge >= width (m), at most a few for each of
-    // them: those of an empty tall container grow. `axes`: along which boxes follow each other, fastest
-    // first. `period` (m): of x, centred on 0, which is then the fastest; 0 for none.
+    // Boxes of edge >= width (m), at most a few for each grain: those of an empty tall container grow. In
+    // them the members (indices of grains, rising). Grids of one frame and one width have the same boxes.
     void lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
-             const std::array<int, 3>& axes, double period);
+             const GridFrame& frame);
+    // So that places far from all members are told at once: where there are few.
+    void mark_surroundings(const LargeArray<Place>& place, const std::vector<std::int32_t>& members);
 
     // The members by box; within a box by rising index.
     const std::vector<std::int32_t>& in_order() const { return in_order_; }
 
     // Calls each(first, last) for ranges that hold the members of all boxes within `reach` (m) of a place,
-    // in each direction. What is returned holds no member twice.
+    // in each direction. What is returned holds no member twice. `onwards`: boxes before that of the place,
+    // in the grid's order, may be left out.
     template <class Each>
-    void near(const Vec3& centre, double reach, const Each& each) const {
+    void near(const Vec3& centre, double reach, bool onwards, const Each& each) const {
+        if (none_near(centre, reach)) return;
         const std::array<int, 2> x = boxes(centre, reach, 0), y = boxes(centre, reach, 1),
                                  z = boxes(centre, reach, 2);
         const int last = count_[0] - 1;
-        for (int row_z = std::max(z[0], 0); row_z <= std::min(z[1], count_[2] - 1); ++row_z) {
-            for (int row_y = std::max(y[0], 0); row_y <= std::min(y[1], count_[1] - 1); ++row_y) {
+        const bool leave_out = onwards && is_one_tile();
+        const int own_y = leave_out ? box_of(centre, 1) : 0, own_z = leave_out ? box_of(centre, 2) : 0;
+        for (int row_z = std::max(z[0], own_z); row_z <= std::min(z[1], count_[2] - 1); ++row_z) {
+            const int first_y = std::max(y[0], row_z == own_z ? own_y : 0);
+            for (int row_y = first_y; row_y <= std::min(y[1], count_[1] - 1); ++row_y) {
                 const std::int64_t begin = index(0, row_y, row_z);
                 const auto row = [&](int from, int to) {
                     if (from > to) return;
@@ -51,6 +66,9 @@ class Grid {
         }
     }
 
+    // Whether rows of boxes follow each other as they lie.
+    bool is_one_tile() const { return tile_bits_ == kOneTileBits; }
+
   private:
     // First and last box within `reach` along the a-th axis; perhaps outside the grid, by at most one turn of
     // a period.
@@ -64,12 +82,21 @@ class Grid {
         return static_cast<int>(std::max(0.0, std::min(at * inverse_width_[a] + count, 3 * count))) -
                count_[a];
     }
-    std::int32_t box_of(const Vec3& position) const;
+    int box_of(const Vec3& position, int a) const {
+        return std::clamp(box(position[axes_[a]] - origin_[a], a), 0, count_[a] - 1);
+    }
+    std::int64_t box_of(const Vec3& position) const {
+        return index(box_of(position, 0), box_of(position, 1), box_of(position, 2));
+    }
+    bool none_near(const Vec3& centre, double reach) const {
+        return !is_near_.empty() && reach <= width_ && !is_near_[box_of(centre)];
+    }
     // Rows of boxes along the fastest axis follow each other tile by tile, so that the rows around one are
     // still in the processor's cache when they are wanted again. All the grid is one tile while it is small:
     // then threads share it in slices, and few grains have partners of another thread.
     static constexpr int kTileBits = 3, kOneTileBits = 30;
     std::int64_t index(int x, int y, int z) const {
+        if (is_one_tile()) return (static_cast<std::int64_t>(z) * count_[1] + y) * count_[0] + x;
         const int tile_y = y >> tile_bits_ << tile_bits_, tile_z = z >> tile_bits_ << tile_bits_;
         const int wide = std::min(1 << tile_bits_, count_[1] - tile_y),
                   high = std::min(1 << tile_bits_, count_[2] - tile_z);
@@ -86,31 +113,35 @@ class Grid {
     std::vector<std::int32_t> start_;  // first member of each box, and one past the last
     std::vector<std::int32_t> in_order_;
     std::vector<std::int32_t> box_;  // of each member, while sorting
+    double width_ = 0;               // m: no box is narrower
+    std::vector<bool> is_near_;      // whether a box has members or is next to one that has; empty: not known
 };
 
 class Cells {
   public:
     // order[new] = old: grains sorted by the boxes of the most frequent size, slowest along the bed's longest
     // side, so that what touches lies close in memory and few contacts cross from thread to thread. m: skin,
-    // period as for Grid. Stays until lay().
+    // period as for the grids' frame. Stays until lay().
     const std::vector<std::int32_t>& order(const LargeArray<Place>& place, double skin, double period);
 
-    // The grids, for grains in that order.
-    void lay(const LargeArray<Place>& place, double skin, double period);
+    // The grids, for the same grains in that order.
+    void lay(const LargeArray<Place>& place, double skin);
 
     struct Level {
         std::vector<std::int32_t> members;
         double largest = 0;  // m, radius
         Grid grid;
         bool rising = false;  // its grains stand in the grid's own order, their indices rising
+        bool leads = false;   // all grains stand in the order of its boxes
     };
     const std::vector<Level>& levels() const { return levels_; }
 
   private:
     void sort_into_levels(const LargeArray<Place>& place);
+    Level& most_frequent();
 
     std::vector<Level> levels_;  // those that have members
-    std::array<int, 3> axes_{0, 1, 2};
+    GridFrame frame_;
 };
 
 }  // namespace grainreel

@@ -8,7 +8,7 @@
 namespace grainreel {
 
 // So many numbers behind the candidates keep_near() may read and write.
-constexpr std::int32_t kNearSlack = 8;
+constexpr std::int32_t kNearSlack = 16;
 
 // Of `count` candidates those above i that are closer to it than the sum of both radii and `skin` (m) move to
 // the front, in their order. How many they are. period: m, of x; 0 for none.

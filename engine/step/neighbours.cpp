@@ -1,6 +1,7 @@
 #include "engine/step/neighbours.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "engine/step/near_partners.hpp"
 
@@ -15,7 +16,7 @@ void put_in_order(Cells& cells, Grains& grains, double skin, double period,
     grains.reorder(order);
     index.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) index[order[i]] = static_cast<std::int32_t>(i);
-    cells.lay(grains.place, skin, period);
+    cells.lay(grains.place, skin);
 }
 
 void NeighbourList::append(const NeighbourList& more) {
@@ -39,6 +40,18 @@ void in_order(std::vector<std::int32_t>& partner, std::size_t from, std::size_t 
     if (!std::is_sorted(begin, end)) std::sort(begin, end);
 }
 
+// [first, last) of an array that ends at `end`: a block whose length is a constant, which mostly is enough.
+// How many a row of boxes holds could not be predicted. Writes to kNearSlack places behind.
+void copy_row(const std::int32_t* first, const std::int32_t* last, const std::int32_t* end,
+              std::int32_t* to) {
+    if (end - first < kNearSlack) {
+        std::copy(first, last, to);
+        return;
+    }
+    std::memcpy(to, first, kNearSlack * sizeof *to);
+    if (last - first > kNearSlack) std::copy(first + kNearSlack, last, to + kNearSlack);
+}
+
 }  // namespace
 
 void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
@@ -50,28 +63,33 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
         part.start[i - begin] = static_cast<std::int32_t>(count);
         const Place& own = grains.place[i];
         std::size_t candidates = count;
+        int turns = 0;  // rising rows of indices, behind one another
         for (const Cells::Level& level : cells.levels()) {
-            level.grid.near(own.position, own.radius + skin + level.largest,
+            const std::size_t before = candidates;
+            const std::int32_t* const end_of_rows = level.grid.in_order().data() + level.members.size();
+            level.grid.near(own.position, own.radius + skin + level.largest, level.leads,
                             [&](const std::int32_t* first, const std::int32_t* last) {
                                 if (level.rising && last[-1] <= i) return;
                                 const std::size_t more = candidates + (last - first);
                                 if (partner.size() < more + kNearSlack) make_room(partner, more + kNearSlack);
-                                std::copy(first, last, partner.data() + candidates);
+                                copy_row(first, last, end_of_rows, partner.data() + candidates);
                                 candidates = more;
                             });
+            if (candidates > before) turns += level.rising && level.grid.is_one_tile() && period == 0 ? 1 : 2;
         }
         const std::size_t from = count;
         if (candidates > count)
             count += keep_near(grains, i, skin, period, partner.data() + count,
                                static_cast<std::int32_t>(candidates - count));
-        in_order(partner, from, count);
+        if (turns > 1) in_order(partner, from, count);
     }
     part.start[end - begin] = static_cast<std::int32_t>(count);
     part.partner.resize(count);
     part.farthest_partner = 0;
     for (std::int32_t i = begin; i < end; ++i) {
-        for (std::int32_t at = part.start[i - begin]; at < part.start[i - begin + 1]; ++at)
-            part.farthest_partner = std::max(part.farthest_partner, part.partner[at] - i);
+        const std::int32_t behind = part.start[i - begin + 1];
+        if (part.start[i - begin] < behind)
+            part.farthest_partner = std::max(part.farthest_partner, part.partner[behind - 1] - i);
     }
 }
 

@@ -88,6 +88,25 @@ TEST_P(Neighbours, AreAllPairsThatAreNear) {
 // Periods: none; that of the bed; one of which the largest grain's neighbourhood takes most.
 INSTANTIATE_TEST_SUITE_P(Periods, Neighbours, testing::Values(0.0, 0.1, 0.06));
 
+// Or every grain would look at twice as many others.
+TEST(Cells, LeadingLevelStandsInItsGridsOrder) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        for (const double period : {0.0, 0.1}) {
+            Grains grains = of_all_sizes(seed);
+            Cells cells;
+            std::vector<std::int32_t> new_index;
+            put_in_order(cells, grains, 0.004, period, new_index);
+            int leading = 0;
+            for (const Cells::Level& level : cells.levels()) {
+                if (!level.leads) continue;
+                ++leading;
+                EXPECT_TRUE(level.rising) << seed << ' ' << period;
+            }
+            EXPECT_EQ(leading, 1);
+        }
+    }
+}
+
 // The same on each instruction set.
 TEST(NeighboursAtWidths, AreTheSame) {
     Grains grains = of_all_sizes(7);
