@@ -110,13 +110,16 @@ class StepLoop {
         Reach reach;
         Vanguard ahead;  // its grains that go on before the others
         CostClock clock;
-        Vec3 fastest{0, 0, 0};   // m/s, as it will be told
-        Told told[2];            // of this step and the one before, which others may still read
-        int box = 0;             // which of the two it is, and of its halo's boxes
-        double farthest = 0;     // m, from where they were listed
-        double work = 0;         // of its share of the grains, in units of a listed pair
-        double busy_before = 0;  // s, when the grains were shared out
-        double speed = 1;        // lately, against the mean of all
+        Vec3 fastest{0, 0, 0};  // m/s, as it will be told
+        Told told[2];           // of this step and the one before, which others may still read
+        int box = 0;            // which of the two it is, and of its halo's boxes
+        double farthest = 0;    // m, from where they were listed
+        // Of its share of the grains: work in units of a listed pair, without contacts and of these when the
+        // grains were shared out; contacts at the end; ticks that it was busy, before and in all.
+        double work = 0, contact_work = 0;
+        std::int32_t contacts_left = 0;
+        double busy_before = 0, busy_in_all = 0;
+        double speed = 1;  // lately, against the mean of all
     };
 
     // The forces of a stage: when (in steps), where the walls are then, and what went before.

@@ -6,17 +6,24 @@
 
 namespace grainreel {
 
+namespace {
+
+// In units of a listed pair.
+constexpr double kWorkOfGrain = 3, kWorkOfContact = 10;
+
+}  // namespace
+
 // New order, new neighbour lists, new contacts, histories carried over: called by all members.
 void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted) {
     Member& mine = members_[member];
+    mine.busy_in_all = team_.busy(member);
     if (member == 0) {
-        note_speeds();
         next_skin_ = skin_after(lasted);  // skin_ may still be read by others
         put_in_order(cells_, grains_, next_skin_, around_.period, new_index_);
         contacts_.assign(grains_.size(), 0);
     }
     team_.barrier(member);
-    mine.contacts.count_contacts(new_index_, contacts_);
+    mine.contacts_left = mine.contacts.count_contacts(new_index_, contacts_);
     const std::int64_t n = static_cast<std::int64_t>(grains_.size());
     const auto begin = static_cast<std::int32_t>(n * member / team_.size());
     const auto end = static_cast<std::int32_t>(n * (member + 1) / team_.size());
@@ -28,6 +35,7 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
         if (!alone) join_lists();
         skin_ = next_skin_;
         note_listing(pose, time);
+        note_speeds();
         share_out();
         ++rebuilds_;
     }
@@ -75,41 +83,44 @@ void StepLoop::note_listing(const Pose& pose, double time) {
 }
 
 // How fast the threads have worked since the lists were made last, against each other: processors that others
-// use too differ by half for seconds. Equal where nothing is known.
+// use too differ by half for seconds. Equal where nothing is known. Contacts came or went on the way.
 void StepLoop::note_speeds() {
     constexpr double kMost = 2, kNewShare = 0.8;
-    const auto time_of = [&](int t) { return team_.busy(t) - members_[t].busy_before; };
+    const auto time_of = [](const Member& m) { return m.busy_in_all - m.busy_before; };
+    const auto work_of = [](const Member& m) {
+        return m.work + (m.contact_work + kWorkOfContact * m.contacts_left) / 2;
+    };
     double work = 0, time = 0;
-    for (int t = 0; t < team_.size(); ++t) work += members_[t].work, time += time_of(t);
+    for (const Member& m : members_) work += work_of(m), time += time_of(m);
     if (work <= 0 || time <= 0) return;
-    for (int t = 0; t < team_.size(); ++t) {
-        Member& m = members_[t];
-        const double now = (m.work / time_of(t)) / (work / time);
+    for (Member& m : members_) {
+        const double now = (work_of(m) / time_of(m)) / (work / time);
         m.speed += kNewShare * (std::clamp(now, 1 / kMost, kMost) - m.speed);
     }
 }
 
-// Ranges of grains for the threads, of about as much work as they are fast: a grain costs about as much as
-// three listed pairs, a contact as five. The bits do not depend on it.
+// Ranges of grains for the threads, of about as much work as they are fast. The bits do not depend on it.
 void StepLoop::share_out() {
     const std::int32_t n = static_cast<std::int32_t>(grains_.size());
-    const auto work = [&](std::int32_t i, double contacts) {
-        return 3.0 * i + lists_.pairs.start[i] + 5 * contacts;
-    };
-    const double all = work(n, std::accumulate(contacts_.begin(), contacts_.end(), 0.0));
-    double speed_of_all = 0, speed_before = 0, contacts = 0;
+    const auto work = [&](std::int32_t i) { return kWorkOfGrain * i + lists_.pairs.start[i]; };
+    const double contacts = std::accumulate(contacts_.begin(), contacts_.end(), 0.0);
+    const double all = work(n) + kWorkOfContact * contacts;
+    double speed_of_all = 0, speed_before = 0, contact_work = 0;
     for (const Member& m : members_) speed_of_all += m.speed;
     last_share_ = share_;
     share_.assign(team_.size() + 1, n);
     share_[0] = 0;
     std::int32_t i = 0;
     for (int t = 0; t < team_.size(); ++t) {
-        const double before = work(i, contacts);
-        speed_before += members_[t].speed;
-        while (i < n && (t + 1 == team_.size() || work(i, contacts) * speed_of_all < all * speed_before))
-            contacts += contacts_[i++];
+        Member& m = members_[t];
+        const double work_before = work(i), contact_work_before = contact_work;
+        speed_before += m.speed;
+        const bool last = t + 1 == team_.size();
+        while (i < n && (last || (work(i) + contact_work) * speed_of_all < all * speed_before))
+            contact_work += kWorkOfContact * contacts_[i++];
         share_[t + 1] = i;
-        members_[t].work = work(i, contacts) - before;
+        m.work = work(i) - work_before;
+        m.contact_work = contact_work - contact_work_before;
     }
 }
 
