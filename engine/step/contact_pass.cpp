@@ -11,7 +11,7 @@ namespace grainreel {
 
 // Sets touch_ for the chunk, in floats if `rounded`; what its laws take.
 LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
-                              const WallState& state, const Times& times, const Chunk& chunk,
+                              const WallState& state, const Passed& passed, const Chunk& chunk,
                               const Halo::Bodies& bodies, bool rounded) const {
     const GeometryInput in{&grains,
                            bodies.first,
@@ -19,16 +19,16 @@ LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& gro
                            chunk.count,
                            group.rolling ? Wants::rolling : wants_of(*group.law),
                            rules.arms,
-                           times.since,
-                           group.law->at_mid_step ? times.turns : 0,
+                           passed.since,
+                           group.law->at_mid_step ? passed.turns : 0,
                            &rolling_,
                            group.law->uses_mass,
                            group.law->uses_radius || group.rolling,
                            rounded};
     group.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
     touch_.touching &= bits_of_first(chunk.count);  // not the fill
-    return {chunk.count,          &touch_,     kinds_of(rules, group, grains, chunk),
-            &group.parameters,    times.since, times.ahead,
+    return {chunk.count,          &touch_,      kinds_of(rules, group, grains, chunk),
+            &group.parameters,    passed.since, passed.ahead,
             group.history_size(), &rolling_};
 }
 
@@ -72,27 +72,59 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
 template <class Work>
 void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                           const ContactTable& table, const Grains& grains,
-                                          const WallState& state, const FoundPairs* found, const Work& work) {
+                                          const WallState& state, const Work& work) {
     for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
-        Chunk chunk{table.near_first() + c, table.near_second() + c,
-                    std::min(kChunk, table.candidates() - c)};
-        if (found) {
-            const auto [first, second] = found->of(table.near_first(), table.near_second(), c);
-            chunk.first = first, chunk.second = second;
-        }
-        if (group.of_pairs && is_large_bed(grains)) fetch_places(grains, table, c);
+        const Chunk chunk{table.near_first() + c, table.near_second() + c,
+                          std::min(kChunk, table.candidates() - c)};
         work(c, which_touch(rules, group, grains, state, chunk));
     }
 }
 
+void ContactPass::admit_walls(const Step& in, ContactTable& table) {
+    each_touching_candidate(in.rules, in.group, table, in.grains, in.walls,
+                            [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
+}
+
+void ContactPass::admit_pairs(const Step& in, ContactTable& table) {
+    Soon& soon = soon_[in.g];
+    if (!soon.lasts(in.passed.moved)) list_soon(in, table);
+    for (std::int32_t k = 0; k < soon.size(); k += kChunk) {
+        const Chunk chunk{soon.first() + k, soon.second() + k, std::min(kChunk, soon.size() - k)};
+        std::uint64_t left = which_touch(in.rules, in.group, in.grains, in.walls, chunk);
+        for (; left != 0; left &= left - 1) {
+            const std::int32_t at = soon.at(k + std::countr_zero(left));
+            table.admit(at / kChunk * kChunk, std::uint64_t{1} << at % kChunk);
+        }
+    }
+}
+
+// As long as the gap is small few pairs are in it, and as long as it is large it lasts.
+void ContactPass::list_soon(const Step& in, const ContactTable& table) {
+    constexpr double kShare = 1.0 / 6;
+    Soon& soon = soon_[in.g];
+    const double gap = kShare * skin_;
+    soon.begin(in.passed.moved, gap);
+    for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
+        const int count = std::min(kChunk, table.candidates() - c);
+        const auto [first, second] = found_[in.g].candidates.of(table.near_first(), table.near_second(), c);
+        if (is_large_bed(in.grains)) fetch_places(in.grains, table, c);
+        std::uint64_t left = near_pairs(in.grains, first, second, count, in.rules.period, gap);
+        left &= bits_of_first(count) & ~table.admitted(c);
+        for (; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            soon.add(first[k], second[k], c + k);
+        }
+    }
+    soon.end();
+}
+
 void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallState& state,
-                          const Times& times, Vanguard& vanguard, CostClock& clock) {
+                          const Passed& passed, Vanguard& vanguard, CostClock& clock) {
     for (std::size_t g = tables_.size(); g-- > 0;) {
         ContactTable& table = tables_[g];
-        const Step in{rules, g, rules.groups[g], grains, state, times};
+        const Step in{rules, g, rules.groups[g], grains, state, passed};
         table.begin_step();
-        each_touching_candidate(rules, in.group, table, grains, state, &found_[g].candidates,
-                                [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
+        in.group.of_pairs ? admit_pairs(in, table) : admit_walls(in, table);
         note_loaded(in.group.of_pairs, table, table.end_step(), table.size());
         compute_stretch(in, table, table.late(), table.size(), nullptr, clock);
         compute_stretch(in, table, 0, table.sorted(), g == 0 ? &vanguard : nullptr, clock);
@@ -129,7 +161,7 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
     touch_.ahead = large ? &ahead_ : nullptr;
     if (large) look_ahead(in.grains, rounded, table, c, count, ahead_);
     const Halo::Bodies bodies = bodies_of(in.g, group, c, count);
-    const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.times, chunk, bodies, rounded);
+    const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.passed, chunk, bodies, rounded);
     table.note_touching(c, touch_.touching);
     void* history = table.histories().of_block(c);
     group.law->step(law, history, force_);
@@ -144,7 +176,7 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
                                  group.rolling ? &rolling_ : nullptr,
                                  rounded,
                                  c < table.sorted()};
-    group.of_pairs ? add_pairs(forces, in.grains) : add_walls({forces, in.walls, in.times.acts, in.grains});
+    group.of_pairs ? add_pairs(forces, in.grains) : add_walls({forces, in.walls, in.passed.acts, in.grains});
     clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
 }
 
@@ -167,8 +199,8 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
     table.each_stretch([&](std::int32_t begin, std::int32_t end) {
         for (std::int32_t c = begin; c < end; c += kChunk) {
             const Chunk chunk{table.first() + c, table.second() + c, std::min(kChunk, end - c)};
-            const LawInput in =
-                prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, {chunk.first, chunk.second}, false);
+            const LawInput in = prepare(rules, group, grains, state, {0, 0, 0, 0, 0}, chunk,
+                                        {chunk.first, chunk.second}, false);
             show(group, in, table.histories().of_block(c), chunk, begin > 0, seen);
         }
     });
@@ -176,19 +208,18 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
     Histories none;
     none.shape(group.history_size(), group.number_size());
     none.resize(kBlock);
-    each_touching_candidate(
-        rules, group, table, grains, state, nullptr, [&](std::int32_t c, std::uint64_t touching) {
-            for (std::uint64_t left = touching & ~table.admitted(c); left != 0; left &= left - 1) {
-                std::int32_t first[kBlock], second[kBlock];
-                std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);
-                std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
-                const Chunk chunk{first, second, 1};
-                show(group,
-                     prepare(rules, group, grains, state, {0, 0, 0, 0}, chunk, {chunk.first, chunk.second},
-                             false),
-                     none.of_block(0), chunk, true, seen);
-            }
-        });
+    each_touching_candidate(rules, group, table, grains, state, [&](std::int32_t c, std::uint64_t touching) {
+        for (std::uint64_t left = touching & ~table.admitted(c); left != 0; left &= left - 1) {
+            std::int32_t first[kBlock], second[kBlock];
+            std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);
+            std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
+            const Chunk chunk{first, second, 1};
+            show(group,
+                 prepare(rules, group, grains, state, {0, 0, 0, 0, 0}, chunk, {chunk.first, chunk.second},
+                         false),
+                 none.of_block(0), chunk, true, seen);
+        }
+    });
 }
 
 }  // namespace grainreel

@@ -16,6 +16,7 @@
 #include "engine/step/integrate.hpp"
 #include "engine/step/loads.hpp"
 #include "engine/step/neighbours.hpp"
+#include "engine/step/soon.hpp"
 
 namespace grainreel {
 
@@ -77,13 +78,14 @@ class ContactPass {
 
     // One step of all laws: adds the forces, of walls before those of pairs, to the loads of the own grains,
     // and the moving walls' work to them. Grains go on as soon as their loads are complete.
-    struct Times {
+    struct Passed {
         double since;  // s, since the last forces
         double ahead;  // steps, from the velocity between the two to that of now
         double acts;   // s, that the forces will act
         double turns;  // s: `since`, or 0 where positions and velocities are of one time
+        double moved;  // m, that no grain has surpassed since the last refresh
     };
-    void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Times& times,
+    void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Passed& passed,
                  Vanguard& vanguard, CostClock& clock);
 
     // Shows every contact of a group under an own grain that touches: its bodies, where to find it in the
@@ -106,7 +108,7 @@ class ContactPass {
         const ContactGroup& group;
         Grains& grains;
         const WallState& walls;
-        const Times& times;
+        const Passed& passed;
     };
 
     bool owns(std::int32_t grain) const { return grain >= begin_ && grain < end_; }
@@ -119,16 +121,18 @@ class ContactPass {
                          const Pose& pose, double skin);
     void renumber_group(const ContactGroup& group, int member, const Renumbering& to, ContactTable& table,
                         KeptContacts& leaving);
+    void admit_pairs(const Step& in, ContactTable& table);
+    void list_soon(const Step& in, const ContactTable& table);
+    void admit_walls(const Step& in, ContactTable& table);
     static std::uint64_t which_touch(const ContactRules& rules, const ContactGroup& group,
                                      const Grains& grains, const WallState& state, const Chunk& chunk);
-    // found: where other threads' grains are read; nullptr to read them where they are.
     template <class Work>
     static void each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                         const ContactTable& table, const Grains& grains,
-                                        const WallState& state, const FoundPairs* found, const Work& work);
+                                        const WallState& state, const Work& work);
     Halo::Bodies bodies_of(std::size_t g, const ContactGroup& group, std::int32_t c, int count);
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
-                     const WallState& state, const Times& times, const Chunk& chunk,
+                     const WallState& state, const Passed& passed, const Chunk& chunk,
                      const Halo::Bodies& bodies, bool rounded) const;
     const std::int32_t* kinds_of(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                                  const Chunk& chunk) const;
@@ -150,6 +154,8 @@ class ContactPass {
         FoundPairs contacts, candidates;  // the sorted contacts
     };
     std::vector<Found> found_;  // one a group
+    std::vector<Soon> soon_;    // one a group, of pairs
+    double skin_ = 0;           // m, of the candidates
     mutable TouchChunk touch_;
     mutable ForceChunk force_;
     mutable RollingChunk rolling_;

@@ -162,6 +162,7 @@ void ContactPass::own(const ContactRules& rules, const NeighbourLists& lists, st
     if (tables_.size() == rules.groups.size()) return;
     tables_.resize(rules.groups.size());
     found_.resize(rules.groups.size());
+    soon_.resize(rules.groups.size());
     for (std::size_t g = 0; g < tables_.size(); ++g)
         tables_[g].shape(rules.groups[g].history_size(), rules.groups[g].number_size());
 }
@@ -226,6 +227,9 @@ void ContactPass::list_candidates(const ContactRules& rules, const Grains& grain
     list_near_pairs(rules, grains, lists.pairs, skin);
     list_near_walls(rules, grains, lists.walls, faces, pose, skin);
     for (ContactTable& table : tables_) table.end_candidates();
+    for (std::size_t g = 0; g < tables_.size(); ++g)
+        if (rules.groups[g].of_pairs) soon_[g].expire(tables_[g].candidates());
+    skin_ = skin;
 }
 
 void ContactPass::note_loaded(bool of_pairs, const ContactTable& table, std::int32_t begin,

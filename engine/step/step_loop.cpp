@@ -36,7 +36,8 @@ void StepLoop::restart() {
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
         copy_foreign(member);
         Vanguard none;
-        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0}, none, idle);
+        members_[member].contacts.compute(rules_, grains_, members_[member].walls, {0, 0, 0, 0, 0}, none,
+                                          idle);
     });
     rebuilds_ = refreshes_ = 0;
     fresh_ = true;
@@ -190,9 +191,10 @@ void StepLoop::begin_evaluation(int member, bool first, const Evaluation& at, do
 
 void StepLoop::evaluate(int member, const Evaluation& at) {
     Member& mine = members_[member];
-    mine.contacts.compute(rules_, grains_, mine.walls,
-                          {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since}, mine.ahead,
-                          mine.clock);
+    mine.contacts.compute(
+        rules_, grains_, mine.walls,
+        {at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since, mine.reach.moved}, mine.ahead,
+        mine.clock);
 }
 
 void StepLoop::end_run(int member, double step, KickInput kicks) {
@@ -209,7 +211,7 @@ void StepLoop::end_run(int member, double step, KickInput kicks) {
 void StepLoop::renew_contacts(int member, const Evaluation& at, double step, const KickInput& kicks) {
     Member& mine = members_[member];
     const Vec3 drift = drift_since_listing(at.time, step);
-    if (!contacts_expired(mine, at.now, drift, std::abs(kicks.drift))) return;
+    if (!contacts_expired(mine, at.now, drift, std::abs(at.since))) return;
     set_reach(mine, at.now, drift, kicks.frame, step);
     mine.farthest = farthest_of(share_[member], share_[member + 1], drift);
     team_.barrier(member);
