@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/step/contact_pass.hpp"
+#include "engine/step/large_bed.hpp"
 
 namespace grainreel {
 
@@ -228,7 +229,7 @@ void ContactPass::list_candidates(const ContactRules& rules, const Grains& grain
     list_near_walls(rules, grains, lists.walls, faces, pose, skin);
     for (ContactTable& table : tables_) table.end_candidates();
     for (std::size_t g = 0; g < tables_.size(); ++g)
-        if (rules.groups[g].of_pairs) soon_[g].expire(tables_[g].candidates());
+        if (rules.groups[g].of_pairs && !is_large_bed(grains)) soon_[g].expire(tables_[g].candidates());
     skin_ = skin;
 }
 

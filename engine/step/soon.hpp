@@ -1,6 +1,6 @@
-// Of the candidates of a table of pairs, those that may touch within a few steps. The others are not looked at
-// before grains have moved as far as that takes: of candidates that are to last for some fifty steps, few are
-// near at any time.
+// Of the candidates of a table of pairs, those that may touch within a few steps. The others are not looked
+// at before grains have moved as far as that takes: of candidates that are to last for some fifty steps, few
+// are near at any time.
 #pragma once
 
 #include <algorithm>

@@ -85,7 +85,7 @@ void StepLoop::note_listing(const Pose& pose, double time) {
 // How fast the threads have worked since the lists were made last, against each other: processors that others
 // use too differ by half for seconds. Equal where nothing is known. Contacts came or went on the way.
 void StepLoop::note_speeds() {
-    constexpr double kMost = 2, kNewShare = 0.8;
+    constexpr double kMost = 2, kNewShare = 0.5;
     const auto time_of = [](const Member& m) { return m.busy_in_all - m.busy_before; };
     const auto work_of = [](const Member& m) {
         return m.work + (m.contact_work + kWorkOfContact * m.contacts_left) / 2;
