@@ -85,21 +85,22 @@ void ContactPass::admit_walls(const Step& in, ContactTable& table) {
                             [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
 }
 
-// In a large bed all of them: the places that they bring to the cache are wanted by contacts soon after, and
-// picking some waited longer for each (contacts 1.15 times as long).
-void ContactPass::admit_pairs_of_large_bed(const Step& in, ContactTable& table) {
+void ContactPass::admit_all_pairs(const Step& in, ContactTable& table) {
     for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
         const auto [first, second] = found_[in.g].candidates.of(table.near_first(), table.near_second(), c);
-        fetch_places(in.grains, table, c);
+        if (is_large_bed(in.grains)) fetch_places(in.grains, table, c);
         const Chunk chunk{first, second, std::min(kChunk, table.candidates() - c)};
         table.admit(c, which_touch(in.rules, in.group, in.grains, in.walls, chunk));
     }
 }
 
+// In a large bed all of them: the places that they bring to the cache are wanted by contacts soon after, and
+// picking some waited longer for each (contacts 1.15 times as long).
 void ContactPass::admit_pairs(const Step& in, ContactTable& table) {
-    if (is_large_bed(in.grains)) return admit_pairs_of_large_bed(in, table);
+    if (is_large_bed(in.grains)) return admit_all_pairs(in, table);
     Soon& soon = soon_[in.g];
     if (!soon.lasts(in.passed.moved)) list_soon(in, table);
+    if (soon.are_all()) return admit_all_pairs(in, table);
     for (std::int32_t k = 0; k < soon.size(); k += kChunk) {
         const Chunk chunk{soon.first() + k, soon.second() + k, std::min(kChunk, soon.size() - k)};
         std::uint64_t left = which_touch(in.rules, in.group, in.grains, in.walls, chunk);
@@ -121,6 +122,7 @@ void ContactPass::list_soon(const Step& in, const ContactTable& table) {
         const auto [first, second] = found_[in.g].candidates.of(table.near_first(), table.near_second(), c);
         std::uint64_t left = near_pairs(in.grains, first, second, count, in.rules.period, gap);
         left &= bits_of_first(count) & ~table.admitted(c);
+        if (!soon.has_room(std::popcount(left))) return soon.give_up();
         for (; left != 0; left &= left - 1) {
             const int k = std::countr_zero(left);
             soon.add(first[k], second[k], c + k);

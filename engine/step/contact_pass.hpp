@@ -122,7 +122,7 @@ class ContactPass {
     void renumber_group(const ContactGroup& group, int member, const Renumbering& to, ContactTable& table,
                         KeptContacts& leaving);
     void admit_pairs(const Step& in, ContactTable& table);
-    void admit_pairs_of_large_bed(const Step& in, ContactTable& table);
+    void admit_all_pairs(const Step& in, ContactTable& table);
     void list_soon(const Step& in, const ContactTable& table);
     void admit_walls(const Step& in, ContactTable& table);
     static std::uint64_t which_touch(const ContactRules& rules, const ContactGroup& group,

@@ -20,10 +20,10 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
     if (member == 0) {
         next_skin_ = skin_after(lasted);  // skin_ may still be read by others
         put_in_order(cells_, grains_, next_skin_, around_.period, new_index_);
-        contacts_.assign(grains_.size(), 0);
+        if (team_.size() > 1) contacts_.assign(grains_.size(), 0);
     }
     team_.barrier(member);
-    mine.contacts_left = mine.contacts.count_contacts(new_index_, contacts_);
+    if (team_.size() > 1) mine.contacts_left = mine.contacts.count_contacts(new_index_, contacts_);
     const std::int64_t n = static_cast<std::int64_t>(grains_.size());
     const auto begin = static_cast<std::int32_t>(n * member / team_.size());
     const auto end = static_cast<std::int32_t>(n * (member + 1) / team_.size());
@@ -102,14 +102,15 @@ void StepLoop::note_speeds() {
 // Ranges of grains for the threads, of about as much work as they are fast. The bits do not depend on it.
 void StepLoop::share_out() {
     const std::int32_t n = static_cast<std::int32_t>(grains_.size());
+    last_share_ = share_;
+    share_.assign(team_.size() + 1, n);
+    share_[0] = 0;
+    if (team_.size() == 1) return;
     const auto work = [&](std::int32_t i) { return kWorkOfGrain * i + lists_.pairs.start[i]; };
     const double contacts = std::accumulate(contacts_.begin(), contacts_.end(), 0.0);
     const double all = work(n) + kWorkOfContact * contacts;
     double speed_of_all = 0, speed_before = 0, contact_work = 0;
     for (const Member& m : members_) speed_of_all += m.speed;
-    last_share_ = share_;
-    share_.assign(team_.size() + 1, n);
-    share_[0] = 0;
     std::int32_t i = 0;
     for (int t = 0; t < team_.size(); ++t) {
         Member& m = members_[t];

@@ -10,7 +10,7 @@ namespace {
 
 TEST(Soon, HoldsPairsInOrderAndFillsTheLastBlock) {
     Soon soon;
-    soon.expire(40);
+    soon.expire(60);
     soon.begin(0, 1);
     for (std::int32_t k = 0; k < 21; ++k) soon.add(k, 100 + k, 2 * k);
     soon.end();
@@ -24,8 +24,14 @@ TEST(Soon, HoldsPairsInOrderAndFillsTheLastBlock) {
         EXPECT_EQ(soon.first()[k], 20);
         EXPECT_EQ(soon.second()[k], 120);
     }
+    EXPECT_TRUE(soon.has_room(9));
+    EXPECT_FALSE(soon.has_room(60));
+    EXPECT_FALSE(soon.are_all());
+    soon.give_up();
+    EXPECT_TRUE(soon.are_all());
     soon.begin(0, 1);
     soon.end();
+    EXPECT_FALSE(soon.are_all());
     EXPECT_EQ(soon.size(), 0);
 }
 
