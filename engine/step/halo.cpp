@@ -105,6 +105,7 @@ void Halo::put(const Grains& grains, const Loaded* loaded, int owner, int box) {
     const int numbers = numbers_of(grains);
     const bool all = !loaded || !loaded->few();
     const Part part = part_[owner];
+    if (part.begin == part.end) return;
     double* words = box_[box].data()[part.line].number;
     double* to = words + words_for(part.end - part.begin);
     for (std::int32_t k = part.begin; k < part.end; k += kBits, ++words) {
@@ -129,6 +130,7 @@ void Halo::put(const Grains& grains, const Loaded* loaded, int owner, int box) {
 void Halo::get(Grains& grains, int box, const Flight& flight) {
     const int numbers = numbers_of(grains);
     for (const Part& part : part_) {
+        if (part.begin == part.end) continue;
         const std::int32_t words = words_for(part.end - part.begin);
         const double* word = box_[box].data()[part.line].number;
         const double* from = word + words;

@@ -46,10 +46,11 @@ class alignas(64) Halo {
     void copy(Grains& grains) const;
 
     // By the owner: its grains as they are now, into one of two boxes; if few are `loaded`, only those
-    // (nullptr: all). Who takes the boxes in turn needs no barrier but that between put() and get().
+    // (nullptr: all), which is what they remain until the next copy(). Who takes the boxes in turn needs no
+    // barrier but that between put() and get().
     void put(const Grains& grains, const Loaded* loaded, int owner, int box);
-    // By the thread itself: to the copies. Those that have not come go on as their owner had all go on, from
-    // the last put(), get() or copy().
+    // By the thread itself: to the copies. Those that have not come move from where they are, as their owner
+    // has moved all of his.
     void get(Grains& grains, int box, const Flight& flight);
 
     // Where the bodies of `count` pairs, at most kChunk, and of what fills their last block, stand: foreign
