@@ -113,7 +113,7 @@ void ContactPass::admit_pairs(const Step& in, ContactTable& table) {
 
 // As long as the gap is small few pairs are in it, and as long as it is large it lasts.
 void ContactPass::list_soon(const Step& in, const ContactTable& table) {
-    constexpr double kShare = 1.0 / 6;
+    constexpr double kShare = 1.0 / 10;
     Soon& soon = soon_[in.g];
     const double gap = kShare * skin_;
     soon.begin(in.passed.moved, gap);
