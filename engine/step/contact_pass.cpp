@@ -72,35 +72,30 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
 template <class Work>
 void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                           const ContactTable& table, const Grains& grains,
-                                          const WallState& state, const Work& work) {
+                                          const WallState& state, const FoundPairs* found, const Work& work) {
     for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
-        const Chunk chunk{table.near_first() + c, table.near_second() + c,
-                          std::min(kChunk, table.candidates() - c)};
+        Chunk chunk{table.near_first() + c, table.near_second() + c,
+                    std::min(kChunk, table.candidates() - c)};
+        if (found) {
+            const auto [first, second] = found->of(table.near_first(), table.near_second(), c);
+            chunk.first = first, chunk.second = second;
+        }
+        if (group.of_pairs && is_large_bed(grains)) fetch_places(grains, table, c);
         work(c, which_touch(rules, group, grains, state, chunk));
     }
 }
 
-void ContactPass::admit_walls(const Step& in, ContactTable& table) {
-    each_touching_candidate(in.rules, in.group, table, in.grains, in.walls,
+void ContactPass::admit_all(const Step& in, ContactTable& table) {
+    each_touching_candidate(in.rules, in.group, table, in.grains, in.walls, &found_[in.g].candidates,
                             [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
 }
 
-void ContactPass::admit_all_pairs(const Step& in, ContactTable& table) {
-    for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
-        const auto [first, second] = found_[in.g].candidates.of(table.near_first(), table.near_second(), c);
-        if (is_large_bed(in.grains)) fetch_places(in.grains, table, c);
-        const Chunk chunk{first, second, std::min(kChunk, table.candidates() - c)};
-        table.admit(c, which_touch(in.rules, in.group, in.grains, in.walls, chunk));
-    }
-}
-
-// In a large bed all of them: the places that they bring to the cache are wanted by contacts soon after, and
-// picking some waited longer for each (contacts 1.15 times as long).
-void ContactPass::admit_pairs(const Step& in, ContactTable& table) {
-    if (is_large_bed(in.grains)) return admit_all_pairs(in, table);
+// Pairs of a small bed. In a large one the places that all candidates bring to the cache are wanted by
+// contacts soon after, and picking some waited longer for each (contacts 1.15 times as long).
+void ContactPass::admit_soon(const Step& in, ContactTable& table) {
     Soon& soon = soon_[in.g];
     if (!soon.lasts(in.passed.moved)) list_soon(in, table);
-    if (soon.are_all()) return admit_all_pairs(in, table);
+    if (soon.are_all()) return admit_all(in, table);
     for (std::int32_t k = 0; k < soon.size(); k += kChunk) {
         const Chunk chunk{soon.first() + k, soon.second() + k, std::min(kChunk, soon.size() - k)};
         std::uint64_t left = which_touch(in.rules, in.group, in.grains, in.walls, chunk);
@@ -137,7 +132,7 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
         ContactTable& table = tables_[g];
         const Step in{rules, g, rules.groups[g], grains, state, passed};
         table.begin_step();
-        in.group.of_pairs ? admit_pairs(in, table) : admit_walls(in, table);
+        in.group.of_pairs && !is_large_bed(grains) ? admit_soon(in, table) : admit_all(in, table);
         note_loaded(in.group.of_pairs, table, table.end_step(), table.size());
         compute_stretch(in, table, table.late(), table.size(), nullptr, clock);
         compute_stretch(in, table, 0, table.sorted(), g == 0 ? &vanguard : nullptr, clock);
@@ -221,18 +216,19 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
     Histories none;
     none.shape(group.history_size(), group.number_size());
     none.resize(kBlock);
-    each_touching_candidate(rules, group, table, grains, state, [&](std::int32_t c, std::uint64_t touching) {
-        for (std::uint64_t left = touching & ~table.admitted(c); left != 0; left &= left - 1) {
-            std::int32_t first[kBlock], second[kBlock];
-            std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);
-            std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
-            const Chunk chunk{first, second, 1};
-            show(group,
-                 prepare(rules, group, grains, state, {0, 0, 0, 0, 0}, chunk, {chunk.first, chunk.second},
-                         false),
-                 none.of_block(0), chunk, true, seen);
-        }
-    });
+    each_touching_candidate(
+        rules, group, table, grains, state, nullptr, [&](std::int32_t c, std::uint64_t touching) {
+            for (std::uint64_t left = touching & ~table.admitted(c); left != 0; left &= left - 1) {
+                std::int32_t first[kBlock], second[kBlock];
+                std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);
+                std::fill_n(second, kBlock, table.near_second()[c + std::countr_zero(left)]);
+                const Chunk chunk{first, second, 1};
+                show(group,
+                     prepare(rules, group, grains, state, {0, 0, 0, 0, 0}, chunk, {chunk.first, chunk.second},
+                             false),
+                     none.of_block(0), chunk, true, seen);
+            }
+        });
 }
 
 }  // namespace grainreel

@@ -117,7 +117,7 @@ void StepLoop::load(std::istream& in) {
     transfer(*this, kept, steps, reach, Reading{in});
     if (!in) return;  // the caller says so
     fresh_ = false;
-    contacts_.assign(grains_.size(), 0);
+    if (team_.size() > 1) contacts_.assign(grains_.size(), 0);
     share_out();
     for (int member = 0; member < team_.size(); ++member) {
         Member& mine = members_[member];
