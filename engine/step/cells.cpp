@@ -49,6 +49,15 @@ void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& 
     for (std::size_t m = n; m-- > 0;) in_order_[--start_[box_[m]]] = members[m];
 }
 
+void Grid::keep(const std::vector<std::int32_t>& members) {
+    std::int32_t before = 0;
+    for (std::int32_t& start : start_) {
+        while (before < std::ssize(members) && members[before] < start) ++before;
+        start = before;
+    }
+    in_order_ = members;
+}
+
 void Grid::mark_surroundings(const LargeArray<Place>& place, const std::vector<std::int32_t>& members) {
     if (periodic_) return;
     is_near_.assign(start_.size() - 1, false);
@@ -65,25 +74,35 @@ void Grid::mark_surroundings(const LargeArray<Place>& place, const std::vector<s
 }
 
 // Octave by octave of radii, from the smallest up.
-void Cells::sort_into_levels(const LargeArray<Place>& place) {
-    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-    for (const Place& p : place) {
-        smallest = std::min(smallest, p.radius);
-        largest = std::max(largest, p.radius);
-    }
-    levels_.resize(std::ilogb(largest / smallest) + 1);
-    for (Level& level : levels_) level.members.clear(), level.largest = 0;
+void Cells::find_levels(const LargeArray<Place>& place) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Place& p : place) smallest = std::min(smallest, p.radius);
+    std::array<double, kOctaves> largest{};
+    std::array<std::size_t, kOctaves> count{};
+    octave_of_.resize(place.size());
     for (std::size_t i = 0; i < place.size(); ++i) {
-        Level& level = levels_[levels_.size() > 1 ? std::ilogb(place[i].radius / smallest) : 0];
-        level.members.push_back(static_cast<std::int32_t>(i));
-        level.largest = std::max(level.largest, place[i].radius);
+        const double radius = place[i].radius;
+        const int octave = radius < 2 * smallest ? 0 : std::min(std::ilogb(radius / smallest), kOctaves - 1);
+        octave_of_[i] = static_cast<std::uint8_t>(octave);
+        largest[octave] = std::max(largest[octave], radius);
+        ++count[octave];
     }
-    std::erase_if(levels_, [](const Level& level) { return level.members.empty(); });
+    levels_.resize(kOctaves - std::count(count.begin(), count.end(), 0u));
+    std::size_t level = 0, most = 0;
+    for (int octave = 0; octave < kOctaves; ++octave) {
+        if (count[octave] == 0) continue;
+        if (count[octave] > most) most = count[octave], leading_ = level;
+        level_of_[octave] = static_cast<std::uint8_t>(level);
+        levels_[level++].largest = largest[octave];
+    }
 }
 
-Cells::Level& Cells::most_frequent() {
-    const auto fewer = [](const Level& a, const Level& b) { return a.members.size() < b.members.size(); };
-    return *std::max_element(levels_.begin(), levels_.end(), fewer);
+// By their new indices.
+void Cells::find_members() {
+    for (Level& level : levels_) level.members.clear();
+    const std::vector<std::int32_t>& order = levels_[leading_].grid.in_order();
+    for (std::size_t i = 0; i < order.size(); ++i)
+        levels_[level_of_[octave_of_[order[i]]]].members.push_back(static_cast<std::int32_t>(i));
 }
 
 namespace {
@@ -108,20 +127,23 @@ GridFrame frame_of(const LargeArray<Place>& place, double period) {
 }  // namespace
 
 const std::vector<std::int32_t>& Cells::order(const LargeArray<Place>& place, double skin, double period) {
-    sort_into_levels(place);
-    Level& most = most_frequent();
-    most.members.resize(place.size());  // all of them, until lay()
-    std::iota(most.members.begin(), most.members.end(), 0);
+    find_levels(place);
     frame_ = frame_of(place, period);
-    most.grid.lay(place, most.members, 2 * most.largest + skin, frame_);
-    return most.grid.in_order();
+    Level& leading = levels_[leading_];
+    leading.members.resize(place.size());  // all of them, until lay()
+    std::iota(leading.members.begin(), leading.members.end(), 0);
+    leading.grid.lay(place, leading.members, 2 * leading.largest + skin, frame_);
+    return leading.grid.in_order();
 }
 
 void Cells::lay(const LargeArray<Place>& place, double skin) {
-    sort_into_levels(place);
+    find_members();
     for (Level& level : levels_) {
-        level.grid.lay(place, level.members, 2 * level.largest + skin, frame_);
-        level.leads = &level == &most_frequent();
+        level.leads = &level == &levels_[leading_];
+        if (level.leads)
+            level.grid.keep(level.members);
+        else
+            level.grid.lay(place, level.members, 2 * level.largest + skin, frame_);
         level.rising = level.grid.in_order() == level.members;
         if (level.members.size() < place.size() / kFew) level.grid.mark_surroundings(place, level.members);
     }

@@ -28,6 +28,9 @@ class Grid {
     // them the members (indices of grains, rising). Grids of one frame and one width have the same boxes.
     void lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
              const GridFrame& frame);
+    // Once all members have been put in the grid's order: of them only these stay, by their new indices,
+    // rising.
+    void keep(const std::vector<std::int32_t>& members);
     // So that places far from all members are told at once: where there are few.
     void mark_surroundings(const LargeArray<Place>& place, const std::vector<std::int32_t>& members);
 
@@ -124,7 +127,7 @@ class Cells {
     // period as for the grids' frame. Stays until lay().
     const std::vector<std::int32_t>& order(const LargeArray<Place>& place, double skin, double period);
 
-    // The grids, for the same grains in that order.
+    // The grids, for the same grains once they have been put in that order.
     void lay(const LargeArray<Place>& place, double skin);
 
     struct Level {
@@ -137,10 +140,15 @@ class Cells {
     const std::vector<Level>& levels() const { return levels_; }
 
   private:
-    void sort_into_levels(const LargeArray<Place>& place);
-    Level& most_frequent();
+    static constexpr int kOctaves = 64;
 
-    std::vector<Level> levels_;  // those that have members
+    void find_levels(const LargeArray<Place>& place);
+    void find_members();
+
+    std::vector<Level> levels_;                      // those that have members
+    std::size_t leading_ = 0;                        // the level that has most
+    std::vector<std::uint8_t> octave_of_;            // of each grain before they were put in order
+    std::array<std::uint8_t, kOctaves> level_of_{};  // of each octave
     GridFrame frame_;
 };
 
