@@ -52,4 +52,21 @@ class Team {
     std::atomic<int> running_{0};  // members still at work besides member 0
 };
 
+// A member at work that all members are called for.
+struct TeamMember {
+    Team& team;
+    int member;
+
+    bool leads() const { return member == 0; }
+    void wait() const { team.barrier(member); }
+    // Its part of `count` things.
+    struct Part {
+        std::int32_t begin, end;
+    };
+    Part part_of(std::size_t count) const {
+        const auto at = [&](int m) { return static_cast<std::int32_t>(count * m / team.size()); };
+        return {at(member), at(member + 1)};
+    }
+};
+
 }  // namespace grainreel

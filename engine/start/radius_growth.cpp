@@ -60,10 +60,11 @@ struct Growing {
 
 // First radii: a share of the gap to the nearest neighbour, split as the wanted radii are, and of the walls'.
 void first_radii(Growing& g, double reach) {
+    Team alone(1);
     Cells cells;
     NeighbourList list;
     std::vector<std::int32_t> new_index;
-    put_in_order(cells, g.grains, reach, g.around.period, new_index);
+    put_in_order({alone, 0}, cells, g.grains, reach, g.around.period, new_index);
     list_pairs(cells, g.grains, reach, g.around.period, 0, static_cast<std::int32_t>(g.grains.size()), list);
     std::vector<double> allowed(g.grains.size());
     for (std::size_t i = 0; i < allowed.size(); ++i) {

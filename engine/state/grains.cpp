@@ -1,9 +1,10 @@
 #include "engine/state/grains.hpp"
 
-#include <tuple>
-#include <type_traits>
-
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <numbers>
+#include <type_traits>
 
 namespace grainreel {
 
@@ -33,37 +34,38 @@ void Grains::set_radius(std::size_t i, double radius, double density) {
 
 namespace {
 
-// values[i] = values[order[i]] for all of them at once, in place: along the cycles of the order.
-template <class... Vectors>
-void permute(const std::vector<std::int32_t>& order, std::vector<bool>& placed, Vectors&... values) {
-    placed.assign(order.size(), false);
-    const auto lift = [](const auto& of, std::size_t i) {
-        return of.empty() ? typename std::decay_t<decltype(of)>::value_type{} : of[i];
-    };
-    const auto put = [](auto& to, std::size_t i, const auto& value) {
-        if (!to.empty()) to[i] = value;
-    };
-    const auto move = [](auto& of, std::size_t from, std::size_t to) {
-        if (!of.empty()) of[to] = of[from];
-    };
-    for (std::size_t begin = 0; begin < order.size(); ++begin) {
-        if (placed[begin]) continue;
-        const std::tuple lifted{lift(values, begin)...};
-        std::size_t to = begin;
-        for (std::size_t from = order[to]; from != begin; from = order[to]) {
-            (move(values, from, to), ...);
-            placed[to] = true;
-            to = from;
-        }
-        placed[to] = true;
-        std::apply([&](const auto&... value) { (put(values, to, value), ...); }, lifted);
-    }
+// values[i] = values[order[i]], of each value the bytes [offset, offset + size): those of a member's part
+// into its part of the room, in their new order, and when all have come back from there.
+template <std::size_t offset, std::size_t size, class Value>
+void reorder_bytes(Value* values, const std::vector<std::int32_t>& order, LargeArray<Load>& room,
+                   const TeamMember& me) {
+    static_assert(size <= sizeof(Load));
+    const auto [begin, end] = me.part_of(order.size());
+    auto* const bytes = reinterpret_cast<std::byte*>(values) + offset;
+    auto* const own = reinterpret_cast<std::byte*>(room.data() + begin);
+    for (std::int32_t i = begin; i < end; ++i)
+        std::memcpy(own + (i - begin) * size, bytes + order[i] * sizeof(Value), size);
+    me.wait();
+    for (std::int32_t i = begin; i < end; ++i)
+        std::memcpy(bytes + i * sizeof(Value), own + (i - begin) * size, size);
 }
 
 }  // namespace
 
-void Grains::reorder(const std::vector<std::int32_t>& order) {
-    permute(order, placed, id, species, place, motion, load, rounded, wall_work, orientation, derivatives);
+void Grains::reorder(const std::vector<std::int32_t>& order, const TeamMember& me) {
+    const auto reorder_all = [&](auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        if (!values.empty()) reorder_bytes<0, sizeof(Value)>(values.data(), order, load, me);
+    };
+    reorder_all(id), reorder_all(species), reorder_all(wall_work);
+    reorder_all(place), reorder_all(motion), reorder_all(rounded), reorder_all(orientation);
+    if (!derivatives.empty()) {
+        constexpr std::size_t half = sizeof(Derivatives) / 2;
+        reorder_bytes<0, half>(derivatives.data(), order, load, me);
+        reorder_bytes<half, half>(derivatives.data(), order, load, me);
+    }
+    const auto [begin, end] = me.part_of(order.size());
+    std::fill(load.begin() + begin, load.begin() + end, Load{});
 }
 
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/large_array.hpp"
+#include "engine/base/team.hpp"
 #include "engine/base/vector.hpp"
 
 namespace grainreel {
@@ -58,8 +59,6 @@ struct Grains {
     std::vector<Quaternion> orientation;   // empty unless asked for
     std::vector<Derivatives> derivatives;  // empty unless the integrator has them
 
-    std::vector<bool> placed;  // while being reordered
-
     std::size_t size() const { return id.size(); }
 
     // Room for so many.
@@ -72,8 +71,9 @@ struct Grains {
     double mass(std::size_t i) const { return 1 / motion[i].inverse_mass; }
     double inertia(std::size_t i) const { return 1 / motion[i].inverse_inertia; }
 
-    // order[new index] = old index.
-    void reorder(const std::vector<std::int32_t>& order);
+    // order[new index] = old index. All members of a team call it. The loads must have been used up: they
+    // lend their room.
+    void reorder(const std::vector<std::int32_t>& order, const TeamMember& me);
 };
 
 }  // namespace grainreel

@@ -100,7 +100,7 @@ void Cells::find_levels(const LargeArray<Place>& place) {
 // By their new indices.
 void Cells::find_members() {
     for (Level& level : levels_) level.members.clear();
-    const std::vector<std::int32_t>& order = levels_[leading_].grid.in_order();
+    const std::vector<std::int32_t>& order = in_order();
     for (std::size_t i = 0; i < order.size(); ++i)
         levels_[level_of_[octave_of_[order[i]]]].members.push_back(static_cast<std::int32_t>(i));
 }
@@ -126,14 +126,13 @@ GridFrame frame_of(const LargeArray<Place>& place, double period) {
 
 }  // namespace
 
-const std::vector<std::int32_t>& Cells::order(const LargeArray<Place>& place, double skin, double period) {
+void Cells::order(const LargeArray<Place>& place, double skin, double period) {
     find_levels(place);
     frame_ = frame_of(place, period);
     Level& leading = levels_[leading_];
     leading.members.resize(place.size());  // all of them, until lay()
     std::iota(leading.members.begin(), leading.members.end(), 0);
     leading.grid.lay(place, leading.members, 2 * leading.largest + skin, frame_);
-    return leading.grid.in_order();
 }
 
 void Cells::lay(const LargeArray<Place>& place, double skin) {

@@ -124,8 +124,9 @@ class Cells {
   public:
     // order[new] = old: grains sorted by the boxes of the most frequent size, slowest along the bed's longest
     // side, so that what touches lies close in memory and few contacts cross from thread to thread. m: skin,
-    // period as for the grids' frame. Stays until lay().
-    const std::vector<std::int32_t>& order(const LargeArray<Place>& place, double skin, double period);
+    // period as for the grids' frame. in_order() stays until lay().
+    void order(const LargeArray<Place>& place, double skin, double period);
+    const std::vector<std::int32_t>& in_order() const { return levels_[leading_].grid.in_order(); }
 
     // The grids, for the same grains once they have been put in that order.
     void lay(const LargeArray<Place>& place, double skin);

@@ -7,23 +7,29 @@
 
 namespace grainreel {
 
-void put_in_order(Cells& cells, Grains& grains, double skin, double period,
+void put_in_order(const TeamMember& me, Cells& cells, Grains& grains, double skin, double period,
                   std::vector<std::int32_t>& index) {
-    if (period > 0) {
-        for (Place& p : grains.place) p.position.x() = nearest_image(p.position.x(), period);
+    if (me.leads()) {
+        if (period > 0) {
+            for (Place& p : grains.place) p.position.x() = nearest_image(p.position.x(), period);
+        }
+        cells.order(grains.place, skin, period);
+        index.resize(grains.size());
     }
-    const std::vector<std::int32_t>& order = cells.order(grains.place, skin, period);
-    grains.reorder(order);
-    index.resize(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) index[order[i]] = static_cast<std::int32_t>(i);
-    cells.lay(grains.place, skin);
+    me.wait();
+    const std::vector<std::int32_t>& order = cells.in_order();
+    grains.reorder(order, me);
+    const auto [begin, end] = me.part_of(order.size());
+    for (std::int32_t i = begin; i < end; ++i) index[order[i]] = i;
+    me.wait();
+    if (me.leads()) cells.lay(grains.place, skin);
+    me.wait();
 }
 
-void NeighbourList::append(const NeighbourList& more) {
-    const std::int32_t shift = start.back();
-    for (std::size_t i = 1; i < more.start.size(); ++i) start.push_back(more.start[i] + shift);
-    partner.insert(partner.end(), more.partner.begin(), more.partner.end());
-    farthest_partner = std::max(farthest_partner, more.farthest_partner);
+void NeighbourList::put(const NeighbourList& part, std::size_t grain, std::size_t at) {
+    const auto shift = static_cast<std::int32_t>(at);
+    for (std::size_t i = 1; i < part.start.size(); ++i) start[grain + i] = part.start[i] + shift;
+    std::copy(part.partner.begin(), part.partner.end(), partner.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
 namespace {

@@ -18,9 +18,13 @@ struct NeighbourList {
     std::int32_t farthest_partner = 0;  // no partner's index is farther from i than this
 
     std::size_t size() const { return partner.size(); }
-    void clear() { start.assign(1, 0), partner.clear(), farthest_partner = 0; }
-    // The list of the grains after these.
-    void append(const NeighbourList& more);
+    void resize(std::size_t grains, std::size_t partners) {
+        start.resize(grains + 1), partner.resize(partners);
+        start[0] = 0;
+    }
+    // The list of the grains from `grain` on, their partners from place `at` on: several threads may put
+    // theirs at once.
+    void put(const NeighbourList& part, std::size_t grain, std::size_t at);
 };
 
 struct WallNeighbour {
@@ -34,8 +38,9 @@ struct NeighbourLists {
 };
 
 // Wraps positions into the period, puts the grains in spatial order and lays the cells over them.
-// index[old] = new.
-void put_in_order(Cells& cells, Grains& grains, double skin, double period, std::vector<std::int32_t>& index);
+// index[old] = new. All members of a team call it. The loads must have been used up.
+void put_in_order(const TeamMember& me, Cells& cells, Grains& grains, double skin, double period,
+                  std::vector<std::int32_t>& index);
 
 // All want the grains in that order. They list under the grains [begin, end) only, list_pairs with a start
 // counting from 0 at `begin`.

@@ -150,7 +150,7 @@ class StepLoop {
     void rebuild(int member, const Pose& pose, double time, double lasted);
     static constexpr double kLastsWell = 1000;  // steps, of lists whose skin is right
     double skin_after(double lasted) const;
-    void join_lists();
+    void join_lists(const TeamMember& me);
     void note_listing(const Pose& pose, double time);
     void note_speeds();
     void share_out();

@@ -17,36 +17,36 @@ constexpr double kWorkOfGrain = 3, kWorkOfContact = 10;
 void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted) {
     Member& mine = members_[member];
     mine.busy_in_all = team_.busy(member);
-    if (member == 0) {
+    const TeamMember me{team_, member};
+    if (me.leads()) {
         next_skin_ = skin_after(lasted);  // skin_ may still be read by others
-        put_in_order(cells_, grains_, next_skin_, around_.period, new_index_);
         if (team_.size() > 1) contacts_.assign(grains_.size(), 0);
     }
-    team_.barrier(member);
+    me.wait();
+    put_in_order(me, cells_, grains_, next_skin_, around_.period, new_index_);
     if (team_.size() > 1) mine.contacts_left = mine.contacts.count_contacts(new_index_, contacts_);
-    const std::int64_t n = static_cast<std::int64_t>(grains_.size());
-    const auto begin = static_cast<std::int32_t>(n * member / team_.size());
-    const auto end = static_cast<std::int32_t>(n * (member + 1) / team_.size());
+    const auto [begin, end] = me.part_of(grains_.size());
     const bool alone = team_.size() == 1;  // then nothing need be joined
     list_pairs(cells_, grains_, next_skin_, around_.period, begin, end, alone ? lists_.pairs : mine.pairs);
     list_walls(grains_, around_.faces, pose, next_skin_, begin, end, alone ? lists_.walls : mine.walls_near);
-    team_.barrier(member);
-    if (member == 0) {
-        if (!alone) join_lists();
+    me.wait();
+    if (!alone) join_lists(me);
+    if (member == team_.size() - 1) note_listing(pose, time);
+    me.wait();
+    if (me.leads()) {
         skin_ = next_skin_;
-        note_listing(pose, time);
         note_speeds();
         share_out();
         ++rebuilds_;
     }
-    team_.barrier(member);
+    me.wait();
     mine.contacts.renumber(rules_, member, {new_index_, last_share_, share_}, mine.leaving);
-    team_.barrier(member);
+    me.wait();
     mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
     for (const Member& m : members_) mine.contacts.take(member, m.leaving);
-    team_.barrier(member);
-    if (member == 0) place_halos();
-    team_.barrier(member);
+    me.wait();
+    if (me.leads()) place_halos();
+    me.wait();
     refresh(member);
     mine.busy_before = team_.busy(member);
 }
@@ -61,13 +61,27 @@ double StepLoop::skin_after(double lasted) const {
     return std::clamp(factor * skin_, kLeast * around_.skin, kMost * around_.skin);
 }
 
-void StepLoop::join_lists() {
-    lists_.walls.clear();
-    lists_.pairs.clear();
-    for (const Member& m : members_) {
-        lists_.pairs.append(m.pairs);
-        lists_.walls.insert(lists_.walls.end(), m.walls_near.begin(), m.walls_near.end());
+// Each member brings its own.
+void StepLoop::join_lists(const TeamMember& me) {
+    NeighbourList& all = lists_.pairs;
+    std::size_t pairs = 0, walls = 0, pairs_before = 0, walls_before = 0;
+    std::int32_t farthest = 0;
+    for (int m = 0; m < team_.size(); ++m) {
+        if (m == me.member) pairs_before = pairs, walls_before = walls;
+        pairs += members_[m].pairs.size();
+        walls += members_[m].walls_near.size();
+        farthest = std::max(farthest, members_[m].pairs.farthest_partner);
     }
+    if (me.leads()) {
+        all.resize(grains_.size(), pairs);
+        all.farthest_partner = farthest;
+        lists_.walls.resize(walls);
+    }
+    me.wait();
+    const Member& mine = members_[me.member];
+    all.put(mine.pairs, me.part_of(grains_.size()).begin, pairs_before);
+    std::copy(mine.walls_near.begin(), mine.walls_near.end(),
+              lists_.walls.begin() + static_cast<std::ptrdiff_t>(walls_before));
 }
 
 void StepLoop::note_listing(const Pose& pose, double time) {

@@ -3,6 +3,7 @@
 #include <hwy/targets.h>
 
 #include <algorithm>
+#include <cstring>
 #include <random>
 #include <set>
 #include <utility>
@@ -13,6 +14,8 @@
 
 namespace grainreel {
 namespace {
+
+Team alone(1);
 
 using Pairs = std::multiset<std::pair<std::int32_t, std::int32_t>>;
 
@@ -66,27 +69,70 @@ TEST_P(Neighbours, AreAllPairsThatAreNear) {
         Grains grains = of_all_sizes(seed);
         Cells cells;
         std::vector<std::int32_t> new_index;
-        put_in_order(cells, grains, skin, period, new_index);
+        put_in_order({alone, 0}, cells, grains, skin, period, new_index);
         EXPECT_GE(cells.levels().size(), 3u);
         NeighbourList low, high, whole;
         const std::int32_t n = static_cast<std::int32_t>(grains.size()), middle = n / 3;
         list_pairs(cells, grains, skin, period, 0, middle, low);
         list_pairs(cells, grains, skin, period, middle, n, high);
-        whole.clear();
-        whole.append(low);
-        whole.append(high);
+        whole.resize(n, low.size() + high.size());
+        whole.put(low, 0, 0);
+        whole.put(high, middle, low.size());
         const Pairs expected = all_near(grains, skin, period);
         EXPECT_GT(expected.size(), 80u);
         EXPECT_EQ(listed(whole), expected);
         for (std::int32_t i = 0; i < n; ++i) EXPECT_TRUE(rise(whole, i)) << i;
         std::int32_t farthest = 0;
         for (const auto& [i, j] : expected) farthest = std::max(farthest, j - i);
-        EXPECT_EQ(whole.farthest_partner, farthest);
+        EXPECT_EQ(std::max(low.farthest_partner, high.farthest_partner), farthest);
     }
 }
 
 // Periods: none; that of the bed; one of which the largest grain's neighbourhood takes most.
 INSTANTIATE_TEST_SUITE_P(Periods, Neighbours, testing::Values(0.0, 0.1, 0.06));
+
+// All that a grain has says whose it is.
+void mark(Grains& grains) {
+    const std::size_t n = grains.size();
+    grains.rounded.resize(n), grains.orientation.resize(n), grains.derivatives.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double d = grains.id[i];
+        const Vec3 v(d, d + 0.25, d + 0.5);
+        grains.species[i] = 2 * grains.id[i];
+        grains.wall_work[i] = d;
+        grains.motion[i].velocity = v, grains.motion[i].spin = 2 * v;
+        grains.rounded[i].velocity[0] = grains.rounded[i].radius = static_cast<float>(d);
+        grains.orientation[i].coeffs() << v, d;
+        grains.derivatives[i] = {v, 2 * v, 3 * v, 4 * v};
+    }
+}
+
+TEST(Order, TakesAllThatAGrainHasWithIt) {
+    for (const int members : {1, 3}) {
+        Team team(members);
+        Grains grains = of_all_sizes(3);
+        mark(grains);
+        const Grains before = grains;
+        Cells cells;
+        std::vector<std::int32_t> new_index;
+        team.run([&](int member) { put_in_order({team, member}, cells, grains, 0.004, 0, new_index); });
+        EXPECT_NE(grains.id, before.id);
+        for (std::size_t old = 0; old < before.size(); ++old) {
+            const std::size_t i = new_index[old];
+            ASSERT_EQ(grains.id[i], before.id[old]);
+            EXPECT_EQ(grains.species[i], before.species[old]);
+            EXPECT_EQ(grains.wall_work[i], before.wall_work[old]);
+            EXPECT_EQ(grains.place[i].position, before.place[old].position);
+            EXPECT_EQ(grains.place[i].radius, before.place[old].radius);
+            EXPECT_EQ(std::memcmp(&grains.motion[i], &before.motion[old], sizeof(Motion)), 0);
+            EXPECT_EQ(std::memcmp(&grains.rounded[i], &before.rounded[old], sizeof(RoundedMotion)), 0);
+            EXPECT_EQ(grains.orientation[i].coeffs(), before.orientation[old].coeffs());
+            EXPECT_EQ(std::memcmp(&grains.derivatives[i], &before.derivatives[old], sizeof(Derivatives)), 0);
+            EXPECT_EQ(grains.load[i].force, Vec3(0, 0, 0));
+            EXPECT_EQ(grains.load[i].torque, Vec3(0, 0, 0));
+        }
+    }
+}
 
 // Or every grain would look at twice as many others.
 TEST(Cells, LeadingLevelStandsInItsGridsOrder) {
@@ -95,7 +141,7 @@ TEST(Cells, LeadingLevelStandsInItsGridsOrder) {
             Grains grains = of_all_sizes(seed);
             Cells cells;
             std::vector<std::int32_t> new_index;
-            put_in_order(cells, grains, 0.004, period, new_index);
+            put_in_order({alone, 0}, cells, grains, 0.004, period, new_index);
             int leading = 0;
             for (const Cells::Level& level : cells.levels()) {
                 if (!level.leads) continue;
@@ -112,7 +158,7 @@ TEST(NeighboursAtWidths, AreTheSame) {
     Grains grains = of_all_sizes(7);
     Cells cells;
     std::vector<std::int32_t> new_index;
-    put_in_order(cells, grains, 0.004, 0, new_index);
+    put_in_order({alone, 0}, cells, grains, 0.004, 0, new_index);
     const Pairs expected = all_near(grains, 0.004, 0);
     for (const std::int64_t target : {std::int64_t{HWY_STATIC_TARGET}, std::int64_t{HWY_SSE4},
                                       std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}}) {
