@@ -68,14 +68,15 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
     return touching & bits_of_first(chunk.count);
 }
 
-// work(c, bits): of the 64 candidates from c on, those that touch.
+// work(c, bits): of the 64 candidates from c on, those that touch; of candidates [from, to), from being a
+// multiple of 64.
 template <class Work>
 void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
-                                          const ContactTable& table, const Grains& grains,
-                                          const WallState& state, const FoundPairs* found, const Work& work) {
-    for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
-        Chunk chunk{table.near_first() + c, table.near_second() + c,
-                    std::min(kChunk, table.candidates() - c)};
+                                          const ContactTable& table, std::int32_t from, std::int32_t to,
+                                          const Grains& grains, const WallState& state,
+                                          const FoundPairs* found, const Work& work) {
+    for (std::int32_t c = from; c < to; c += kChunk) {
+        Chunk chunk{table.near_first() + c, table.near_second() + c, std::min(kChunk, to - c)};
         if (found) {
             const auto [first, second] = found->of(table.near_first(), table.near_second(), c);
             chunk.first = first, chunk.second = second;
@@ -85,17 +86,26 @@ void ContactPass::each_touching_candidate(const ContactRules& rules, const Conta
     }
 }
 
-void ContactPass::admit_all(const Step& in, ContactTable& table) {
-    each_touching_candidate(in.rules, in.group, table, in.grains, in.walls, &found_[in.g].candidates,
+void ContactPass::admit_all(const Step& in, ContactTable& table, std::int32_t from, std::int32_t to) {
+    each_touching_candidate(in.rules, in.group, table, from, to, in.grains, in.walls,
+                            &found_[in.g].candidates,
                             [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
 }
 
 // Pairs of a small bed. In a large one the places that all candidates bring to the cache are wanted by
 // contacts soon after, and picking some waited longer for each (contacts 1.15 times as long).
+//
+// As long as the gap is small few pairs are in it, and as long as it is large it lasts.
 void ContactPass::admit_soon(const Step& in, ContactTable& table) {
-    Soon& soon = soon_[in.g];
-    if (!soon.lasts(in.passed.moved)) list_soon(in, table);
-    if (soon.are_all()) return admit_all(in, table);
+    constexpr double kShare = 1.0 / 10;
+    soon_[in.g].each(kShare * skin_, [&](SoonList& soon, double gap) {
+        if (!soon.lasts(in.passed.moved)) list_soon(in, table, soon, gap);
+        admit_soon(in, table, soon);
+    });
+}
+
+void ContactPass::admit_soon(const Step& in, ContactTable& table, const SoonList& soon) {
+    if (soon.are_all()) return admit_all(in, table, soon.from(), soon.to());
     for (std::int32_t k = 0; k < soon.size(); k += kChunk) {
         const Chunk chunk{soon.first() + k, soon.second() + k, std::min(kChunk, soon.size() - k)};
         std::uint64_t left = which_touch(in.rules, in.group, in.grains, in.walls, chunk);
@@ -106,14 +116,10 @@ void ContactPass::admit_soon(const Step& in, ContactTable& table) {
     }
 }
 
-// As long as the gap is small few pairs are in it, and as long as it is large it lasts.
-void ContactPass::list_soon(const Step& in, const ContactTable& table) {
-    constexpr double kShare = 1.0 / 10;
-    Soon& soon = soon_[in.g];
-    const double gap = kShare * skin_;
+void ContactPass::list_soon(const Step& in, const ContactTable& table, SoonList& soon, double gap) {
     soon.begin(in.passed.moved, gap);
-    for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
-        const int count = std::min(kChunk, table.candidates() - c);
+    for (std::int32_t c = soon.from(); c < soon.to(); c += kChunk) {
+        const int count = std::min(kChunk, soon.to() - c);
         const auto [first, second] = found_[in.g].candidates.of(table.near_first(), table.near_second(), c);
         std::uint64_t left = near_pairs(in.grains, first, second, count, in.rules.period, gap);
         left &= bits_of_first(count) & ~table.admitted(c);
@@ -132,7 +138,8 @@ void ContactPass::compute(const ContactRules& rules, Grains& grains, const WallS
         ContactTable& table = tables_[g];
         const Step in{rules, g, rules.groups[g], grains, state, passed};
         table.begin_step();
-        in.group.of_pairs && !is_large_bed(grains) ? admit_soon(in, table) : admit_all(in, table);
+        in.group.of_pairs && !is_large_bed(grains) ? admit_soon(in, table)
+                                                   : admit_all(in, table, 0, table.candidates());
         note_loaded(in.group.of_pairs, table, table.end_step(), table.size());
         compute_stretch(in, table, table.late(), table.size(), nullptr, clock);
         compute_stretch(in, table, 0, table.sorted(), g == 0 ? &vanguard : nullptr, clock);
@@ -217,7 +224,8 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
     none.shape(group.history_size(), group.number_size());
     none.resize(kBlock);
     each_touching_candidate(
-        rules, group, table, grains, state, nullptr, [&](std::int32_t c, std::uint64_t touching) {
+        rules, group, table, 0, table.candidates(), grains, state, nullptr,
+        [&](std::int32_t c, std::uint64_t touching) {
             for (std::uint64_t left = touching & ~table.admitted(c); left != 0; left &= left - 1) {
                 std::int32_t first[kBlock], second[kBlock];
                 std::fill_n(first, kBlock, table.near_first()[c + std::countr_zero(left)]);

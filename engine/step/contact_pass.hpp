@@ -121,16 +121,18 @@ class ContactPass {
                          const Pose& pose, double skin);
     void renumber_group(const ContactGroup& group, int member, const Renumbering& to, ContactTable& table,
                         KeptContacts& leaving);
-    void admit_all(const Step& in, ContactTable& table);
+    void admit_all(const Step& in, ContactTable& table, std::int32_t from, std::int32_t to);
     void admit_soon(const Step& in, ContactTable& table);
-    void list_soon(const Step& in, const ContactTable& table);
+    void admit_soon(const Step& in, ContactTable& table, const SoonList& soon);
+    void list_soon(const Step& in, const ContactTable& table, SoonList& soon, double gap);
     static std::uint64_t which_touch(const ContactRules& rules, const ContactGroup& group,
                                      const Grains& grains, const WallState& state, const Chunk& chunk);
     // found: where other threads' grains are read; nullptr to read them where they are.
     template <class Work>
     static void each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
-                                        const ContactTable& table, const Grains& grains,
-                                        const WallState& state, const FoundPairs* found, const Work& work);
+                                        const ContactTable& table, std::int32_t from, std::int32_t to,
+                                        const Grains& grains, const WallState& state, const FoundPairs* found,
+                                        const Work& work);
     Halo::Bodies bodies_of(std::size_t g, const ContactGroup& group, std::int32_t c, int count);
     LawInput prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                      const WallState& state, const Passed& passed, const Chunk& chunk,

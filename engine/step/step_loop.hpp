@@ -114,12 +114,13 @@ class StepLoop {
         Told told[2];           // of this step and the one before, which others may still read
         int box = 0;            // which of the two it is, and of its halo's boxes
         double farthest = 0;    // m, from where they were listed
-        // Of its share of the grains: work in units of a listed pair, without contacts and of these when the
+        // Of its share of the grains: work in units of a grain, without contacts and of these when the
         // grains were shared out; contacts at the end; ticks that it was busy, before and in all.
         double work = 0, contact_work = 0;
         std::int32_t contacts_left = 0;
-        double busy_before = 0, busy_in_all = 0;
-        double speed = 1;  // lately, against the mean of all
+        double busy_before = 0, busy_in_all = 0, busy_refreshing = 0;
+        double speed = 1;         // lately, against the mean of all
+        double searched_for = 0;  // ticks
     };
 
     // The forces of a stage: when (in steps), where the walls are then, and what went before.
@@ -154,6 +155,7 @@ class StepLoop {
     void note_listing(const Pose& pose, double time);
     void note_speeds();
     void share_out();
+    void share_search();
     void place_halos();
     void refresh(int member);
     ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
@@ -171,8 +173,9 @@ class StepLoop {
     NeighbourLists lists_;
     std::vector<Member> members_;
     Shares share_, last_share_;
-    std::vector<std::int32_t> new_index_;  // of the grains before the last reordering
-    std::vector<std::int32_t> contacts_;   // of each grain, as first body, when the lists were made
+    Shares search_share_, last_search_share_;  // who looks for whose neighbours
+    std::vector<std::int32_t> new_index_;      // of the grains before the last reordering
+    std::vector<std::int32_t> contacts_;       // of each grain, as first body, when the lists were made
 
     // Where and how the grains and walls were when the lists were made.
     std::vector<Eigen::Vector3f> listed_at_;  // half the memory, and its rounding is allowed for

@@ -2,14 +2,15 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/base/ticks.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 
 namespace {
 
-// In units of a listed pair.
-constexpr double kWorkOfGrain = 3, kWorkOfContact = 10;
+// In a step, in units of a grain's; of a contact under its first body, and of a listed pair.
+constexpr double kWorkOfContact = 3, kWorkOfPair = 0.05;
 
 }  // namespace
 
@@ -20,15 +21,22 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
     const TeamMember me{team_, member};
     if (me.leads()) {
         next_skin_ = skin_after(lasted);  // skin_ may still be read by others
+        if (search_share_.empty() || search_share_.back() != std::ssize(grains_.id)) {
+            search_share_.assign(1, 0);
+            for (int m = 0; m < team_.size(); ++m)
+                search_share_.push_back(TeamMember{team_, m}.part_of(grains_.size()).end);
+        }
         if (team_.size() > 1) contacts_.assign(grains_.size(), 0);
     }
     me.wait();
     put_in_order(me, cells_, grains_, next_skin_, around_.period, new_index_);
     if (team_.size() > 1) mine.contacts_left = mine.contacts.count_contacts(new_index_, contacts_);
-    const auto [begin, end] = me.part_of(grains_.size());
+    const std::int32_t begin = search_share_[member], end = search_share_[member + 1];
     const bool alone = team_.size() == 1;  // then nothing need be joined
+    const std::uint64_t since = ticks();
     list_pairs(cells_, grains_, next_skin_, around_.period, begin, end, alone ? lists_.pairs : mine.pairs);
     list_walls(grains_, around_.faces, pose, next_skin_, begin, end, alone ? lists_.walls : mine.walls_near);
+    mine.searched_for = static_cast<double>(ticks() - since + 1);
     me.wait();
     if (!alone) join_lists(me);
     if (member == team_.size() - 1) note_listing(pose, time);
@@ -37,6 +45,7 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
         skin_ = next_skin_;
         note_speeds();
         share_out();
+        share_search();
         ++rebuilds_;
     }
     me.wait();
@@ -49,6 +58,7 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
     me.wait();
     refresh(member);
     mine.busy_before = team_.busy(member);
+    mine.busy_refreshing = 0;
 }
 
 // m. Lists that did not last get a wider skin, and such as lasted longer than it pays for a narrower one.
@@ -79,7 +89,7 @@ void StepLoop::join_lists(const TeamMember& me) {
     }
     me.wait();
     const Member& mine = members_[me.member];
-    all.put(mine.pairs, me.part_of(grains_.size()).begin, pairs_before);
+    all.put(mine.pairs, search_share_[me.member], pairs_before);
     std::copy(mine.walls_near.begin(), mine.walls_near.end(),
               lists_.walls.begin() + static_cast<std::ptrdiff_t>(walls_before));
 }
@@ -100,10 +110,8 @@ void StepLoop::note_listing(const Pose& pose, double time) {
 // use too differ by half for seconds. Equal where nothing is known. Contacts came or went on the way.
 void StepLoop::note_speeds() {
     constexpr double kMost = 2, kNewShare = 0.5;
-    const auto time_of = [](const Member& m) { return m.busy_in_all - m.busy_before; };
-    const auto work_of = [](const Member& m) {
-        return m.work + (m.contact_work + kWorkOfContact * m.contacts_left) / 2;
-    };
+    const auto time_of = [](const Member& m) { return m.busy_in_all - m.busy_before - m.busy_refreshing; };
+    const auto work_of = [](const Member& m) { return m.work + m.contact_work; };
     double work = 0, time = 0;
     for (const Member& m : members_) work += work_of(m), time += time_of(m);
     if (work <= 0 || time <= 0) return;
@@ -120,7 +128,7 @@ void StepLoop::share_out() {
     share_.assign(team_.size() + 1, n);
     share_[0] = 0;
     if (team_.size() == 1) return;
-    const auto work = [&](std::int32_t i) { return kWorkOfGrain * i + lists_.pairs.start[i]; };
+    const auto work = [&](std::int32_t i) { return i + kWorkOfPair * lists_.pairs.start[i]; };
     const double contacts = std::accumulate(contacts_.begin(), contacts_.end(), 0.0);
     const double all = work(n) + kWorkOfContact * contacts;
     double speed_of_all = 0, speed_before = 0, contact_work = 0;
@@ -142,10 +150,29 @@ void StepLoop::share_out() {
 // The one time between rebuilds that threads read each other's grains where they are.
 void StepLoop::refresh(int member) {
     Member& mine = members_[member];
+    const double before = team_.busy(member);
     mine.contacts.refresh(rules_, grains_, lists_, around_.faces, mine.reach.pose, mine.reach.skin);
     if (team_.size() == 1) return;
     mine.contacts.list_foreign(rules_, grains_, share_);
     team_.barrier(member);
+    mine.busy_refreshing += team_.busy(member) - before;
+}
+
+// Ranges for the next search that take as long as each other, were it as fast everywhere as this one in each
+// of its ranges: half of the way there. Grains that come later look at more of those before them, or at less.
+void StepLoop::share_search() {
+    double whole = 0, passed = 0;
+    for (const Member& m : members_) whole += m.searched_for;
+    const Shares& last = last_search_share_ = search_share_;  // no memory is asked for
+    int from = 0;                                             // the range that the next bound is in
+    for (int t = 1; t < team_.size(); ++t) {
+        const double wanted = whole * t / team_.size();
+        while (from + 1 < team_.size() && passed + members_[from].searched_for < wanted)
+            passed += members_[from++].searched_for;
+        const double share = (wanted - passed) / members_[from].searched_for;
+        const double at = last[from] + share * (last[from + 1] - last[from]);
+        search_share_[t] = static_cast<std::int32_t>((last[t] + at) / 2);
+    }
 }
 
 // Copies of one thread after those of another, none of them in a line with the next thread's.
