@@ -36,9 +36,8 @@ inline std::uint64_t bits_of_first(int count) {
 class ContactPass {
   public:
     // Adds to each own grain's count, which stands under the grain's new number, the contacts of which it is
-    // the first body. How many these are.
-    std::int32_t count_contacts(const std::vector<std::int32_t>& index,
-                                std::vector<std::int32_t>& count) const;
+    // the first body.
+    void count_contacts(const std::vector<std::int32_t>& index, std::vector<std::int32_t>& count) const;
 
     // New numbers for all contacts; those that another thread has to do with from now on, and had not, go to
     // `leaving` by group, tagged with it.

@@ -87,20 +87,16 @@ int owner_of(const Shares& shares, std::int32_t grain) {
                             (shares.begin() + 1));
 }
 
-std::int32_t ContactPass::count_contacts(const std::vector<std::int32_t>& index,
-                                         std::vector<std::int32_t>& count) const {
-    std::int32_t all = 0;
+void ContactPass::count_contacts(const std::vector<std::int32_t>& index,
+                                 std::vector<std::int32_t>& count) const {
     for (const ContactTable& table : tables_) {
         table.each_stretch([&](std::int32_t begin, std::int32_t end) {
             for (std::int32_t c = begin; c < end; ++c) {
                 const std::int32_t first = table.first()[c];
-                if (!table.touches(c) || !owns(first)) continue;
-                ++count[index[first]];
-                ++all;
+                if (table.touches(c) && owns(first)) ++count[index[first]];
             }
         });
     }
-    return all;
 }
 
 void ContactPass::renumber(const ContactRules& rules, int member, const Renumbering& to,

@@ -115,9 +115,8 @@ class StepLoop {
         int box = 0;            // which of the two it is, and of its halo's boxes
         double farthest = 0;    // m, from where they were listed
         // Of its share of the grains: work in units of a grain, without contacts and of these when the
-        // grains were shared out; contacts at the end; ticks that it was busy, before and in all.
+        // grains were shared out; ticks that it was busy, before and in all.
         double work = 0, contact_work = 0;
-        std::int32_t contacts_left = 0;
         double busy_before = 0, busy_in_all = 0, busy_refreshing = 0;
         double speed = 1;         // lately, against the mean of all
         double searched_for = 0;  // ticks

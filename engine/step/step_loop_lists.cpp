@@ -30,7 +30,7 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
     }
     me.wait();
     put_in_order(me, cells_, grains_, next_skin_, around_.period, new_index_);
-    if (team_.size() > 1) mine.contacts_left = mine.contacts.count_contacts(new_index_, contacts_);
+    if (team_.size() > 1) mine.contacts.count_contacts(new_index_, contacts_);
     const std::int32_t begin = search_share_[member], end = search_share_[member + 1];
     const bool alone = team_.size() == 1;  // then nothing need be joined
     const std::uint64_t since = ticks();
