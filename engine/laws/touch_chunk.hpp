@@ -13,6 +13,11 @@ namespace grainreel {
 constexpr int kBlock = 16;  // histories are kept in blocks of 16 contacts
 constexpr int kChunk = 64;  // contacts
 
+// A chunk's bits of its first contacts.
+inline std::uint64_t bits_of_first(int count) {
+    return count < kChunk ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+}
+
 // A number of each contact: doubles, or floats on the way through a law of mixed precision.
 union alignas(64) Row {
     double doubles[kChunk] = {};

@@ -28,11 +28,6 @@ struct Renumbering {
     const Shares &before, &after;
 };
 
-// A chunk's bits of its first contacts.
-inline std::uint64_t bits_of_first(int count) {
-    return count < kChunk ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
-}
-
 class ContactPass {
   public:
     // Adds to each own grain's count, which stands under the grain's new number, the contacts of which it is

@@ -165,19 +165,14 @@ void ContactPass::own(const ContactRules& rules, const NeighbourLists& lists, st
 }
 
 void ContactPass::list_foreign(const ContactRules& rules, Grains& grains, const Shares& shares) {
-    const auto need = [&](const std::int32_t* bodies, std::int32_t begin, std::int32_t end) {
-        for (std::int32_t c = begin; c < end; ++c) halo_.need(bodies[c]);
-    };
     halo_.begin_list();
     for (std::size_t g = 0; g < tables_.size(); ++g) {
         const ContactTable& table = tables_[g];
         if (!rules.groups[g].of_pairs) continue;
         table.each_stretch([&](std::int32_t begin, std::int32_t end) {
-            need(table.first(), begin, end);
-            need(table.second(), begin, end);
+            halo_.need(table.first() + begin, table.second() + begin, end - begin);
         });
-        need(table.near_first(), 0, table.candidates());
-        need(table.near_second(), 0, table.candidates());
+        halo_.need(table.near_first(), table.near_second(), table.candidates());
     }
     halo_.end_list(grains, shares);
     for (std::size_t g = 0; g < tables_.size(); ++g) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
 
 #include "engine/base/prefetch.hpp"
 #include "engine/laws/law_kernel.hpp"
@@ -53,13 +54,24 @@ void Halo::own(std::int32_t begin, std::int32_t end, std::int32_t reach, std::in
     begin_ = begin;
     end_ = end;
     lowest_ = std::max(0, begin - reach);
-    slot_.assign(begin - lowest_ + std::min(reach, grains - end), kNone);
+    slot_.clear();
     foreign_.clear();
+    if (end - begin == grains) return;
+    slot_.assign(std::min(grains - end, reach) + end - lowest_, kNone);
+    std::iota(slot_.begin() + (begin - lowest_), slot_.begin() + (end - lowest_), begin);
 }
 
 void Halo::begin_list() {
-    for (const std::int32_t i : foreign_) slot_[place_in_slots(i)] = kNone;
+    for (const std::int32_t i : foreign_) slot_[i - lowest_] = kNone;
     foreign_.clear();
+}
+
+void Halo::need(const std::int32_t* first, const std::int32_t* second, std::int32_t count) {
+    for (std::int32_t c = 0; c < count; c += kChunk) {
+        const int many = std::min(kChunk, count - c);
+        if (all_own(first + c, second + c, many)) continue;
+        for (std::int32_t k = c; k < c + many; ++k) need(first[k]), need(second[k]);
+    }
 }
 
 // A little more, or each new list would ask for memory.
@@ -84,7 +96,7 @@ void Halo::end_list(Grains& grains, const Shares& shares) {
     }
     for (auto& box : box_) box.resize(line);
     for (std::int32_t k = 0; k < size(); ++k) {
-        slot_[place_in_slots(foreign_[k])] = at_ + k;
+        slot_[foreign_[k] - lowest_] = at_ + k;
         grains.load.data()[at_ + k] = {};
     }
     copy(grains);
@@ -109,11 +121,13 @@ void Halo::put(const Grains& grains, const Loaded* loaded, int owner, int box) {
     double* words = box_[box].data()[part.line].number;
     double* to = words + words_for(part.end - part.begin);
     for (std::int32_t k = part.begin; k < part.end; k += kBits, ++words) {
-        std::uint64_t comes = 0;
-        for (int bit = 0; bit < std::min(kBits, part.end - k); ++bit) {
-            const std::int32_t i = foreign_[k + bit];
-            if (!all && !loaded->has(i)) continue;
-            comes |= std::uint64_t{1} << bit;
+        const int many = std::min(kBits, part.end - k);
+        std::uint64_t comes = all ? bits_of_first(many) : 0;
+        if (!all)  // without a branch: who has a load cannot be predicted
+            for (int bit = 0; bit < many; ++bit)
+                comes |= std::uint64_t{loaded->has(foreign_[k + bit])} << bit;
+        for (std::uint64_t left = comes; left != 0; left &= left - 1) {
+            const std::int32_t i = foreign_[k + std::countr_zero(left)];
             fetch_to_write(to + kAhead);
             std::memcpy(to, grains.place[i].position.data(), kPosition * sizeof(double));
             if (!grains.rounded.empty()) {
@@ -127,6 +141,7 @@ void Halo::put(const Grains& grains, const Loaded* loaded, int owner, int box) {
         std::memcpy(words, &comes, sizeof comes);
     }
 }
+
 void Halo::get(Grains& grains, int box, const Flight& flight) {
     const int numbers = numbers_of(grains);
     for (const Part& part : part_) {
@@ -155,8 +170,8 @@ bool Halo::all_own(const std::int32_t* first, const std::int32_t* second, int co
 
 Halo::Bodies Halo::find_foreign(const std::int32_t* first, const std::int32_t* second, int count) {
     for (int c = 0; c < (count + kBlock - 1) / kBlock * kBlock; ++c) {
-        first_[c] = slot(first[c]);
-        second_[c] = slot(second[c]);
+        first_[c] = slot_[first[c] - lowest_];
+        second_[c] = slot_[second[c] - lowest_];
     }
     return {first_, second_};
 }

@@ -33,9 +33,11 @@ class alignas(64) Halo {
     void begin_list();
     void need(std::int32_t grain) {
         if (owns(grain)) return;
-        std::int32_t& slot = slot_[place_in_slots(grain)];
+        std::int32_t& slot = slot_[grain - lowest_];
         if (slot == kNone) foreign_.push_back(grain), slot = kNeeded;
     }
+    // Bodies of so many pairs.
+    void need(const std::int32_t* first, const std::int32_t* second, std::int32_t count);
     std::int32_t size() const { return static_cast<std::int32_t>(foreign_.size()); }
     // Makes room for as many of so many threads as are needed now, the copies' indices being those from `at`
     // on.
@@ -76,16 +78,12 @@ class alignas(64) Halo {
     };
     bool all_own(const std::int32_t* first, const std::int32_t* second, int count) const;
     Bodies find_foreign(const std::int32_t* first, const std::int32_t* second, int count);
-    std::int32_t place_in_slots(std::int32_t i) const {
-        return i < begin_ ? i - lowest_ : i - end_ + (begin_ - lowest_);
-    }
-    std::int32_t slot(std::int32_t i) const { return owns(i) ? i : slot_[place_in_slots(i)]; }
 
     static constexpr std::int32_t kNone = -1, kNeeded = -2;  // slots without a copy, or not yet
     std::int32_t begin_ = 0, end_ = 0, at_ = 0;
     std::int32_t lowest_ = 0;            // grain that may be read
     std::vector<std::int32_t> foreign_;  // rising
-    std::vector<std::int32_t> slot_;     // of the grains [lowest_, begin_), then of those from end_ on
+    std::vector<std::int32_t> slot_;     // of the grains from lowest_ on, own ones too: where to read them
     std::vector<Part> part_;             // of each thread
     std::array<LargeArray<Line>, 2> box_;
     alignas(64) std::int32_t first_[kChunk] = {}, second_[kChunk] = {};
