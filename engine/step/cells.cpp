@@ -50,12 +50,14 @@ void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& 
 }
 
 void Grid::keep(const std::vector<std::int32_t>& members) {
+    const bool all_stay = members.size() == in_order_.size();
+    in_order_ = members;
+    if (all_stay) return;  // where boxes start too
     std::int32_t before = 0;
     for (std::int32_t& start : start_) {
         while (before < std::ssize(members) && members[before] < start) ++before;
         start = before;
     }
-    in_order_ = members;
 }
 
 void Grid::mark_surroundings(const LargeArray<Place>& place, const std::vector<std::int32_t>& members) {
@@ -75,8 +77,16 @@ void Grid::mark_surroundings(const LargeArray<Place>& place, const std::vector<s
 
 // Octave by octave of radii, from the smallest up.
 void Cells::find_levels(const LargeArray<Place>& place) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const Place& p : place) smallest = std::min(smallest, p.radius);
+    double smallest = std::numeric_limits<double>::infinity(), largest_of_all = 0;
+    for (const Place& p : place) {
+        smallest = std::min(smallest, p.radius);
+        largest_of_all = std::max(largest_of_all, p.radius);
+    }
+    if (largest_of_all < 2 * smallest) {
+        levels_.resize(1);
+        levels_[leading_ = 0].largest = largest_of_all;
+        return;
+    }
     std::array<double, kOctaves> largest{};
     std::array<std::size_t, kOctaves> count{};
     octave_of_.resize(place.size());
@@ -99,6 +109,11 @@ void Cells::find_levels(const LargeArray<Place>& place) {
 
 // By their new indices.
 void Cells::find_members() {
+    if (levels_.size() == 1) {
+        levels_[0].members.resize(in_order().size());
+        std::iota(levels_[0].members.begin(), levels_[0].members.end(), 0);
+        return;
+    }
     for (Level& level : levels_) level.members.clear();
     const std::vector<std::int32_t>& order = in_order();
     for (std::size_t i = 0; i < order.size(); ++i)

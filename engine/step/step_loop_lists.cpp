@@ -39,8 +39,8 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
     mine.searched_for = static_cast<double>(ticks() - since + 1);
     me.wait();
     if (!alone) join_lists(me);
-    if (member == team_.size() - 1) note_listing(pose, time);
     me.wait();
+    if (member == team_.size() - 1) note_listing(pose, time);
     if (me.leads()) {
         skin_ = next_skin_;
         note_speeds();
