@@ -20,13 +20,15 @@ double one_way() {
     const auto begin = std::chrono::steady_clock::now();
     std::thread other([&] {
         for (int turn = 1; turn <= kTurns; ++turn) {
-            while (call.number.load(std::memory_order_acquire) != turn) {}
+            while (call.number.load(std::memory_order_acquire) != turn) {
+            }
             answer.number.store(turn, std::memory_order_release);
         }
     });
     for (int turn = 1; turn <= kTurns; ++turn) {
         call.number.store(turn, std::memory_order_release);
-        while (answer.number.load(std::memory_order_acquire) != turn) {}
+        while (answer.number.load(std::memory_order_acquire) != turn) {
+        }
     }
     other.join();
     const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - begin;
