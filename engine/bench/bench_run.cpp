@@ -65,6 +65,8 @@ class BenchRun {
         all_steps_ = case_.lead;
         for (const BenchPhase& phase : case_.phases) all_steps_ += phase.steps;
         all_steps_ *= request.repeats;
+        case_.bed(
+            case_.particles);  // what reading a scene leaves for good, units and keys, is no bed's memory
     }
 
     bool repeat(int repetition) {

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "engine/bench/bench_run.hpp"
 #include "engine/bench/scene_cases.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/writer.hpp"
@@ -14,6 +17,20 @@ TEST(WedgeCase, IsTheDefaultFilmsBed) {
     film.film = timed.film;
     for (std::size_t s = 0; s < film.species.size(); ++s) film.species[s].colour = timed.species[s].colour;
     EXPECT_EQ(resolved_scene(film, make_plan(film)), resolved_scene(timed, make_plan(timed)));
+}
+
+// The first run of a process reads units and keys, which stay; later ones find them.
+TEST(WedgeCase, CountsTheMemoryOfItsBedAlone) {
+    const auto& all = bench_cases();
+    const auto& wedge =
+        *std::find_if(all.begin(), all.end(), [](const BenchCase& c) { return c.name == "wedge"; });
+    BenchRequest request;
+    request.threads = 1;
+    request.quick = true;
+    const auto go_on = [](auto&&...) { return true; };
+    const double first = run_bench(wedge, request, go_on).report.bytes_per_particle;
+    const double second = run_bench(wedge, request, go_on).report.bytes_per_particle;
+    EXPECT_NEAR(first / second, 1, 0.1) << first << ' ' << second;
 }
 
 }  // namespace
