@@ -9,10 +9,10 @@ set format y "10^{%L}"
 methods = "'velocity Verlet' 'with corrections' 'mixed precision' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
 pick(method, error, e) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" && $3==%s {print $4\",\"$5\",\"$6}' contacts.csv", method, error, e)
 peer(e) = sprintf("< awk -F, '$1==\"LAMMPS\" && $3==%s {print $4\",\"$5\",\"$6}' peers.csv 2>/dev/null", e)
-draw_restitution(e) = sprintf("plot for [m in methods] pick(m, 'restitution', '%s') using 2:3 title m lw 2, peer('%s') using 2:3 with points pt 6 ps 1.2 lc 'black' title 'LAMMPS, spring-dashpot', 0.005 lc 'gray' dt 2 title 'standard: 0.005'", e, e)
+draw_restitution(e) = sprintf("plot for [m in methods] pick(m, 'restitution', '%s') using 2:3 title m lw 2, peer('%s') using 2:3 with points pt 6 ps 1.2 lc 'black' title 'LAMMPS, spring-dashpot', 0.005 lc 'gray30' lw 2 dt 2 title 'standard: 0.005'", e, e)
 
 do for [form in "svg png"] {
-    if (form eq "svg") { set terminal svg size 900,640 font 'DejaVu Sans,14' background 'white' } else { set terminal pngcairo size 1350,960 font 'DejaVu Sans,18' }
+    if (form eq "svg") { set terminal svg size 900,740 font 'DejaVu Sans,14' background 'white' } else { set terminal pngcairo size 1350,1110 font 'DejaVu Sans,18' }
     set output 'restitution.'.form
     set multiplot layout 2,1
     set xrange [60:6000]
