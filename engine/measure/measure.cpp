@@ -1,17 +1,16 @@
 #include "engine/measure/measure.hpp"
 
+#include <algorithm>
 #include <limits>
 
+#include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/segregation.hpp"
+#include "engine/measure/unlike_neighbours.hpp"
 
 namespace grainreel {
 
 namespace {
-
-double mean_diameter(const Species& s) {
-    return 0.5 * (s.diameter.smallest + s.diameter.largest);
-}
 
 void measure_species(const Scene& scene, const Grains& grains, double floor_height, Measures& m) {
     const std::size_t species = scene.species.size();
@@ -36,30 +35,62 @@ void measure_species(const Scene& scene, const Grains& grains, double floor_heig
     }
 }
 
-void measure_segregation(const Scene& scene, const Grains& grains, double floor_height, Measures& m) {
-    std::size_t largest = 0, smallest = 0;
-    for (std::size_t s = 1; s < scene.species.size(); ++s) {
-        if (mean_diameter(scene.species[s]) > mean_diameter(scene.species[largest])) largest = s;
-        if (mean_diameter(scene.species[s]) < mean_diameter(scene.species[smallest])) smallest = s;
+double share_higher_than(double limit, const std::vector<double>& heights) {
+    const auto higher = std::count_if(heights.begin(), heights.end(), [&](double h) { return h > limit; });
+    return static_cast<double>(higher) / static_cast<double>(heights.size());
+}
+
+void measure_heights(const Grains& grains, const BigAndSmall& kinds, double floor_height, Measures& m) {
+    std::vector<double> all, big, small;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const double height = grains.place[i].position.z() - floor_height;
+        const auto species = static_cast<std::size_t>(grains.species[i]);
+        all.push_back(height);
+        if (species == kinds.big) big.push_back(height);
+        if (species == kinds.small) small.push_back(height);
     }
-    if (scene.species.size() < 2) {
-        m.height_difference = m.lacey = std::numeric_limits<double>::quiet_NaN();
-        return;
-    }
-    if (largest == smallest) smallest = largest == 0 ? 1 : 0;  // equal sizes: the first against the second
+    const double bed = bed_height(all);
+    m.height_difference = (m.species_height[kinds.big] - m.species_height[kinds.small]) / bed;
+    m.big_above_small = share_above(big, small);
+    m.big_in_top_quarter = share_higher_than(0.75 * bed, big);
+}
+
+double lacey_of(const Grains& grains, const BigAndSmall& kinds) {
     std::vector<Vec3> position(grains.size());
     std::vector<std::uint8_t> marked(grains.size());
-    std::vector<double> heights(grains.size());
     for (std::size_t i = 0; i < grains.size(); ++i) {
         position[grains.id[i]] = grains.place[i].position;
-        marked[grains.id[i]] = grains.species[i] == static_cast<std::int32_t>(largest);
-        heights[i] = grains.place[i].position.z() - floor_height;
+        marked[grains.id[i]] = static_cast<std::size_t>(grains.species[i]) == kinds.big;
     }
-    m.height_difference = (m.species_height[largest] - m.species_height[smallest]) / bed_height(heights);
-    m.lacey = lacey_index(position, marked);
+    return lacey_index(position, marked);
+}
+
+void measure_segregation(const Scene& scene, const Surroundings& around, const Grains& grains,
+                         double floor_height, Measures& m) {
+    if (scene.species.size() < 2) {
+        m.height_difference = m.big_above_small = m.big_in_top_quarter = m.unlike_neighbours = m.lacey =
+            std::numeric_limits<double>::quiet_NaN();
+        return;
+    }
+    const BigAndSmall kinds = big_and_small(scene.species);
+    measure_heights(grains, kinds, floor_height, m);
+    const double gap = kNeighbourGap * scene.species[kinds.small].diameter.mean;
+    m.unlike_neighbours = unlike_neighbours(grains.place, grains.species, gap, around.period);
+    m.lacey = lacey_of(grains, kinds);
 }
 
 }  // namespace
+
+BigAndSmall big_and_small(const std::vector<Species>& species) {
+    GRAINREEL_CHECK(species.size() > 1);
+    BigAndSmall kinds;
+    for (std::size_t s = 1; s < species.size(); ++s) {
+        if (species[s].diameter.mean > species[kinds.big].diameter.mean) kinds.big = s;
+        if (species[s].diameter.mean < species[kinds.small].diameter.mean) kinds.small = s;
+    }
+    if (kinds.big == kinds.small) kinds.small = 1;
+    return kinds;
+}
 
 double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop,
                     std::int64_t step) {
@@ -88,7 +119,7 @@ Measures measure(const Scene& scene, const Clock& clock, const Surroundings& aro
     const Pose pose = around.motion.at(step);
     m.floor_position = pose.offset.dot(scene.drive.direction);
     measure_species(scene, grains, pose.offset.z(), m);
-    measure_segregation(scene, grains, pose.offset.z(), m);
+    measure_segregation(scene, around, grains, pose.offset.z(), m);
     return m;
 }
 

@@ -9,6 +9,13 @@
 
 namespace grainreel {
 
+// The species of the largest and of the smallest mean diameter. All of one size: the first and the second.
+// There must be two at least.
+struct BigAndSmall {
+    std::size_t big = 0, small = 0;
+};
+BigAndSmall big_and_small(const std::vector<Species>& species);
+
 // start_energy: J, all energy at the start of the drive, for the balance.
 Measures measure(const Scene& scene, const Clock& clock, const Surroundings& around, const Grains& grains,
                  const StepLoop& loop, std::int64_t step, double start_energy);

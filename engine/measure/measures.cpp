@@ -13,7 +13,8 @@ std::vector<double> values_of(const Measures& m) {
         const Vec3& centre = m.species_centre[s];
         add({centre.x(), centre.y(), centre.z(), m.species_height[s]});
     }
-    add({m.height_difference, m.lacey, m.contact_number, m.largest_overlap, m.floor_position});
+    add({m.height_difference, m.big_above_small, m.big_in_top_quarter, m.unlike_neighbours, m.lacey});
+    add({m.contact_number, m.largest_overlap, m.floor_position});
     return values;
 }
 

@@ -21,11 +21,17 @@ struct Measures {
     Vec3 centre_of_mass{0, 0, 0};        // m, all grains
     std::vector<Vec3> species_centre;    // m, a species each
     std::vector<double> species_height;  // m, mean height above the moving floor, a species each
-    double height_difference = 0;  // (mean height of the largest species - of the smallest) / bed height
-    double lacey = 0;              // mixing index: 0 segregated, 1 random; NaN with one species
-    double contact_number = 0;     // mean number of force-carrying contacts a grain, walls included
-    double largest_overlap = 0;    // overlap / smaller radius
-    double floor_position = 0;     // m, along the drive's direction
+
+    // NaN with one species. `big` and `small`: the species of the largest and of the smallest mean diameter.
+    double height_difference = 0;   // (mean height of big - of small) / bed height
+    double big_above_small = 0;     // probability that a big grain lies above a small one
+    double big_in_top_quarter = 0;  // share of the big ones above 3/4 of the bed height
+    double unlike_neighbours = 0;   // over chance: 0 segregated, 1 random
+    double lacey = 0;               // mixing index: 0 segregated, 1 random; NaN too where one kind is rare
+
+    double contact_number = 0;   // mean number of force-carrying contacts a grain, walls included
+    double largest_overlap = 0;  // overlap / smaller radius
+    double floor_position = 0;   // m, along the drive's direction
 };
 
 // One number a column of measures.csv, in the order of measure_columns().

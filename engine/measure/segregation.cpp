@@ -49,14 +49,29 @@ double summed_variance(Indices grains, int samples, const std::vector<Vec3>& pos
 double lacey_index(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked) {
     const double count = static_cast<double>(position.size());
     const double p = std::accumulate(marked.begin(), marked.end(), 0.0) / count;
-    if (p <= 0 || p >= 1) return std::numeric_limits<double>::quiet_NaN();
     const int samples = std::max(2, static_cast<int>(position.size()) / kLaceySample);
+    if (std::min(p, 1 - p) * count < kLeastOfRareKind * samples)
+        return std::numeric_limits<double>::quiet_NaN();
     std::vector<std::int32_t> grains(position.size());
     std::iota(grains.begin(), grains.end(), 0);
     const double variance = summed_variance(grains, samples, position, marked, p) / samples;
     const double segregated = p * (1 - p);
     const double random = segregated / (count / samples);
     return (segregated - variance) / (segregated - random);
+}
+
+double share_above(std::vector<double>& these, std::vector<double>& those) {
+    if (these.empty() || those.empty()) return std::numeric_limits<double>::quiet_NaN();
+    std::sort(these.begin(), these.end());
+    std::sort(those.begin(), those.end());
+    std::size_t lower = 0, not_higher = 0;  // of those, than the present one
+    double above = 0;
+    for (const double height : these) {
+        while (lower < those.size() && those[lower] < height) ++lower;
+        while (not_higher < those.size() && those[not_higher] <= height) ++not_higher;
+        above += 0.5 * static_cast<double>(lower + not_higher);
+    }
+    return above / (static_cast<double>(these.size()) * static_cast<double>(those.size()));
 }
 
 double bed_height(std::vector<double>& heights) {

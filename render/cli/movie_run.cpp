@@ -1,11 +1,9 @@
 #include "render/cli/movie_run.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "engine/base/team.hpp"
+#include "render/cli/segregation_text.hpp"
 #include "render/cli/stop_signal.hpp"
 #include "render/film/film_limits.hpp"
 
@@ -20,10 +18,6 @@ std::vector<Shot> schedule(const Scene& scene, const Plan& plan, bool wanted) {
 ThreadPlan threads_for(const Scene& scene, bool film) {
     const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
     return plan_threads(processors, film, scene.grains());
-}
-
-double mean_diameter(const Species& species) {
-    return species.diameter.mean;
 }
 
 }  // namespace
@@ -144,18 +138,7 @@ void MovieRun::report_segregation() const {
     const Scene& scene = run_.scene();
     const RunFiles& files = *run_.files();
     if (scene.species.size() < 2 || !files.last_measures()) return;
-    const auto [small, big] = std::minmax_element(
-        scene.species.begin(), scene.species.end(),
-        [](const Species& a, const Species& b) { return mean_diameter(a) < mean_diameter(b); });
-    const Measures& from = *files.first_measures();
-    const Measures& to = *files.last_measures();
-    std::string text =
-        fmt::format("segregation: mean height of {} minus {}, over the bed's height, from {:+.2f} to {:+.2f}",
-                    big->name, small->name, from.height_difference, to.height_difference);
-    if (std::isfinite(from.lacey) && std::isfinite(to.lacey)) {
-        text += fmt::format("; Lacey mixing index from {:.2f} to {:.2f} (1 is mixed)", from.lacey, to.lacey);
-    }
-    reporter_.info(text);
+    reporter_.info(segregation_text(scene, *files.first_measures(), *files.last_measures()));
 }
 
 }  // namespace grainreel

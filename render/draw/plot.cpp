@@ -67,6 +67,7 @@ std::vector<Plot::TimeTick> Plot::time_ticks() const {
 void Plot::forget() {
     rows_ = 0;
     any_ = false;
+    gap_ = true;
     axes_fresh_ = false;
     limits_ = frame_.range.value_or(std::array<double, 2>{0, 1});
     slices_.assign(static_cast<std::size_t>(std::max(1.0, right_ - left_)) + 1, {});
@@ -99,13 +100,17 @@ bool Plot::take(const Frame& frame) {
 }
 
 void Plot::add(double time, double value) {
-    if (!std::isfinite(value)) return;
+    const bool after_gap = gap_;
+    gap_ = !std::isfinite(value);
+    if (gap_) return;
     if (!frame_.range) widen(value);
     last_ = {time, value};
     any_ = true;
-    const double slice =
+    const double at =
         std::clamp(std::floor(x_of(time) - left_), 0.0, static_cast<double>(slices_.size()) - 1);
-    slices_[static_cast<std::size_t>(slice)].add(value);
+    Slice& slice = slices_[static_cast<std::size_t>(at)];
+    if (slice.count == 0) slice.after_gap = after_gap;
+    slice.add(value);
 }
 
 void Plot::widen(double value) {
@@ -171,6 +176,7 @@ void Plot::draw_curve(cairo_t* on) const {
         const Slice& slice = slices_[i];
         if (slice.count == 0) continue;
         const double x = left_ + static_cast<double>(i) + 0.5;
+        if (slice.after_gap) cairo_move_to(on, x, y_of(slice.first));
         for (const double value : {slice.first, slice.low, slice.high, slice.last})
             cairo_line_to(on, x, y_of(value));
     }
@@ -187,7 +193,7 @@ void Plot::draw(cairo_t* on, int x, int y) {
     cairo_set_source_surface(on, axes_.get(), 0, 0);
     cairo_paint(on);
     draw_curve(on);
-    if (any_) {
+    if (!gap_) {
         set_colour(on, palette_.accent);
         cairo_new_path(on);
         cairo_arc(on, x_of(last_[0]), y_of(last_[1]), std::max(2.5, 0.18 * type_.main), 0,

@@ -31,7 +31,8 @@ class Plot {
   public:
     Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette);
 
-    // The rows up to the frame's. Limits only grow, and depend on the rows alone. False when nothing changed.
+    // The rows up to the frame's. Limits only grow, and depend on the rows alone. A row without a value (NaN)
+    // leaves a gap. False when nothing changed.
     bool take(const Frame& frame);
     // Top left corner at (x, y).
     void draw(cairo_t* on, int x, int y);
@@ -44,6 +45,7 @@ class Plot {
     // All values that fall into one column of pixels.
     struct Slice {
         int count = 0;
+        bool after_gap = false;  // the curve begins here: there is no value before
         double first = 0, last = 0, low = 0, high = 0;
         void add(double value);
     };
@@ -68,6 +70,7 @@ class Plot {
     std::shared_ptr<const MeasureTable> table_;
     std::size_t rows_ = 0;
     bool any_ = false;
+    bool gap_ = true;                     // the last row has no value
     std::array<double, 2> limits_{0, 1};  // SI
     std::array<double, 2> last_{0, 0};    // time and value
     std::vector<Slice> slices_;

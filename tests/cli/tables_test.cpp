@@ -6,6 +6,7 @@
 #include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "engine/base/error.hpp"
@@ -93,25 +94,49 @@ TEST(MeasuresCsv, HasAColumnForEveryNumber) {
     }
     const std::vector<std::string> lines = split(text_of(here / "m.csv"), '\n');
     ASSERT_EQ(lines.size(), 3u);
-    const std::vector<std::string> names = split(lines[0], ','), values = split(lines[2], ',');
-    ASSERT_EQ(names.size(), values.size());
-    const auto value = [&](const std::string& name) {
-        const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-        EXPECT_LT(at, names.size()) << name;
-        double number = std::numeric_limits<double>::quiet_NaN();
-        std::from_chars(values[at].data(), values[at].data() + values[at].size(), number);
-        return number;
-    };
     const Measures m = made_measures(2);
-    EXPECT_EQ(value("time_s"), m.time);
-    EXPECT_EQ(value("kinetic_J"), m.kinetic);
-    EXPECT_EQ(value("lost_J"), m.lost);
-    EXPECT_EQ(value("centre_z_m"), m.centre_of_mass.z());
-    EXPECT_EQ(value("small_centre_x_m"), m.species_centre[0].x());
-    EXPECT_EQ(value("big_ _round__height_m"), m.species_height[1]);
-    EXPECT_EQ(value("height_difference"), m.height_difference);
-    EXPECT_EQ(value("lacey"), m.lacey);
-    EXPECT_EQ(value("floor_position_m"), m.floor_position);
+    const std::vector<std::pair<std::string, double>> expected{
+        {"step", 2},
+        {"time_s", m.time},
+        {"phase_turns", m.phase},
+        {"cycles", m.cycles},
+        {"kinetic_J", m.kinetic},
+        {"rotational_J", m.rotational},
+        {"gravitational_J", m.gravitational},
+        {"elastic_J", m.elastic},
+        {"wall_work_J", m.wall_work},
+        {"lost_J", m.lost},
+        {"centre_x_m", m.centre_of_mass.x()},
+        {"centre_y_m", m.centre_of_mass.y()},
+        {"centre_z_m", m.centre_of_mass.z()},
+        {"small_centre_x_m", m.species_centre[0].x()},
+        {"small_centre_y_m", m.species_centre[0].y()},
+        {"small_centre_z_m", m.species_centre[0].z()},
+        {"small_height_m", m.species_height[0]},
+        {"big_ _round__centre_x_m", m.species_centre[1].x()},
+        {"big_ _round__centre_y_m", m.species_centre[1].y()},
+        {"big_ _round__centre_z_m", m.species_centre[1].z()},
+        {"big_ _round__height_m", m.species_height[1]},
+        {"height_difference", m.height_difference},
+        {"big_above_small", m.big_above_small},
+        {"big_in_top_quarter", m.big_in_top_quarter},
+        {"unlike_neighbours", m.unlike_neighbours},
+        {"lacey", m.lacey},
+        {"contact_number", m.contact_number},
+        {"largest_overlap", m.largest_overlap},
+        {"floor_position_m", m.floor_position}};
+    const std::vector<std::string> names = split(lines[0], ','), values = split(lines[2], ',');
+    ASSERT_EQ(names.size(), expected.size());
+    ASSERT_EQ(values.size(), expected.size());
+    std::set<double> different;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        double number = std::numeric_limits<double>::quiet_NaN();
+        std::from_chars(values[i].data(), values[i].data() + values[i].size(), number);
+        EXPECT_EQ(names[i], expected[i].first);
+        EXPECT_EQ(number, expected[i].second) << names[i];
+        different.insert(number);
+    }
+    EXPECT_EQ(different.size(), expected.size()) << "two that are exchanged would not be seen";
 }
 
 TEST(MeasuresCsv, AFullDiskIsARunErrorThatNamesFileAndReason) {

@@ -1,8 +1,12 @@
 // Plots, arrows, trails, and grains that are left out or ringed.
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <limits>
+
 #include "engine/measure/measure_table.hpp"
 #include "render/draw/overlay.hpp"
+#include "render/draw/plot.hpp"
 #include "render/draw/shown_grains.hpp"
 #include "render/draw/trails.hpp"
 #include "render/draw/velocity_field.hpp"
@@ -125,6 +129,45 @@ TEST(Plots, ThePictureDependsOnTheRowsAlone) {
     }
     const Picture step_by_step = renderer.draw(frame_with_rows(rows), "");
     EXPECT_EQ(Renderer(scene, 1).draw(frame_with_rows(rows), "").rgba, step_by_step.rgba);
+}
+
+// The pixels of a plot of those rows, of 0 to 1 over 10 s.
+std::vector<std::uint32_t> drawn_plot(const std::vector<std::array<double, 2>>& rows, double x_of_time) {
+    PlotFrame frame = any_plot();
+    frame.range = std::array<double, 2>{0, 1};
+    const Palette palette = make_palette(wedge().film.background);
+    Plot plot(frame, type_scale(wedge(1280, 720).film), palette);
+    plot.take(frame_with_rows(rows));
+    const CairoSurface surface = blank_surface({0, 0, frame.width, frame.height}, palette.background);
+    {
+        const CairoContext on(cairo_create(surface.get()));
+        plot.draw(on.get(), 0, 0);
+    }
+    cairo_surface_flush(surface.get());
+    const auto column = static_cast<int>(plot.x_of(x_of_time));
+    std::vector<std::uint32_t> pixels;
+    for (int y = 0; y < frame.height; ++y) {
+        std::uint32_t pixel;
+        std::memcpy(&pixel,
+                    cairo_image_surface_get_data(surface.get()) +
+                        y * cairo_image_surface_get_stride(surface.get()) + 4 * column,
+                    sizeof pixel);
+        pixels.push_back(pixel);
+    }
+    return pixels;
+}
+
+// An index that is not defined for a while is not drawn through that while, nor is the present marked in it.
+TEST(Plots, RowsWithoutAValueLeaveAGap) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<std::array<double, 2>> whole{{0, 0.2}, {2, 0.2}, {4, 0.2}, {6, 0.2}};
+    const std::vector<std::array<double, 2>> holed{{0, 0.2}, {2, 0.2}, {3, none}, {4, 0.2}, {6, 0.2}};
+    const std::vector<std::array<double, 2>> ended{{0, 0.2}, {2, 0.2}, {4, 0.2}, {5, none}};
+    EXPECT_NE(drawn_plot(whole, 3), drawn_plot({}, 3));
+    EXPECT_EQ(drawn_plot(holed, 3), drawn_plot({}, 3));
+    for (const double time : {1.0, 5.0}) EXPECT_EQ(drawn_plot(holed, time), drawn_plot(whole, time)) << time;
+    EXPECT_EQ(drawn_plot(ended, 4.1), drawn_plot({}, 4.1));
+    EXPECT_EQ(drawn_plot({{0, none}, {1, none}}, 0.5), drawn_plot({}, 0.5));
 }
 
 TEST(Arrows, AreTheMeanOfARotation) {

@@ -35,32 +35,32 @@ Change change_of(const std::vector<double>& values) {
 }
 
 TEST(SegregationLong, ChangesByMoreThanThreeDeviationsInEverySeed) {
-    std::vector<double> signs_height, signs_lacey;
+    std::vector<double> signs_height, signs_above;
     for (int seed = 1; seed <= 3; ++seed) {
         const Scene scene = read_scene(fmt::format("{}/scenes/wedge_segregation.toml", GRAINREEL_SOURCE),
                                        {fmt::format("run.seed={}", seed)});
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 0);
         simulation.pack();
-        std::vector<double> height, lacey;
+        std::vector<double> height, above;
         for (std::int64_t at = 0; at <= plan.steps; at += plan.clock.steps_per_period) {
             simulation.advance(at);
             const Measures m = simulation.measures();
             height.push_back(m.height_difference);
-            lacey.push_back(m.lacey);
+            above.push_back(m.big_above_small);
         }
-        const Change h = change_of(height), l = change_of(lacey);
+        const Change h = change_of(height), a = change_of(above);
         fmt::print(
-            "seed {}: height difference {:+.3f} -> {:+.3f} (scatter {:.3f}), Lacey {:.3f} -> {:.3f} "
+            "seed {}: height difference {:+.3f} -> {:+.3f} (scatter {:.3f}), big above small {:.3f} -> {:.3f} "
             "({:.3f})\n",
-            seed, h.before.mean, h.after.mean, h.scatter(), l.before.mean, l.after.mean, l.scatter());
+            seed, h.before.mean, h.after.mean, h.scatter(), a.before.mean, a.after.mean, a.scatter());
         EXPECT_GT(std::abs(h.change()), 3 * h.scatter()) << "seed " << seed;
-        EXPECT_GT(std::abs(l.change()), 3 * l.scatter()) << "seed " << seed;
+        EXPECT_GT(std::abs(a.change()), 3 * a.scatter()) << "seed " << seed;
         signs_height.push_back(std::copysign(1, h.change()));
-        signs_lacey.push_back(std::copysign(1, l.change()));
+        signs_above.push_back(std::copysign(1, a.change()));
     }
     EXPECT_EQ(std::abs(std::accumulate(signs_height.begin(), signs_height.end(), 0.0)), 3);
-    EXPECT_EQ(std::abs(std::accumulate(signs_lacey.begin(), signs_lacey.end(), 0.0)), 3);
+    EXPECT_EQ(std::abs(std::accumulate(signs_above.begin(), signs_above.end(), 0.0)), 3);
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 // Segregation indices on states whose index is known.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "engine/base/nearest_image.hpp"
 #include "engine/base/random.hpp"
 #include "engine/measure/segregation.hpp"
+#include "engine/measure/unlike_neighbours.hpp"
 
 namespace grainreel {
 namespace {
@@ -47,6 +51,134 @@ TEST(Lacey, IsAboveOneForAnOrderedMixture) {
 TEST(Lacey, IsUndefinedForOneSpecies) {
     const Lattice l = lattice([](int, int, int) { return true; });
     EXPECT_TRUE(std::isnan(lacey_index(l.position, l.marked)));
+}
+
+// A bed of 32 layers of which the lowest, or the lowest three, are of the rare kind: one grain a sample of 32
+// on average, or three.
+TEST(Lacey, IsUndefinedWhereSamplesHoldFewOfAKind) {
+    const Lattice one = lattice([](int, int, int z) { return z < 1; });
+    EXPECT_TRUE(std::isnan(lacey_index(one.position, one.marked)));
+    const Lattice all_but_one = lattice([](int, int, int z) { return z >= 1; });
+    EXPECT_TRUE(std::isnan(lacey_index(all_but_one.position, all_but_one.marked)));
+    const Lattice three = lattice([](int, int, int z) { return z < kLeastOfRareKind; });
+    EXPECT_LT(lacey_index(three.position, three.marked), 0.5);
+}
+
+double above(std::vector<double> these, std::vector<double> those) {
+    return share_above(these, those);
+}
+
+TEST(ShareAbove, IsTheShareOfPairs) {
+    EXPECT_EQ(above({4, 5, 6}, {1, 2, 3}), 1);
+    EXPECT_EQ(above({1, 2, 3}, {4, 5, 6}), 0);
+    EXPECT_EQ(above({7}, {1, 2, 3}), 1);  // a single intruder on top, half-way and below
+    EXPECT_EQ(above({2}, {1, 2, 3}), 0.5);
+    EXPECT_EQ(above({0}, {1, 2, 3}), 0);
+    EXPECT_EQ(above({1, 1}, {1, 1, 1}), 0.5);
+    EXPECT_TRUE(std::isnan(above({}, {1})));
+    EXPECT_TRUE(std::isnan(above({1}, {})));
+    Random random(1, Stream::centres);
+    std::vector<double> these, those;
+    for (int i = 0; i < 60; ++i) (i % 3 ? these : those).push_back(std::floor(20 * random.uniform()));
+    double pairs = 0;
+    for (const double a : these)
+        for (const double b : those) pairs += a > b ? 1 : a == b ? 0.5 : 0;
+    EXPECT_EQ(above(these, those), pairs / (40 * 20));
+}
+
+// Of those that are handed out without regard to height U has the mean n m / 2 and the variance
+// n m (n + m + 1) / 12 (Mann and Whitney 1947).
+TEST(ShareAbove, IsHalfInARandomMixture) {
+    Random random(2, Stream::centres);
+    std::vector<double> these, those;
+    for (int i = 0; i < 2000; ++i) (random.uniform() < 0.1 ? these : those).push_back(random.uniform());
+    const auto n = static_cast<double>(these.size()), m = static_cast<double>(those.size());
+    EXPECT_NEAR(share_above(these, those), 0.5, 4 * std::sqrt((n + m + 1) / (12 * n * m)));
+}
+
+// Radius 1/2 on the lattice of measure 1: six neighbours each within the bed.
+double unlike_of(const Lattice& l) {
+    LargeArray<Place> place;
+    std::vector<std::int32_t> species;
+    for (std::size_t i = 0; i < l.position.size(); ++i) {
+        place.push_back({l.position[i], 0.5});
+        species.push_back(l.marked[i]);
+    }
+    return unlike_neighbours(place, species, kNeighbourGap, 0);
+}
+
+constexpr double kSites = 16 * 16 * 32, kBonds = 2 * 15 * 16 * 32 + 16 * 16 * 31;
+
+// Share of unlike pairs among all, whoever is a neighbour of whom.
+double chance(double marked) {
+    return marked * (kSites - marked) / (kSites * (kSites - 1) / 2);
+}
+
+TEST(UnlikeNeighbours, AreThoseBetweenTheLayersOfALayeredBed) {
+    const Lattice halves = lattice([](int, int, int z) { return z < 16; });
+    EXPECT_NEAR(unlike_of(halves), 16 * 16 / kBonds / chance(kSites / 2), 1e-12);
+    EXPECT_LT(unlike_of(halves), 0.03);
+    const Lattice rare = lattice([](int, int, int z) { return z < 1; });
+    EXPECT_NEAR(unlike_of(rare), 16 * 16 / kBonds / chance(16 * 16), 1e-12);
+    EXPECT_LT(unlike_of(rare), 0.25);
+}
+
+TEST(UnlikeNeighbours, AreAllInACheckerboard) {
+    const Lattice l = lattice([](int x, int y, int z) { return (x + y + z) % 2; });
+    EXPECT_NEAR(unlike_of(l), 1 / chance(kSites / 2), 1e-12);
+}
+
+TEST(UnlikeNeighbours, OfASingleGrainAreAllItHas) {
+    const Lattice inside = lattice([](int x, int y, int z) { return x == 8 && y == 8 && z == 8; });
+    EXPECT_NEAR(unlike_of(inside), 6 / kBonds / chance(1), 1e-12);
+    const Lattice corner = lattice([](int x, int y, int z) { return x == 0 && y == 0 && z == 31; });
+    EXPECT_NEAR(unlike_of(corner), 3 / kBonds / chance(1), 1e-12);
+}
+
+// Labels by chance, one half each: every pair is unlike with probability 1/2, and no two pairs know of each
+// other (Moran 1948, J. R. Stat. Soc. B 10, 243), so that the index scatters by 1 / sqrt(pairs).
+TEST(UnlikeNeighbours, AreAsByChanceInARandomMixture) {
+    Random random(5, Stream::centres);
+    const Lattice l = lattice([&](int, int, int) { return random.uniform() < 0.5; });
+    EXPECT_NEAR(unlike_of(l), 1, 4 / std::sqrt(kBonds));
+}
+
+TEST(UnlikeNeighbours, AreUndefinedForOneSpeciesAndForGrainsFarApart) {
+    EXPECT_TRUE(std::isnan(unlike_of(lattice([](int, int, int) { return true; }))));
+    EXPECT_TRUE(std::isnan(unlike_neighbours({{{0, 0, 0}, 0.5}, {{2, 0, 0}, 0.5}}, {0, 1}, 0.9, 0)));
+}
+
+// Sizes from 1 to 20, three species, with and without a period: the same as by all pairs of grains.
+TEST(UnlikeNeighbours, AreThoseOfASearchOverAllPairs) {
+    for (const double period : {0.0, 0.1}) {
+        Random random(9, Stream::centres);
+        const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+        LargeArray<Place> place;
+        std::vector<std::int32_t> species;
+        for (int i = 0; i < 500; ++i) {
+            const double radius =
+                i % 50 == 0 ? between(0.010, 0.020) : between(0.001, i % 7 ? 0.0012 : 0.003);
+            place.push_back({{between(-0.05, 0.05), between(-0.05, 0.05), between(0, 0.1)}, radius});
+            species.push_back(i % 50 == 0 ? 2 : i % 7 == 0);
+        }
+        const double gap = 0.004;
+        double all = 0, unlike = 0, weights = 0, unlike_weights = 0;
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                Vec3 apart = place[i].position - place[j].position;
+                apart.x() = nearest_image(apart.x(), period);
+                const double contact = place[i].radius + place[j].radius;
+                const bool near = apart.norm() < contact + gap, differ = species[i] != species[j];
+                all += near;
+                unlike += near && differ;
+                weights += contact * contact;
+                if (differ) unlike_weights += contact * contact;
+            }
+        }
+        ASSERT_GT(unlike, 100);
+        EXPECT_NEAR(unlike_neighbours(place, species, gap, period), unlike / all / (unlike_weights / weights),
+                    1e-9);
+    }
 }
 
 TEST(BedHeight, IsWhereNineteenOfTwentyLieBelow) {
