@@ -24,6 +24,11 @@ std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
 
 }  // namespace
 
+bool has_marks(const FilmShows& look) {
+    return look.force_chains || look.trails.wanted() || look.arrows.across > 0 || !look.highlighted.empty() ||
+           look.highlight_if.wanted();
+}
+
 double arrow_scale(const Scene& scene) {
     return field_cell_size(scene) / scene.film.shows.arrows.speed;
 }

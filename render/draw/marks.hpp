@@ -13,6 +13,7 @@
 
 namespace grainreel {
 
+bool has_marks(const FilmShows& look);
 // m an arrow is long for each m/s.
 double arrow_scale(const Scene& scene);
 // N of a contact whose line is as wide as lines of force get.

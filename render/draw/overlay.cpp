@@ -9,6 +9,7 @@
 #include "engine/scene/measure_columns.hpp"
 #include "render/draw/captions.hpp"
 #include "render/draw/first_gutter.hpp"
+#include "render/draw/halo.hpp"
 
 namespace grainreel {
 namespace {
@@ -116,6 +117,14 @@ void Overlay::make_plots() {
     }
 }
 
+void Overlay::put(cairo_surface_t* from, const Rectangle& part, const Rectangle& gutter,
+                  Picture& picture) const {
+    if (scene_.film.transparent)
+        copy_part_on_halo(from, part, gutter.x, gutter.y, halo_of(type_, palette_), picture);
+    else
+        copy_part(from, part, gutter.x, gutter.y, picture);
+}
+
 template <class Draw>
 void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     const CairoContext on(cairo_create(second_.get()));
@@ -126,7 +135,7 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     cairo_paint(on.get());
     cairo_set_operator(on.get(), CAIRO_OPERATOR_OVER);
     draw(on.get());
-    if (!layout_.plates) copy_part(second_.get(), part, layout_.second.x, layout_.second.y, picture);
+    if (!layout_.plates) put(second_.get(), part, layout_.second, picture);
 }
 
 void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback, const View& view) {
@@ -139,8 +148,8 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
         cairo_set_source_surface(on.get(), still_.get(), 0, 0);
         cairo_paint(on.get());
     } else if (!written_) {
-        copy_surface(first_.get(), layout_.first, picture);
-        copy_surface(still_.get(), layout_.second, picture);
+        put(first_.get(), {0, 0, layout_.first.width, layout_.first.height}, layout_.first, picture);
+        put(still_.get(), {0, 0, layout_.second.width, layout_.second.height}, layout_.second, picture);
     }
     const std::string clock = clock_words(scene_, frame), caption = playback_text(frame, playback);
     if (!written_ || clock != clock_)

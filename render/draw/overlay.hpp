@@ -41,6 +41,8 @@ class Overlay {
     void draw_still(const View& view);
     void draw_still_numbers(const View& view);
     void make_plots();
+    // A part of a gutter's surface where it belongs in the picture.
+    void put(cairo_surface_t* from, const Rectangle& part, const Rectangle& gutter, Picture& picture) const;
     // Draws over the still part inside a rectangle of the second gutter, and puts it into the picture.
     template <class Draw>
     void renew(Picture& picture, const Rectangle& part, const Draw& draw);

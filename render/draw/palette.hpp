@@ -55,6 +55,13 @@ inline Palette make_palette(const Colour& background) {
     return palette;
 }
 
+// Without a background no words are faint: on the halo that they stand on, on any paper, grey ones are lost.
+inline Palette palette_of(const Film& film) {
+    Palette palette = make_palette(film.background);
+    if (film.transparent) palette.faint_ink = palette.ink;
+    return palette;
+}
+
 // The least strength of a plate of the background's colour on which all words have a contrast of 4.5,
 // whatever is under it; 1 when there is none.
 inline double plate_strength(const Palette& palette) {

@@ -44,7 +44,7 @@ Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette
     : frame_(frame),
       type_(type),
       palette_(palette),
-      axes_(blank_surface({0, 0, frame.width, frame.height}, palette.background)) {
+      axes_(blank_surface({0, 0, frame.width, frame.height}, palette.background, 0)) {
     const double words = line_height(type.minor);
     double end = 0;
     for (const TimeTick& tick : time_ticks()) end = measure_text(tick.text, {type.minor, false}).width;
@@ -127,8 +127,7 @@ void Plot::widen(double value) {
 
 void Plot::draw_axes() {
     const CairoContext on(cairo_create(axes_.get()));
-    set_colour(on.get(), palette_.background);
-    cairo_paint(on.get());
+    fill_surface(on.get(), palette_.background, 0);
     const TextStyle minor{type_.minor, false};
     const double pen = std::max(1.0, type_.main / 20), tick = 0.3 * type_.minor;
     const double largest = std::max(std::abs(limits_[0]), std::abs(limits_[1]));
@@ -143,7 +142,7 @@ void Plot::draw_axes() {
     for (const double value : values) {
         const double y = y_of(value * size);
         cairo_set_line_width(on.get(), 0.7 * pen);
-        set_colour(on.get(), mix(palette_.background, palette_.ink, 0.15));
+        cairo_set_source_rgba(on.get(), palette_.ink.red, palette_.ink.green, palette_.ink.blue, 0.15);
         line(on.get(), left_, y, right_, y);
         const std::string text =
             tick_text(value, values.size() > 1 ? values[1] - values[0] : std::abs(value) + 1e-30);

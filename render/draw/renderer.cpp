@@ -57,7 +57,7 @@ void copy(const Picture& from, const Rectangle& part, Picture& to) {
 struct Renderer::Impl {
     Impl(const Scene& s, const PictureLayout& plan, int raster_threads, gl::Provider provider)
         : scene(s),
-          palette(make_palette(s.film.background)),
+          palette(palette_of(s.film)),
           layout(plan),
           port(layout.port),
           path(s, layout),
@@ -69,6 +69,7 @@ struct Renderer::Impl {
           team(raster_threads),
           shown(s, s.film.shows.hidden),
           solid(s, s.film.shows.ghosts),
+          beside_cut(ShownGrains::beside_cut(s)),
           marks(scene, palette),
           sphere_painter(s, port.width, port.height, team, false),
           words(s.film.width, s.film.height) {
@@ -100,11 +101,13 @@ struct Renderer::Impl {
     std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;  // of `before`: pixels as they were
     std::optional<Ground> ground;
     Team team;
-    ShownGrains shown, solid;  // of all: those that are not hidden; of these: those that are not ghosts
+    // Of all: those that are not hidden; of these: those that are not ghosts, and those that marks go by.
+    ShownGrains shown, solid, beside_cut;
     Marks marks;
     SpherePainter sphere_painter;
     std::optional<SpherePainter> ghost_painter;
     std::optional<Exposure> exposure;
+    bool started = false;  // the film: where grains were then is known
     ContainerShapes shapes;
     View eye;
     Picture words;    // beside the port, from picture to picture
@@ -118,6 +121,11 @@ struct Renderer::Impl {
                      Stopwatch& watch);
     const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
     const Layer* draw_before();
+    void start_from(const Frame& frame);
+    // Without grains that the cut takes away, which leave no marks. A copy is made only if there are any.
+    const Frame& to_be_marked(const Frame& frame) {
+        return has_marks(scene.film.shows) ? beside_cut.of(frame) : frame;
+    }
 };
 
 void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
@@ -125,6 +133,7 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
     context->make_current();
     Stopwatch watch(context->gl(), times);
     const View view = path.at(film_time);
+    if (!started) start_from(frame);
     overlay.write(words, frame, playback, view);
     copy_words(into);
     watch.lap(&DrawTimes::overlay);
@@ -134,6 +143,14 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
         draw_exposed(frame, view, into, watch);
     overlay.lay_over(into);
     watch.lap(&DrawTimes::overlay);
+}
+
+void Renderer::Impl::start_from(const Frame& frame) {
+    const Frame& start = exaggeration.shown(frame);
+    sphere_painter.start_from(start);
+    marks.start_from(start);
+    if (ghost_painter) ghost_painter->start_from(start);
+    started = true;
 }
 
 // Where it has been drawn before, most of the words are there.
@@ -158,7 +175,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
 // Marks are those of the frame itself, in every moment.
 void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch) {
     if (!exposure) exposure.emplace(port);
-    const Frame marked = shown.of(exaggeration.shown(frame));
+    const Frame marked = to_be_marked(shown.of(exaggeration.shown(frame)));
     for (const FramePtr& moment : frame.exposed) {
         draw_moment(*moment, &marked, view, into, watch);
         exposure->add(into);
@@ -185,9 +202,8 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     const Layer& grains = draw_grains(sphere_painter, opaque, watch);
     const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, all, watch) : nullptr;
     const SpherePainter& of_all = ghost_painter ? *ghost_painter : sphere_painter;
-    marks.draw(
-        eye, marked ? *marked : all, [&](std::size_t i) { return marked ? 1 : of_all.seen_share(i); },
-        shapes.over);
+    const auto seen = [&](std::size_t i) { return marked ? 1 : of_all.seen_share(beside_cut.place(i)); };
+    marks.draw(eye, marked ? *marked : to_be_marked(all), seen, shapes.over);
     const Layer* marked_alone = draw_before();
     compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
              walls_behind, grains, ghosts, before.layer(), marked_alone},
@@ -257,14 +273,11 @@ const View& Renderer::view() const {
 }
 
 void Renderer::start_from(const Frame& frame) {
-    const Frame& start = impl_->exaggeration.shown(frame);
-    impl_->sphere_painter.start_from(start);
-    impl_->marks.start_from(start);
-    if (impl_->ghost_painter) impl_->ghost_painter->start_from(start);
+    impl_->start_from(frame);
 }
 
 void Renderer::remember(const Frame& frame) {
-    impl_->marks.remember(impl_->shown.of(impl_->exaggeration.shown(frame)));
+    impl_->marks.remember(impl_->to_be_marked(impl_->shown.of(impl_->exaggeration.shown(frame))));
 }
 
 std::string Renderer::gl_description() const {

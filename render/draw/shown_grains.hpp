@@ -1,5 +1,4 @@
-// A frame without the grains of some species. Those are as if they were not there: they are not lit, cast
-// nothing and are not counted in fields.
+// A frame without grains that are not shown.
 #pragma once
 
 #include <vector>
@@ -9,17 +8,34 @@
 
 namespace grainreel {
 
+// The points p that are kept: normal . p >= distance.
+struct HalfSpace {
+    Vec3 normal;
+    double distance;  // m
+};
+// What the film's cut keeps of the bed at the frame's moment, since the cut goes with the floor: nothing
+// without a cut, one half-space, or the two of a slab.
+std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame);
+
 class ShownGrains {
   public:
-    // left_out: species, indices into scene.species.
+    // left_out: species, indices into scene.species. Their grains are as if they were not there: they are not
+    // lit, cast nothing and are not counted in fields.
     ShownGrains(const Scene& scene, const std::vector<std::size_t>& left_out);
+    // Leaves out the grains that the film's cut takes away whole.
+    static ShownGrains beside_cut(const Scene& scene);
 
     // The frame itself when nothing is left out, otherwise a copy that the next call overwrites.
     const Frame& of(const Frame& frame);
+    // Where a grain of the last of() was in the frame that was given.
+    std::size_t place(std::size_t grain) const { return any() ? kept_[grain] : grain; }
 
   private:
-    std::vector<bool> left_out_;  // by species
-    bool any_ = false;
+    bool any() const { return !left_out_.empty() || cut_.present; }
+
+    std::vector<bool> left_out_;  // by species; empty: none
+    FilmCut cut_;                 // that leaves grains out
+    std::vector<std::size_t> kept_;
     Frame shown_;
 };
 

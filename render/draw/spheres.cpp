@@ -1,5 +1,6 @@
 #include "render/draw/spheres.hpp"
 
+#include "render/draw/shown_grains.hpp"
 #include "render/draw/styles.hpp"
 
 namespace grainreel {
@@ -36,17 +37,11 @@ void SpherePainter::take(const View& view, const Frame& frame) {
 // The planes of the cut, which go with the container, in view coordinates.
 void SpherePainter::open_bed(const View& view, const Frame& frame) {
     cut_.planes = 0;
-    if (!look_.cut.present) return;
-    const auto keep = [&](const Vec3& normal, double distance) {
-        cut_.plane[cut_.planes++] = {static_cast<float>(normal.dot(view.right)),
-                                     static_cast<float>(normal.dot(view.up)),
-                                     static_cast<float>(normal.dot(view.forward)),
-                                     static_cast<float>(distance - normal.dot(view.eye))};
-    };
-    const Vec3& normal = look_.cut.normal;
-    const double at = look_.cut.at + normal.dot(frame.floor_offset);
-    keep(-normal, -at);
-    if (look_.cut.thickness > 0) keep(normal, at - look_.cut.thickness);
+    for (const HalfSpace& kept : kept_by_cut(look_.cut, frame))
+        cut_.plane[cut_.planes++] = {static_cast<float>(kept.normal.dot(view.right)),
+                                     static_cast<float>(kept.normal.dot(view.up)),
+                                     static_cast<float>(kept.normal.dot(view.forward)),
+                                     static_cast<float>(kept.distance - kept.normal.dot(view.eye))};
 }
 
 void SpherePainter::mark_rotation(const View& view, const Frame& frame) {

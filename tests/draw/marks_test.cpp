@@ -239,6 +239,86 @@ TEST(HiddenSpecies, LeaveThePictureAsIfTheyWereNotThere) {
                              << away.bottom;
 }
 
+// Two frames of a bed, its first grain in the middle of all, with everything that leaves marks.
+struct MarkedBed {
+    Scene scene = wedge(480, 270);
+    std::vector<Frame> frames;
+
+    MarkedBed() {
+        std::vector<Ball> balls;
+        for (int k = 0; k < 200; ++k)
+            balls.push_back({{0.018 * std::sin(2.4 * k), -0.05 + 0.1 * std::fmod(k * 0.618034, 1),
+                              0.02 + 0.09 * std::fmod(k * 0.754878, 1)},
+                             0.003,
+                             k % 2});
+        scene.film.words = WordPlace::none;
+        FilmShows& shows = scene.film.shows;
+        shows.arrows = {6, 0.1, false};
+        shows.trails = {{0, 1}, {}, 1};
+        shows.force_chains = true;
+        shows.highlighted = {3, 17, 60, 90};
+        shows.highlight_if = {GrainValue::speed, true, 0.09, "speed"};
+        for (const double time : {0.0, 0.1}) {
+            Frame frame = frame_of(balls);
+            frame.time = time;
+            for (std::size_t i = 0; i < frame.size(); ++i) {
+                frame.velocity[i] = {0.02, 0.1 * std::sin(static_cast<double>(i)), 0.05};
+                frame.position[i] += time * frame.velocity[i];
+            }
+            for (std::int32_t i = 0; i + 1 < 200; ++i) frame.touches.push_back({i, i + 1, 1});
+            frames.push_back(frame);
+        }
+    }
+    Picture picture(const std::vector<Frame>& of) const {
+        Renderer renderer(scene, 1);
+        renderer.draw(of[0], "");
+        return renderer.draw(of[1], "");
+    }
+    // Without those of which `gone` says so, in both.
+    template <class Gone>
+    std::vector<Frame> without(const Gone& gone) const {
+        std::vector<Frame> kept;
+        for (const Frame& all : frames) {
+            Frame frame = all;
+            frame.id.clear(), frame.species.clear(), frame.radius.clear();
+            frame.position.clear(), frame.velocity.clear(), frame.spin.clear();
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                if (gone(all, i)) continue;
+                frame.id.push_back(all.id[i]);
+                frame.species.push_back(all.species[i]);
+                frame.radius.push_back(all.radius[i]);
+                frame.position.push_back(all.position[i]);
+                frame.velocity.push_back(all.velocity[i]);
+                frame.spin.push_back(all.spin[i]);
+            }
+            kept.push_back(std::move(frame));
+        }
+        return kept;
+    }
+};
+
+// Trails, chains, arrows and rings of grains that are cut away or hidden are as if those had never been.
+TEST(MarksOfGrainsThatAreGone, GoWithThem) {
+    MarkedBed bed;
+    const Rectangle all{0, 0, bed.scene.film.width, bed.scene.film.height};
+    const auto expect_none = [&](const char* what, const auto& gone) {
+        const std::vector<Frame> left = bed.without(gone);
+        ASSERT_GT(left[1].size(), 20u);
+        ASSERT_LT(left[1].size(), 180u);
+        EXPECT_EQ(changed(bed.picture(bed.frames), bed.picture(left), all, 1).count, 0) << what;
+    };
+    bed.scene.film.look.cut = {true, {1, 0, 0}, 0.002, 0};
+    expect_none("cut",
+                [](const Frame& f, std::size_t i) { return f.position[i].x() - f.radius[i] >= 0.002; });
+    bed.scene.film.look.cut = {true, {1, 0, 0}, 0.002, 0.006};
+    expect_none("slab", [](const Frame& f, std::size_t i) {
+        return f.position[i].x() - f.radius[i] >= 0.002 || f.position[i].x() + f.radius[i] <= -0.004;
+    });
+    bed.scene.film.look.cut = {};
+    bed.scene.film.shows.hidden = {1};
+    expect_none("hide", [](const Frame& f, std::size_t i) { return f.species[i] == 1; });
+}
+
 TEST(Rings, GoAroundTheirGrain) {
     Scene scene = wedge(960, 540);
     scene.film.camera.field_of_view = 0;
