@@ -42,7 +42,7 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
 
 // Largest overlap over the smaller diameter that impacts and weight are expected to cause. Stiffness is
 // chosen for the impact of the pair alone; the largest grain that lands on three others drives those deeper
-// into each other and into the wall (so 3.2 % are expected in scenes/wedge_segregation.toml; 3.3 % were seen
+// into each other and into the wall (so 3.2 % are expected in scenes/wedge_mixing.toml; 3.3 % were seen
 // within 3 s).
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const Species& a,
                         const Species* b);

@@ -11,8 +11,8 @@
 namespace grainreel {
 namespace {
 
-TEST(WedgeCase, IsTheDefaultFilmsBed) {
-    Scene film = read_scene(fmt::format("{}/scenes/wedge_segregation.toml", GRAINREEL_SOURCE), {});
+TEST(WedgeCase, IsTheBedOfWedgeMixing) {
+    Scene film = read_scene(fmt::format("{}/scenes/wedge_mixing.toml", GRAINREEL_SOURCE), {});
     const Scene timed = read_scene_text(wedge_scene(), "wedge.toml", {});
     film.film = timed.film;
     for (std::size_t s = 0; s < film.species.size(); ++s) film.species[s].colour = timed.species[s].colour;

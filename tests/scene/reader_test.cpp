@@ -192,7 +192,7 @@ TEST(Reader, ShippedScenesAreRight) {
     }
     const Scene scene = read_scene(GRAINREEL_SOURCE "/scenes/wedge_segregation.toml");
     EXPECT_GE(scene.species[0].count, 1500);
-    EXPECT_GE(scene.species[1].count, 120);
+    EXPECT_GE(scene.species[1].count, 40);
     EXPECT_EQ(scene.name, "wedge_segregation");
 }
 
