@@ -1,4 +1,4 @@
-# Draws contacts.csv, convergence.csv and bed.csv, and the other engines of peers.csv (made by
+# Draws contacts.csv, convergence.csv, gas.csv and bed.csv, and the other engines of peers.csv (made by
 # tests/peers/impacts.sh) where that lies beside them: gnuplot accuracy.gp
 set datafile separator ','
 set style data linespoints
@@ -46,6 +46,31 @@ do for [form in "svg png"] {
     }
     unset multiplot
     unset title
+    set autoscale
+    set output 'gas.'.form
+    set logscale xy
+    set multiplot layout 2,1
+    # As they are coloured above, where `mixed precision` is the third.
+    elastic = "'velocity Verlet' 'with corrections' '' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot'"
+    planned = 'Walton-Braun as planned'
+    # Root mean square over the seeds, of what is gained over the energy, or over what is lost.
+    over_time(m) = sprintf("< awk -F, '$1==\"%s\" && $2==1 {s[$4] += $6^2; n[$4]++} END {for (x in s) print x\",\"sqrt(s[x]/n[x])}' gas.csv | sort -g", m)
+    over_loss(m) = sprintf("< awk -F, '$1==\"%s\" && $2<1 {x = 1-$2^2; s[x] += ($6/$7)^2; n[x]++} END {for (x in s) print x\",\"sqrt(s[x]/n[x])}' gas.csv | sort -g", m)
+    set xrange [200:10000]
+    set xlabel 'time over the duration of a contact'
+    set ylabel '|gained energy| / energy'
+    set title 'An elastic gas of 216 smooth grains'
+    plot for [k in "1 2 4 5 6 7 8"] over_time(word(elastic, k+0)) using 1:2 title word(elastic, k+0) lw 2 lc (k+0) pt (k+0), over_time('Hertz') using 1:2 title 'Hertz' lw 2 lc 'gray50' pt 9, over_time(planned) using 1:2 title planned with points pt 6 ps 1.5 lw 2 lc 'black'
+    set xrange [0.3:1e-4]
+    set yrange [1e-4:2]
+    set format x "10^{%L}"
+    set xlabel '1 - e^2, the share of its energy that an impact takes'
+    set ylabel '|gained energy| / lost energy'
+    set title 'Nearly elastic gases'
+    plot for [k=1:2] over_loss(word(elastic, k)) using 1:2 title word(elastic, k) lw 2 lc k pt k, over_loss(planned) using 1:2 title planned with points pt 6 ps 1.5 lw 2 lc 'black', 1 lc 'gray30' lw 2 dt 2 title 'nothing is lost'
+    unset multiplot
+    unset title
+    set format x '%g'
     set autoscale
     set output 'bed.'.form
     unset logscale

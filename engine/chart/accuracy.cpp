@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/chart/convergence.hpp"
+#include "engine/chart/gas_drift.hpp"
 #include "engine/chart/result_table.hpp"
 #include "engine/chart/single_contact.hpp"
 #include "engine/chart/small_bed.hpp"
@@ -150,20 +151,21 @@ bool run_accuracy(const ChartRequest& request, const ChartWatcher& watcher) {
     ResultTable beds(request.folder / "bed.csv",
                      "setting,seed,height_m,temperature_m2s2,contacts,mixing,cost_ns", 2);
     ResultTable convergence(request.folder / "convergence.csv", "contact,law,steps,error", 3);
+    ResultTable gases(request.folder / "gas.csv", "method,e,seed,contacts,steps,gained,lost", 4);
     const std::size_t pieces =
-        convergence_pieces(request.quick) +
+        convergence_pieces(request.quick) + gas_drift_pieces(request.quick) +
         methods().size() * restitutions(request.quick).size() * force_counts(request.quick).size() +
         bed_settings(request.quick).size() * (request.quick ? 2 : 5);
     ChartWork work(watcher, pieces);
     if (!run_contacts(request.quick, contacts, work) || !run_convergence(request.quick, convergence, work) ||
-        !run_beds(request.quick, beds, work))
+        !run_gas_drift(request.quick, gases, work) || !run_beds(request.quick, beds, work))
         return false;
     replace_file(request.folder / "differences.csv", differences_table(beds));
     return true;
 }
 
 std::string accuracy_drawing() {
-    return R"(# Draws contacts.csv, convergence.csv and bed.csv, and the other engines of peers.csv (made by
+    return R"(# Draws contacts.csv, convergence.csv, gas.csv and bed.csv, and the other engines of peers.csv (made by
 # tests/peers/impacts.sh) where that lies beside them: gnuplot accuracy.gp
 set datafile separator ','
 set style data linespoints
@@ -197,6 +199,7 @@ do for [form in "svg png"] {
     unset multiplot
     unset title
 )" + std::string(convergence_drawing()) +
+           gas_drift_drawing() +
            R"(    set output 'bed.'.form
     unset logscale
     set format xy '%g'

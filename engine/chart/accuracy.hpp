@@ -1,6 +1,6 @@
-// `grainreel chart accuracy`: error against cost, one factor at a time. Three tables, each row a result:
-// contacts.csv (single contacts), convergence.csv (tangential laws) and bed.csv (the small bed, every setting
-// with every seed).
+// `grainreel chart accuracy`: error against cost, one factor at a time. Four tables, each row a result:
+// contacts.csv (single contacts), convergence.csv (tangential laws), gas.csv (elastic and nearly elastic
+// gases) and bed.csv (the small bed, every setting with every seed).
 #pragma once
 
 #include "engine/chart/chart.hpp"

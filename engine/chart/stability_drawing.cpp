@@ -49,7 +49,7 @@ do for [form in "svg png"] {
     set title 'Longest step: growth of a disturbance'; set xlabel 'step / limit'; set ylabel 'growth a step'; set yrange [0.9:2.6]; set key inside top left
     eval "plot ".one('step: pair by velocity-verlet', 1, 'Verlet').", ".one('step: pair by forest-ruth', 2, 'Forest-Ruth').", ".one('step: pair by gear', 3, 'Gear')
     set autoscale y; set logscale y; set format y '%g'
-    set title 'Restitution at the step of the plan'; set xlabel 'restitution e'; set ylabel 'largest error of e'; set yrange [5e-5:2e-2]
+    set title 'Restitution at the step of the plan'; set xlabel 'restitution e'; set ylabel 'largest error of e'; set yrange [1e-5:2e-2]
     eval "plot ".one('restitution 0.02 to 0.999', 1, 'plan; line: allowed')
     set autoscale y; set logscale x
     set title 'Restitution with few steps, plain Verlet'; set xlabel 'steps a contact'; set ylabel 'largest error of e'; set key inside bottom left

@@ -191,11 +191,12 @@ void add_run(Keys& keys) {
                           "1.25 times as fast."));
     keys.push_back(entry("run.contact_corrections", KeyKind::flag,
                          note("true where possible; false with draft"),
-                         "walton-braun of constant restitution, with velocity-verlet: corrects onset, peak "
-                         "and exit of each contact."));
-    keys.push_back(integer("run.steps_per_contact", 4, 1000000,
-                           note("12 or more by restitution; 45 with a dashpot; by `accuracy`"),
-                           "Steps in one free impact."));
+                         "walton-braun of constant restitution up to 0.9976, with velocity-verlet: corrects "
+                         "onset, peak and exit of each contact."));
+    keys.push_back(integer(
+        "run.steps_per_contact", 4, 1000000,
+        note("12 or more by restitution; 45 with a dashpot or a restitution above 0.9976; by `accuracy`"),
+        "Steps in one free impact."));
     keys.push_back(entry("output.trajectory", KeyKind::flag, literal("true"), "Keep trajectory.nc."));
     keys.push_back(quantity("output.trajectory_interval", Dimension::time, positive,
                             note("one period; 1/30 s without a drive"), "Between its frames."));

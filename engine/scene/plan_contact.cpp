@@ -171,7 +171,7 @@ ContactModel contact_model(const PairContact& contact, bool corrected, Precision
     model.precision = precision;
     model.tangential = contact.tangential;
     model.rolls = contact.rolling_friction > 0;
-    if (corrected) model.normal = NormalForce::walton_braun_corrected;
+    if (corrected && !nearly_elastic(contact.restitution)) model.normal = NormalForce::walton_braun_corrected;
     if (contact.normal == NormalLaw::spring_dashpot) model.normal = NormalForce::spring_dashpot;
     if (contact.normal == NormalLaw::hertz) model.normal = NormalForce::hertz;
     if (contact.restitution_speed) model.normal = NormalForce::walton_braun_speed;
@@ -188,6 +188,8 @@ void plan_walton_braun(const BedPlan& bed, PairPlan& pair, const PairContact& co
     pair.unloading_stiffness = pair.loading_stiffness / (pair.restitution * pair.restitution);
     pair.contact_time =
         pi / 2 * (1 + pair.restitution) * std::sqrt(pair.effective_mass / pair.loading_stiffness);
+    // The same to the last bit, and so is the step: elastic grains go the ways of those without a dashpot.
+    if (pair.restitution == 1) pair.contact_time = linear_contact_time(pair);
 }
 
 // A free impact takes longer the slower it is, so v* says how long a step may be.

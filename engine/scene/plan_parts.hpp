@@ -47,8 +47,15 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const Species& a,
                         const Species* b);
 
+// Whether impacts of this restitution lose so little that the gain of the contact corrections would count. At
+// an elastic impact they gain (w dt)^4 / 20 of its energy, w^2 = K1 / m_eff, with w dt = pi / 12 at 12 steps
+// a contact (the onset in walton_braun_corrected-inl.hpp adds (w s)^4 / 4 at a touch s before the force, s
+// from 0 to dt). They are used where an impact loses twenty times that, 1 - e^2 >= (pi / 12)^4, e < 0.9976.
+bool nearly_elastic(double restitution);
+
 // Steps in a free impact: at standard accuracy enough that velocity Verlet keeps the restitution within
-// 0.005, plain when the number is whole, with the contact corrections whatever it is.
+// 0.005, plain when the number is whole, with the contact corrections whatever it is; and that nearly elastic
+// grains keep their energy as those of a spring-dashpot do.
 int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy = Accuracy::standard);
 
 // The longest step times the fastest angular frequency: 2 for Verlet in all its forms, sqrt 2 for Gear's four

@@ -319,8 +319,8 @@ TEST(Checkpoint, RefusesAnotherPlanAndADamagedFile) {
 
 // Perfectly elastic, frictionless grains lose nothing: what the walls put in is what they have.
 TEST(Energy, WallWorkIsWhatElasticGrainsGain) {
-    const Scene scene =
-        scene_of({"contact.restitution=1", "contact.friction=0", "start.settle_damping=20", kFullSettling});
+    const Scene scene = scene_of({"contact.restitution=1", "contact.friction=0", "run.steps_per_contact=12",
+                                  "start.settle_damping=20", kFullSettling});
     const Plan plan = make_plan(scene);
     Simulation simulation = packed(scene, plan, 1);
     simulation.advance(6 * plan.clock.steps_per_period);

@@ -215,7 +215,8 @@ TEST(StabilityHealth, StopsAPairWhoseStepIsTooLong) {
     EXPECT_EQ(complaint(pair), "");
     for (const double speed : {0.020, 0.0203, 0.0207, 0.021})  // a step's error is no alarm
         EXPECT_EQ(
-            complaint(shot(speed, other_ball), {"contact.restitution=1", "run.contact_corrections=false"}),
+            complaint(shot(speed, other_ball),
+                      {"contact.restitution=1", "run.contact_corrections=false", "run.steps_per_contact=12"}),
             "")
             << speed;
     EXPECT_THAT(complaint(pair, {step_of(1.1 * std::sqrt(2.0))}),

@@ -155,6 +155,19 @@ TEST(PlanContact, HardeningFollowsFromTheRestitutionAtOneSpeed) {
     EXPECT_EQ(make_plan(read_text(wedge_text)).grain[0].model.normal, NormalForce::walton_braun_corrected);
 }
 
+// What the corrections gain counts where an impact loses next to nothing: then the spring goes without them.
+TEST(PlanContact, NearlyElasticContactsAreNotCorrected) {
+    const auto law = [](double e) {
+        return make_plan(read_text(wedge_text, {fmt::format("contact.restitution={}", e)}))
+            .grain[0]
+            .model.normal;
+    };
+    const double limit = std::sqrt(1 - std::pow(pi / 12, 4));
+    EXPECT_EQ(law(limit - 1e-6), NormalForce::walton_braun_corrected);
+    EXPECT_EQ(law(limit + 1e-6), NormalForce::walton_braun);
+    EXPECT_EQ(law(1), NormalForce::walton_braun);
+}
+
 // ---- the spring-dashpot ----
 
 TEST(PlanDamping, RestitutionFollowsFromDamping) {
@@ -217,6 +230,8 @@ TEST(PlanStep, StepsPerContactKeepTheRestitution) {
         EXPECT_LE(worst_restitution_error(e, steps), 0.005) << "e = " << e << ", n = " << steps;
     }
     EXPECT_EQ(steps_per_contact(NormalForce::walton_braun, 0.9), 12);
+    EXPECT_EQ(steps_per_contact(NormalForce::walton_braun, 1),
+              steps_per_contact(NormalForce::spring_dashpot, 1));
     EXPECT_GT(worst_restitution_error(0.3, 12), 0.005);  // one number for all would not do
 }
 
