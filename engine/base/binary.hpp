@@ -1,9 +1,10 @@
-// Plain values and vectors to and from a binary stream, in this machine's byte order.
+// Plain values and vectors to and from bytes, in this machine's byte order.
 #pragma once
 
 #include <cstdint>
-#include <istream>
+#include <cstring>
 #include <ostream>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -15,12 +16,6 @@ void write_value(std::ostream& out, const T& value) {
     out.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-template <class T>
-void read_value(std::istream& in, T& value) {
-    static_assert(std::is_trivially_destructible_v<T>);
-    in.read(reinterpret_cast<char*>(&value), sizeof value);
-}
-
 template <class T, class Memory>
 void write_vector(std::ostream& out, const std::vector<T, Memory>& values) {
     static_assert(std::is_trivially_destructible_v<T>);
@@ -29,14 +24,42 @@ void write_vector(std::ostream& out, const std::vector<T, Memory>& values) {
               static_cast<std::streamsize>(values.size() * sizeof(T)));
 }
 
-// Sets the stream's failbit instead of taking in more than 2^31 entries, which only a damaged file asks for.
+// Bytes of a file, read from the front. What it promises but does not hold makes the reading fail; no memory
+// is asked for then.
+class Bytes {
+  public:
+    explicit Bytes(std::string_view all) : left_(all) {}
+
+    bool failed() const { return failed_; }
+    void fail() { failed_ = true; }
+    std::size_t left() const { return left_.size(); }
+
+    void read(void* to, std::size_t size) {
+        if (size > left_.size()) failed_ = true;
+        if (failed_) return;
+        if (size > 0) std::memcpy(to, left_.data(), size);
+        left_.remove_prefix(size);
+    }
+
+  private:
+    std::string_view left_;
+    bool failed_ = false;
+};
+
+template <class T>
+void read_value(Bytes& in, T& value) {
+    static_assert(std::is_trivially_destructible_v<T>);
+    in.read(reinterpret_cast<char*>(&value), sizeof value);
+}
+
 template <class T, class Memory>
-void read_vector(std::istream& in, std::vector<T, Memory>& values) {
+void read_vector(Bytes& in, std::vector<T, Memory>& values) {
     std::uint64_t size = 0;
     read_value(in, size);
-    if (!in || size > (std::uint64_t{1} << 31)) return in.setstate(std::ios::failbit);
+    if (size > in.left() / sizeof(T)) in.fail();
+    if (in.failed()) return;
     values.resize(size);
-    in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(size * sizeof(T)));
+    in.read(reinterpret_cast<char*>(values.data()), size * sizeof(T));
 }
 
 // For functions that name what is saved once, and serve both ways.
@@ -52,7 +75,7 @@ struct Writing {
     }
 };
 struct Reading {
-    std::istream& in;
+    Bytes& in;
     template <class T>
     void operator()(T& value) const {
         read_value(in, value);

@@ -48,7 +48,9 @@ struct Simulation::Impl {
           plan(p),
           team(threads > 0 ? threads : usable_processors()),
           around(make_surroundings(s, p)),
-          limits(health_limits(s, p)) {}
+          limits(health_limits(s, p)) {
+        if (scene.start.method != Start::Method::layers) take_grains();
+    }
 
     Scene scene;
     Plan plan;
@@ -62,49 +64,75 @@ struct Simulation::Impl {
     EnergyWatch energy_watch;
     std::int64_t next_look = 0;  // step
 
+    bool continued = false;  // goes on where the file stopped
+
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
+    void take_grains();
+    void go_on();
+    void set_orientations();
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
-    void pack_from_file();
     void begin_drive();
     void look_at_health();
 };
+
+void check_start(const Scene& scene, const Plan& plan) {
+    if (scene.start.method != Start::Method::layers) Simulation(scene, plan, 1);
+}
 
 Simulation::Simulation(const Scene& scene, const Plan& plan, int threads)
     : impl_(std::make_unique<Impl>(scene, plan, threads)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
+// Those of a file or a list, where they are.
+void Simulation::Impl::take_grains() {
+    const bool from_checkpoint = scene.start.method == Start::Method::file && is_checkpoint(scene.start.file);
+    if (from_checkpoint && scene.start.keep_clock) return go_on();
+    grains = scene.start.method == Start::Method::grains ? listed_grains(scene)
+             : from_checkpoint                           ? grains_from_checkpoint(scene)
+                                                         : grains_from_table(scene);
+    check_grains_possible(scene, grains);
+    check_grains_match(scene, grains);
+    check_grains_fit(scene, around.faces, grains);
+    set_orientations();
+    make_loop();
+    loop->restart();
+    check_grains_clear(scene, around.faces, grains, *loop);
+}
+
+void Simulation::Impl::go_on() {
+    make_loop();
+    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop);
+    set_orientations();
+    step = header.step;
+    start_energy = header.start_energy;
+    continued = true;
+    if (step >= plan.steps)
+        throw UserError(
+            fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
+                        scene.where("run.duration"), step, plan.steps));
+}
+
+// They decide nothing: a run may begin or cease to keep them when it goes on.
+void Simulation::Impl::set_orientations() {
+    if (!scene.keeps_orientations())
+        grains.orientation.clear();
+    else if (grains.orientation.empty())
+        grains.orientation.assign(grains.size(), Quaternion::Identity());
+}
+
 bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgress& progress) {
     grains = place_in_layers(scene);
-    if (scene.keeps_orientations()) grains.orientation.assign(grains.size(), Quaternion::Identity());
+    set_orientations();
     const GrowthReport growth =
         grow_radii(scene, plan, around, grains, team, [&](double done, std::int64_t steps) {
             progress.done = done;
             progress.steps = steps;
             return watcher(progress);
         });
+    make_loop();
+    loop->restart();
     return growth.finished;
-}
-
-void Simulation::Impl::pack_from_file() {
-    if (!is_checkpoint(scene.start.file)) {
-        grains = grains_from_table(scene);
-        return;
-    }
-    if (scene.start.keep_clock) {
-        make_loop();
-        const CheckpointHeader header = load_checkpoint(scene, plan, grains, loop.get());
-        check_grains_match(scene, grains);
-        step = header.step;
-        start_energy = header.start_energy;
-        return;
-    }
-    const CheckpointHeader header = load_checkpoint(scene, plan, grains, nullptr);
-    // The container starts from rest position and at rest; its grains come along.
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-        grains.place[i].position -= header.wall_offset;
-        grains.motion[i].velocity -= header.wall_velocity;
-    }
 }
 
 // Work and balance count from here; the forces belong to the state, so that the first half kick is right.
@@ -123,24 +151,8 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     PackingResult result;
     PackingProgress progress;
     progress.stage = PackingProgress::Stage::growing;
-    if (m.scene.start.method == Start::Method::layers) {
-        result.finished = m.pack_layers(watcher, progress);
-    } else {
-        if (m.scene.start.method == Start::Method::grains) {
-            m.grains = listed_grains(m.scene);
-        } else {
-            m.pack_from_file();
-        }
-        if (m.loop) return result;  // goes on where the file stopped
-        check_grains_match(m.scene, m.grains);
-        check_grains_fit(m.scene, m.around.faces, m.grains);
-        if (m.scene.keeps_orientations() && m.grains.orientation.empty()) {
-            m.grains.orientation.assign(m.grains.size(), Quaternion::Identity());
-        }
-    }
-    m.make_loop();
-    m.loop->restart();
-    if (m.scene.start.method != Start::Method::layers) check_grains_clear(m.scene, m.grains, *m.loop);
+    if (m.continued) return result;
+    if (m.scene.start.method == Start::Method::layers) result.finished = m.pack_layers(watcher, progress);
     if (result.finished) {
         progress.stage = PackingProgress::Stage::settling;
         const auto watch = [&](double done, std::int64_t steps) {

@@ -33,15 +33,19 @@ struct PackingResult {
     double solid_fraction = 0;     // of the bed below the height under which 95 % of the centres lie
 };
 
+// Throws UserError where the grains of a file or a list do not fit the scene, as a run of it would.
+void check_start(const Scene& scene, const Plan& plan);
+
 class Simulation {
   public:
-    // threads: 0 takes what the machine gives. Throws UserError for what the scene gets wrong.
+    // threads: 0 takes what the machine gives. Takes the grains of a file or a list, and throws UserError
+    // where they do not fit the scene.
     Simulation(const Scene& scene, const Plan& plan, int threads);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
 
-    // Places the grains (layers, radius growth, settling) or continues from the scene's file. Afterwards
-    // step() is 0, or the file's step when the scene keeps its clock.
+    // Places the grains (layers, radius growth, settling), if they are not there already. Afterwards step()
+    // is 0, or the file's step when the scene keeps its clock.
     PackingResult pack(const PackingWatcher& watcher);
     PackingResult pack();
 

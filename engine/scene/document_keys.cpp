@@ -13,7 +13,7 @@ namespace grainreel {
 namespace {
 
 // Of each pair a scene may have one. Setting one on the command line takes the other out of the file.
-constexpr std::array<std::array<std::string_view, 2>, 7> rivals{{
+constexpr std::array<std::array<std::string_view, 2>, 9> rivals{{
     {"g_level", "amplitude"},
     {"density", "mass"},
     {"restitution", "normal_damping"},
@@ -21,6 +21,8 @@ constexpr std::array<std::array<std::string_view, 2>, 7> rivals{{
     {"position", "azimuth"},  // of the camera
     {"position", "elevation"},
     {"position", "key"},
+    {"file", "settle_limit"},  // of the start, from a file or by layers
+    {"file", "settle_damping"},
 }};
 
 // "species[1].count" or "species.big.count" -> species, 1 or big, count

@@ -3,49 +3,23 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
 #include "engine/base/binary.hpp"
 #include "engine/base/error.hpp"
+#include "engine/start/continuation.hpp"
+#include "engine/start/start_file.hpp"
 
 namespace grainreel {
 
 namespace {
 
-constexpr char kMagic[8] = {'g', 'r', 'a', 'i', 'n', 'r', 's', '8'};
-
-// What must be equal for a continuation to be the same run: laws, stiffness, step, drive.
-std::uint64_t plan_fingerprint(const Scene& scene, const Plan& plan) {
-    std::ostringstream out;
-    write_value(out, plan.arms);
-    write_value(out, plan.integrator);
-    for (const auto* table : {&plan.grain, &plan.wall}) {
-        for (const PairPlan& p : *table) {
-            write_value(out, p.model.normal);
-            write_value(out, p.model.tangential);
-            write_value(out, p.model.rolls);
-            write_value(out, p.model.precision);
-            for (const double v :
-                 {p.loading_stiffness, p.unloading_stiffness, p.hardening, p.modulus, p.tangential_stiffness,
-                  p.tangential_ratio, p.gamma, p.friction, p.rolling_friction, p.normal_damping,
-                  p.tangential_damping, p.hertz_damping, p.attraction ? 1.0 : 0.0}) {
-                write_value(out, v);
-            }
-            write_vector(out, p.restitution_table);
-        }
-    }
-    write_value(out, plan.clock.step);
-    write_value(out, plan.clock.steps_per_period);
-    for (const double v :
-         {scene.drive.frequency, scene.drive.amplitude, scene.drive.phase, scene.drive.ramp}) {
-        write_value(out, v);
-    }
-    for (const double v : {scene.gravity.x(), scene.gravity.y(), scene.gravity.z()}) write_value(out, v);
-    const std::string bytes = out.str();
-    return XXH64(bytes.data(), bytes.size(), 0);
-}
+constexpr std::string_view kName = "grainrs";  // of every version, whose digit follows
+constexpr char kVersion = '9';
 
 template <class Grain, class Each>
 void transfer_grains(Grain& g, const Each& each) {
@@ -57,13 +31,65 @@ UserError cannot_start(const Scene& scene, const std::string& what) {
     return UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
 }
 
+UserError damaged(const Scene& scene) {
+    return cannot_start(scene, "is damaged; take another checkpoint");
+}
+
 std::string read_whole(const Scene& scene) {
     std::ifstream in(scene.start.file, std::ios::binary);
-    if (!in)
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(scene.start.file, failed);
+    std::string bytes(failed ? 0 : size, '\0');
+    if (failed || !in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
         throw cannot_start(scene, "cannot be read; give the checkpoint.grs or final.csv of an earlier run");
-    std::ostringstream bytes;
-    bytes << in.rdbuf();
-    return bytes.str();
+    return bytes;
+}
+
+// What follows name, version and checksum, once these are right.
+std::string_view body_of(const Scene& scene, std::string_view bytes) {
+    if (bytes.size() > kName.size() && bytes[kName.size()] != kVersion)
+        throw cannot_start(scene,
+                           "is a checkpoint of another version of grainreel; give the final.csv beside it");
+    std::uint64_t sum = 0;
+    constexpr std::size_t prologue = kName.size() + sizeof kVersion + sizeof sum;
+    if (bytes.size() <= prologue) throw damaged(scene);
+    std::memcpy(&sum, bytes.data() + prologue - sizeof sum, sizeof sum);
+    bytes.remove_prefix(prologue);
+    if (sum != XXH64(bytes.data(), bytes.size(), 0)) throw damaged(scene);
+    return bytes;
+}
+
+// As many values of each kind as there are grains.
+bool has_all_values(const Grains& g) {
+    const auto all = [&](const auto& values) { return values.size() == g.size(); };
+    return all(g.species) && all(g.place) && all(g.motion) && all(g.load) && all(g.wall_work) &&
+           (g.orientation.empty() || all(g.orientation)) && (g.derivatives.empty() || all(g.derivatives));
+}
+
+struct Saved {
+    std::string scene;
+    CheckpointHeader header;
+    bool fresh = false;
+    Grains grains;
+};
+
+Saved read_saved(const Scene& scene, Bytes& in) {
+    Saved saved;
+    std::vector<char> text;
+    std::int64_t step = 0;
+    std::uint8_t fresh = 0;
+    read_vector(in, text);
+    read_value(in, saved.header);
+    read_value(in, fresh);
+    read_value(in, step);
+    transfer_grains(saved.grains, Reading{in});
+    const CheckpointHeader& h = saved.header;
+    if (in.failed() || h.step != step || step < 0 || fresh > 1 || !std::isfinite(h.start_energy) ||
+        !h.wall_offset.allFinite() || !h.wall_velocity.allFinite() || !has_all_values(saved.grains))
+        throw damaged(scene);
+    saved.scene.assign(text.begin(), text.end());
+    saved.fresh = fresh == 1;
+    return saved;
 }
 
 }  // namespace
@@ -77,15 +103,18 @@ void write_state(std::ostream& out, std::int64_t step, const Grains& grains, con
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop) {
     std::ostringstream body;
-    write_value(body, plan_fingerprint(scene, plan));
+    const std::string kept = scene_to_keep(scene, plan);
+    write_vector(body, std::vector<char>(kept.begin(), kept.end()));
     write_value(body, header);
+    write_value(body, static_cast<std::uint8_t>(loop.is_fresh() ? 1 : 0));
     write_state(body, header.step, grains, loop);
     const std::string bytes = body.str();
     const std::uint64_t sum = XXH64(bytes.data(), bytes.size(), 0);
 
     const std::filesystem::path temporary = path.string() + ".part";
     std::ofstream file(temporary, std::ios::binary);
-    file.write(kMagic, sizeof kMagic);
+    file.write(kName.data(), static_cast<std::streamsize>(kName.size()));
+    write_value(file, kVersion);
     write_value(file, sum);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     file.close();
@@ -100,37 +129,47 @@ void save_checkpoint(const std::filesystem::path& path, const Scene& scene, cons
 
 bool is_checkpoint(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
-    char magic[sizeof kMagic] = {};
-    in.read(magic, sizeof magic);
-    return in && std::memcmp(magic, kMagic, sizeof magic) == 0;
+    std::string name(kName.size(), '\0');
+    in.read(name.data(), static_cast<std::streamsize>(name.size()));
+    return in && name == kName;
 }
 
-CheckpointHeader load_checkpoint(const Scene& scene, const Plan& plan, Grains& grains, StepLoop* loop) {
+CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
+                                          StepLoop& loop) {
     const std::string bytes = read_whole(scene);
-    constexpr std::size_t prologue = sizeof kMagic + sizeof(std::uint64_t);
-    std::uint64_t sum = 0;
-    if (bytes.size() > prologue) std::memcpy(&sum, bytes.data() + sizeof kMagic, sizeof sum);
-    if (bytes.size() <= prologue || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0 ||
-        sum != XXH64(bytes.data() + prologue, bytes.size() - prologue, 0)) {
-        throw cannot_start(scene, "is damaged or no checkpoint of this version; take another");
+    Bytes in(body_of(scene, bytes));
+    Saved saved = read_saved(scene, in);
+    check_same_future(saved.scene, scene, plan);
+    check_grains_possible(scene, saved.grains);
+    check_grains_match(scene, saved.grains);
+    check_masses(scene, saved.grains);
+    grains = std::move(saved.grains);
+    loop.load(in);
+    loop.set_fresh(saved.fresh);
+    if (in.failed() || in.left() > 0 || grains.derivatives.empty() == loop.carries_derivatives())
+        throw damaged(scene);
+    return saved.header;
+}
+
+Grains grains_from_checkpoint(const Scene& scene) {
+    const std::string bytes = read_whole(scene);
+    Bytes in(body_of(scene, bytes));
+    const Saved saved = read_saved(scene, in);
+    check_grains_possible(scene, saved.grains);
+    Grains grains;
+    grains.reserve(saved.grains.size());
+    for (std::size_t i = 0; i < saved.grains.size(); ++i) {
+        const Place& place = saved.grains.place[i];
+        const Motion& motion = saved.grains.motion[i];
+        const std::int32_t species = saved.grains.species[i];
+        // The container starts from rest position and at rest; its grains come along.
+        grains.add(saved.grains.id[i], species, place.position - saved.header.wall_offset, place.radius,
+                   scene.species[species].density);
+        grains.motion.back().velocity = motion.velocity - saved.header.wall_velocity;
+        grains.motion.back().spin = motion.spin;
     }
-    std::istringstream in(bytes.substr(prologue));
-    std::uint64_t fingerprint = 0;
-    CheckpointHeader header;
-    std::int64_t step = 0;
-    read_value(in, fingerprint);
-    if (loop && fingerprint != plan_fingerprint(scene, plan)) {
-        throw cannot_start(
-            scene,
-            "was made with other laws, stiffness, step or drive; "
-            "use the same scene, or set start.keep_clock = false to start anew from its grains");
-    }
-    read_value(in, header);
-    read_value(in, step);
-    transfer_grains(grains, Reading{in});
-    if (loop) loop->load(in);
-    if (!in) throw cannot_start(scene, "is damaged; take another checkpoint");
-    return header;
+    grains.orientation = saved.grains.orientation;
+    return grains;
 }
 
 }  // namespace grainreel

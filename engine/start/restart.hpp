@@ -18,18 +18,24 @@ struct CheckpointHeader {
     Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
 };
 
-// Everything that decides the future, to a temporary name, then renamed. Throws RunError when it cannot be
-// written.
+// Everything that decides the future, the scene among it, to a temporary name, then renamed. Throws RunError
+// when it cannot be written.
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop);
 
 // The bytes behind save_checkpoint, for hashes.
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop);
 
-// Reads grains and, for bit-identical continuation, the loop's lists and histories. Throws UserError, at the
-// scene's `start.file`, when the file is missing, damaged, or (with keep_clock) of another plan.
-CheckpointHeader load_checkpoint(const Scene& scene, const Plan& plan, Grains& grains, StepLoop* loop);
-
+// Whether it is one, of this version or another.
 bool is_checkpoint(const std::filesystem::path& path);
+
+// Both throw UserError, at the scene's `start.file` or at the key that differs, when the file is missing,
+// damaged, of another version, or does not fit the scene; nothing in it is believed.
+//
+// To go on bit by bit: grains, and the loop's lists and histories. The loop is that of these grains.
+CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
+                                          StepLoop& loop);
+// To start anew: where the grains are in the container at rest, and how fast; their masses are the scene's.
+Grains grains_from_checkpoint(const Scene& scene);
 
 }  // namespace grainreel

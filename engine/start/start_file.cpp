@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/error.hpp"
 #include "engine/start/grain_table.hpp"
@@ -30,10 +31,8 @@ Grains grains_from_table(const Scene& scene) {
     Grains grains;
     grains.reserve(frame.id.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        const std::size_t s = static_cast<std::size_t>(frame.species[i]);
-        if (s >= scene.species.size())
-            fail(scene, fmt::format("has grains of species {}, but the scene lists only {}; list them all", s,
-                                    scene.species.size()));
+        // A species that the scene does not have is refused later; its density does not matter.
+        const std::size_t s = std::min<std::size_t>(frame.species[i], scene.species.size() - 1);
         grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
                    scene.species[s].density);
         grains.motion.back().velocity = frame.velocity[i];
@@ -52,6 +51,51 @@ Grains listed_grains(const Scene& scene) {
         grains.motion.back().spin = g.spin;
     }
     return grains;
+}
+
+void check_grains_possible(const Scene& scene, const Grains& grains) {
+    constexpr double kFarthest = 1e9;  // radii: from there on a double is too coarse for overlaps
+    constexpr double kUnit = 1e-3;     // how far a quaternion may be from unit length
+    std::vector<bool> seen(grains.size());
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const std::int32_t id = grains.id[i];
+        const auto reject = [&](const char* what) {
+            fail(scene, fmt::format("has grain {}, which {}; take the file of another run", id, what));
+        };
+        if (id < 0 || id >= std::ssize(grains.id))
+            fail(scene,
+                 fmt::format("has a grain of number {}, but its {} grains must have the numbers from 0 to "
+                             "{}; number them so",
+                             id, grains.size(), grains.size() - 1));
+        if (seen[id]) reject("is there twice");
+        seen[id] = true;
+        const std::int32_t species = grains.species[i];
+        if (species < 0 || species >= std::ssize(scene.species))
+            fail(scene, fmt::format("has grains of species {}, but the scene lists only {}; list them all",
+                                    species, scene.species.size()));
+        const auto& [position, radius] = grains.place[i];
+        const Motion& motion = grains.motion[i];
+        if (!std::isfinite(radius) || radius <= 0) reject("has no radius");
+        if (!position.allFinite() || !motion.velocity.allFinite() || !motion.spin.allFinite())
+            reject("is nowhere, or infinitely fast");
+        if (position.cwiseAbs().maxCoeff() > kFarthest * radius)
+            reject("is so far out that its place is not exact any more");
+        if (!grains.orientation.empty() && !(std::abs(grains.orientation[i].norm() - 1) < kUnit))
+            reject("has an orientation that is no unit quaternion");
+    }
+}
+
+void check_masses(const Scene& scene, const Grains& grains) {
+    Grains one;
+    one.add(0, 0, Vec3::Zero(), 1, 1);
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        one.set_radius(0, grains.place[i].radius, scene.species[grains.species[i]].density);
+        if (one.motion[0].inverse_mass != grains.motion[i].inverse_mass ||
+            one.motion[0].inverse_inertia != grains.motion[i].inverse_inertia)
+            fail(scene,
+                 fmt::format("has grain {} with another mass than its species; take another checkpoint",
+                             grains.id[i]));
+    }
 }
 
 void check_grains_match(const Scene& scene, const Grains& grains) {
@@ -89,15 +133,21 @@ void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const 
     }
 }
 
-void check_grains_clear(const Scene& scene, const Grains& grains, const StepLoop& loop) {
+void check_grains_clear(const Scene& scene, const std::vector<Face>& faces, const Grains& grains,
+                        const StepLoop& loop) {
+    const bool listed = scene.start.method == Start::Method::grains;
     loop.visit_contacts(-1, [&](const ContactView& c) {
-        if (c.second < 0 || c.overlap <= kTooDeep * c.smaller_radius) return;
-        fail(scene,
-             fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; {}",
-                         std::min(grains.id[c.first], grains.id[c.second]),
-                         std::max(grains.id[c.first], grains.id[c.second]), c.overlap / c.smaller_radius,
-                         scene.start.method == Start::Method::grains ? "move one of them"
-                                                                     : "take the file of another run"));
+        if (c.overlap <= kTooDeep * c.smaller_radius) return;
+        const double share = c.overlap / c.smaller_radius;
+        if (c.second < 0)
+            fail(scene, fmt::format("has grain {} overlapping the {} by {:.2f} of its radius; {}",
+                                    grains.id[c.first], faces[-1 - c.second].name, share,
+                                    listed ? "move one of the two"
+                                           : "give the container of the run the file comes from"));
+        fail(scene, fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; {}",
+                                std::min(grains.id[c.first], grains.id[c.second]),
+                                std::max(grains.id[c.first], grains.id[c.second]), share,
+                                listed ? "move one of them" : "take the file of another run"));
     });
 }
 

@@ -17,13 +17,21 @@ Grains grains_from_table(const Scene& scene);
 // Those of [[grain]], numbered as listed.
 Grains listed_grains(const Scene& scene);
 
+// Each a grain that there can be: numbered from 0 without gaps, of a species of the scene, with finite
+// values, not so far out that places there are coarse, turned by a unit quaternion if at all.
+void check_grains_possible(const Scene& scene, const Grains& grains);
+
 // As many grains of each species as the scene says, and as large.
 void check_grains_match(const Scene& scene, const Grains& grains);
+
+// With the masses that their species has.
+void check_masses(const Scene& scene, const Grains& grains);
 
 // All inside the container at rest.
 void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const Grains& grains);
 
-// No two overlap by more than a third of a radius. `loop` has been restarted.
-void check_grains_clear(const Scene& scene, const Grains& grains, const StepLoop& loop);
+// None overlaps another, or a wall, by more than a third of a radius. `loop` has been restarted.
+void check_grains_clear(const Scene& scene, const std::vector<Face>& faces, const Grains& grains,
+                        const StepLoop& loop);
 
 }  // namespace grainreel

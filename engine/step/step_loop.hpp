@@ -27,6 +27,8 @@
 
 namespace grainreel {
 
+class Bytes;
+
 // The surroundings of the grains, which the loop only reads.
 struct Surroundings {
     std::vector<Face> faces;
@@ -70,7 +72,14 @@ class StepLoop {
 
     // Lists and histories, bit by bit, for checkpoints and hashes. Grains are saved by their owner.
     void save(std::ostream& out) const;
-    void load(std::istream& in);
+    // For grains that are in order themselves. Makes the reading fail where what it reads is not such as the
+    // loop makes: no index is believed.
+    void load(Bytes& in);
+    // Whether no step has been made since restart(); not among what is saved.
+    bool is_fresh() const { return fresh_; }
+    void set_fresh(bool fresh) { fresh_ = fresh; }
+    // Whether grains carry derivatives along from step to step.
+    bool carries_derivatives() const { return scheme_.corrects && !fresh_; }
 
     std::int64_t rebuilds() const { return rebuilds_; }
     std::int64_t refreshes() const { return refreshes_; }
@@ -148,7 +157,8 @@ class StepLoop {
     double farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const;
     void set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame, double step) const;
     void rebuild(int member, const Pose& pose, double time, double lasted);
-    static constexpr double kLastsWell = 1000;  // steps, of lists whose skin is right
+    static constexpr double kLastsWell = 1000;                  // steps, of lists whose skin is right
+    static constexpr double kLeastSkin = 0.5, kMostSkin = 2.8;  // over that of the surroundings
     double skin_after(double lasted) const;
     void join_lists(const TeamMember& me);
     void note_listing(const Pose& pose, double time);
@@ -160,6 +170,7 @@ class StepLoop {
     ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
                      const ForceChunk& force, const EnergyChunk& energy) const;
     std::vector<KeptContacts> all_kept() const;
+    bool is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const;
     template <class Loop, class Kept, class ReachType, class Each>
     static void transfer(Loop& loop, Kept& kept, std::int32_t& steps, ReachType& reach, const Each& each);
 

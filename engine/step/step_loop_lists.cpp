@@ -65,10 +65,10 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
 // With a period the skin stays: pairs must not meet twice.
 double StepLoop::skin_after(double lasted) const {
     constexpr double kShort = 400, kLong = 1500;  // steps
-    constexpr double kFactor = 1.25, kLeast = 0.5, kMost = 2.8;
+    constexpr double kFactor = 1.25;
     if (around_.period > 0) return skin_;
     const double factor = lasted < kShort ? kFactor : lasted > kLong ? 1 / kFactor : 1;
-    return std::clamp(factor * skin_, kLeast * around_.skin, kMost * around_.skin);
+    return std::clamp(factor * skin_, kLeastSkin * around_.skin, kMostSkin * around_.skin);
 }
 
 // Each member brings its own.

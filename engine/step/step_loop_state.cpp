@@ -1,9 +1,10 @@
 // What the step loop shows of its contacts, and what it saves.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
-#include <tuple>
 
 #include "engine/base/binary.hpp"
+#include "engine/step/saved_lists.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
@@ -63,10 +64,8 @@ namespace {
 KeptContacts in_order(const KeptContacts& kept, int numbers) {
     std::vector<std::int32_t> order(kept.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](std::int32_t c) {
-        return std::tuple(ContactTable::began(kept.tag[c]), kept.first[c], kept.second[c]);
-    };
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
+    std::sort(order.begin(), order.end(),
+              [&](auto a, auto b) { return order_of(kept, a) < order_of(kept, b); });
     KeptContacts sorted;
     for (const std::int32_t c : order) {
         sorted.first.push_back(kept.first[c]);
@@ -110,12 +109,13 @@ void StepLoop::save(std::ostream& out) const {
     transfer(*this, kept, steps, members_[0].reach, Writing{out});
 }
 
-void StepLoop::load(std::istream& in) {
+void StepLoop::load(Bytes& in) {
     std::vector<KeptContacts> kept(rules_.groups.size());
     Reach reach;
     std::int32_t steps = 0;
     transfer(*this, kept, steps, reach, Reading{in});
-    if (!in) return;  // the caller says so
+    if (!is_sound(kept, steps, reach)) in.fail();
+    if (in.failed()) return;  // the caller says so
     fresh_ = false;
     if (team_.size() > 1) contacts_.assign(grains_.size(), 0);
     share_out();
@@ -132,6 +132,32 @@ void StepLoop::load(std::istream& in) {
         mine.contacts.list_candidates(rules_, grains_, lists_, around_.faces, reach.pose, reach.skin);
         if (team_.size() > 1) mine.contacts.list_foreign(rules_, grains_, share_);
     }
+}
+
+namespace {
+
+bool is_finite(const Pose& pose) {
+    return pose.offset.allFinite() && pose.velocity.allFinite() && std::isfinite(pose.time);
+}
+
+}  // namespace
+
+// Of what load() read: whether the loop could have made it, with these grains and faces.
+bool StepLoop::is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const {
+    constexpr std::int32_t kMostSteps = 1'000'000'000;  // without a refresh, even of a bed at rest
+    const auto count = static_cast<std::int32_t>(grains_.size());
+    const auto faces = static_cast<std::int32_t>(around_.faces.size());
+    const auto finite = [](const auto& v) { return v.allFinite(); };
+    bool sound = steps >= 0 && steps <= kMostSteps && are_sound(lists_, count, faces) &&
+                 std::ssize(listed_at_) == count && std::isfinite(listed_step_) && is_finite(listed_pose_) &&
+                 listed_velocity_.allFinite() && skin_ >= kLeastSkin * around_.skin &&
+                 skin_ <= kMostSkin * around_.skin && reach.skin >= 0 && reach.skin <= skin_ &&
+                 reach.moved >= 0 && std::isfinite(reach.moved) && std::isfinite(reach.fastest) &&
+                 reach.parted >= 0 && reach.drift.allFinite() && is_finite(reach.pose) &&
+                 std::all_of(listed_at_.begin(), listed_at_.end(), finite);
+    for (std::size_t g = 0; sound && g < kept.size(); ++g)
+        sound = are_sound(kept[g], rules_, g, grains_, faces, steps);
+    return sound;
 }
 
 }  // namespace grainreel

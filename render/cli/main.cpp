@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/run/simulation.hpp"
 #include "engine/scene/plan.hpp"
 #include "engine/scene/reader.hpp"
 #include "render/cli/bench.hpp"
@@ -22,7 +23,9 @@ constexpr int run_failed = 1, user_mistake = 2;
 
 int check(const grainreel::Options& options) {
     const grainreel::Scene scene = grainreel::read_scene(options.scene, options.sets);
-    grainreel::print_plan(scene, grainreel::make_plan(scene), std::cout);
+    const grainreel::Plan plan = grainreel::make_plan(scene);
+    grainreel::check_start(scene, plan);
+    grainreel::print_plan(scene, plan, std::cout);
     if (!std::cout.flush()) throw grainreel::RunError("the plan cannot be written to stdout");
     return 0;
 }

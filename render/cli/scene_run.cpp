@@ -32,11 +32,6 @@ bool SceneRun::pack(const PackingWatcher& watcher) {
     packing_ = simulation_.pack(watcher);
     if (!packing_.finished) return false;
     first_step_ = simulation_.step();
-    if (first_step_ >= plan_.steps) {
-        throw UserError(
-            fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
-                        scene_.where("run.duration"), first_step_, plan_.steps));
-    }
     packed_ = true;
     return true;
 }

@@ -37,7 +37,7 @@ class SceneRun {
 
     // Writes scene.toml there; the other files follow with start().
     void use_folder(const std::filesystem::path& folder);
-    // False when the watcher stopped it. Throws UserError when the run would end before it begins.
+    // False when the watcher stopped it.
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
     // After packing: opens the files. shots: what next() is to stop for; segments: of the film that they

@@ -311,7 +311,8 @@ TEST(Checkpoint, RefusesAnotherPlanAndADamagedFile) {
         return std::string("accepted");
     };
     EXPECT_EQ(message(scene), "accepted");
-    EXPECT_NE(message(scene_of({"contact.friction=0.1"})).find("was made with other laws"),
+    EXPECT_NE(message(scene_of({"contact.friction=0.1"}))
+                  .find("friction' of [\"small\", \"small\"] is 0.1, but it was 0.4"),
               std::string::npos);
     std::filesystem::resize_file(file, std::filesystem::file_size(file) - 8);
     EXPECT_NE(message(scene).find("is damaged"), std::string::npos);

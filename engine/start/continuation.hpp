@@ -1,0 +1,34 @@
+// A run that goes on where another stopped, with its clock, must be the same run: every value that decides
+// its future must be what it was.
+//
+// A checkpoint holds the scene as it was used, as text, and that is compared key by key. Which keys may
+// change is a short list of those that decide nothing; a new key decides until somebody adds it there.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/plan.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// Whether a run goes on differently when this key ("species[1].count") differs.
+bool decides_future(std::string_view key);
+
+// The scene for a checkpoint: every value as it was used; how the grains came to be is left out.
+std::string scene_to_keep(const Scene& scene, const Plan& plan);
+
+struct KeyDifference {
+    std::string key;
+    std::string then, now;  // as TOML; empty: not there
+};
+// Between two texts of the scene's writer, only keys that decide: what somebody wrote before what the plan
+// chose.
+std::vector<KeyDifference> deciding_differences(std::string_view then, std::string_view now);
+
+// Throws UserError, at the key that differs, when a run of the kept scene cannot go on in this one.
+void check_same_future(const std::string& kept, const Scene& scene, const Plan& plan);
+
+}  // namespace grainreel

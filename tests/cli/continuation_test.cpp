@@ -1,0 +1,71 @@
+// Runs that go on from another's checkpoint, as the user starts them: check and movie agree, a refusal leaves
+// nothing behind.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+
+class ContinuedMovie : public testing::Test {
+  protected:
+    void SetUp() override {
+        write_small_scene(here.path());
+        const Ended first = run({"movie", "fifty.toml", "--no-film", "--out", "run", "--duration", "0.05 s"});
+        ASSERT_EQ(first.status, 0) << first.err;
+    }
+    Ended run(const std::vector<std::string>& words) const { return run_program(words, {here.path(), {}}); }
+    Ended go_on(const std::string& verb, const std::vector<std::string>& more) const {
+        std::vector<std::string> words = {verb,
+                                          "run/scene.toml",
+                                          "--set",
+                                          "start.method=file",
+                                          "--set",
+                                          "start.file=checkpoint.grs",
+                                          "--set",
+                                          "start.keep_clock=true",
+                                          "--duration",
+                                          "0.1 s"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    }
+    std::string state_hash(const char* folder) const {
+        return nlohmann::json::parse(text_of(here / folder / "run.json"))["engine"]["state_hash"]
+            .get<std::string>();
+    }
+
+    TemporaryFolder here;
+};
+
+TEST_F(ContinuedMovie, IsTheSameRunAlsoInItsOwnFolder) {
+    const Ended whole = run({"movie", "run/scene.toml", "--no-film", "--out", "whole", "--duration", "0.1 s"});
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    EXPECT_EQ(go_on("check", {}).status, 0);
+    const Ended on = go_on("movie", {"--no-film", "--out", "run", "--force"});
+    ASSERT_EQ(on.status, 0) << on.err;
+    EXPECT_EQ(state_hash("run"), state_hash("whole"));
+}
+
+TEST_F(ContinuedMovie, CheckRefusesWhatMovieRefuses) {
+    const std::vector<std::string> change = {"--set", "drive.direction=[1, 0, 0]"};
+    const Ended check = go_on("check", change);
+    EXPECT_EQ(check.status, 2);
+    EXPECT_EQ(check.out, "");
+    EXPECT_THAT(check.err, HasSubstr("error: --set drive.direction: 'drive.direction' is [1.0, 0.0, 0.0], but"));
+    const Ended movie = go_on("movie", {change[0], change[1], "--out", "new"});
+    EXPECT_EQ(movie.status, 2);
+    EXPECT_EQ(movie.err, check.err);
+    EXPECT_FALSE(fs::exists(here / "new"));
+}
+
+}  // namespace
+}  // namespace grainreel

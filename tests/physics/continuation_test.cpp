@@ -1,0 +1,348 @@
+// Runs that go on from a checkpoint: only in the scene that it is from, but for what decides nothing; and a
+// checkpoint is believed in nothing, whatever its checksum says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <xxhash.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/base/error.hpp"
+#include "engine/base/random.hpp"
+#include "engine/run/simulation.hpp"
+#include "engine/scene/keys.hpp"
+#include "engine/scene/reader.hpp"
+#include "engine/scene/writer.hpp"
+#include "engine/start/continuation.hpp"
+#include "engine/start/grain_table.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+#include "tests/physics/world.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Continuation : public testing::Test {
+  protected:
+    static Scene scene_of(std::vector<std::string> sets = {}, const std::string& more = "") {
+        sets.insert(sets.begin(), {kStiffness, "start.settle_limit=0.02 s", "run.threads=1"});
+        return read_scene_text(test::small_scene_text + more, "fifty.toml", with_tested_precision(sets));
+    }
+    // The same, from the end of the first run.
+    Scene next_of(std::vector<std::string> sets = {}, const std::string& more = "", bool keep_clock = true,
+                  const char* file = "first.grs") const {
+        sets.insert(sets.begin(), {kStiffness, "start.method=file", "start.file=" + (here / file).string(),
+                                   keep_clock ? "start.keep_clock=true" : "start.keep_clock=false"});
+        return read_scene_text(test::small_scene_text + more, "fifty.toml", with_tested_precision(sets));
+    }
+    // The plan would choose another for grains that fall than for those of a file.
+    static constexpr const char* kStiffness = "contact.stiffness=700 N/m";
+
+    static std::int64_t steps_of(const Scene& scene) { return make_plan(scene).clock.steps_per_period; }
+
+    // A period of the small scene.
+    std::string first(const Scene& scene) const {
+        Simulation run(scene, make_plan(scene), 1);
+        run.pack();
+        run.advance(steps_of(scene));
+        run.save_checkpoint(here / "first.grs");
+        write_grain_table(here / "final.csv", run.frame());
+        return test::text_of(here / "first.grs");
+    }
+    static std::string refusal(const Scene& scene) {
+        try {
+            Simulation run(scene, make_plan(scene), 1);
+            run.pack();
+            run.advance(run.step() + 20);
+            return "accepted";
+        } catch (const UserError& mistake) {
+            return mistake.what();
+        }
+    }
+
+    test::TemporaryFolder here;
+};
+
+struct Change {
+    const char* assignment;
+    const char* says;  // in the message; "accepted" where the run goes on
+};
+
+TEST_F(Continuation, GoesOnOnlyInTheSceneItIsFrom) {
+    first(scene_of());
+    const Change changes[] = {
+        {"title=Other", "accepted"},
+        {"film.rotation=true", "accepted"},
+        {"film.colour.by=speed", "accepted"},
+        {"film.size=320x240", "accepted"},
+        {"output.orientation=true", "accepted"},
+        {"output.trajectory=false", "accepted"},
+        {"output.measures_interval=1 ms", "accepted"},
+        {"run.duration=0.3 s", "accepted"},
+        {"run.threads=2", "accepted"},
+        {"species.small.colour=green", "accepted"},
+        {"run.duration=0.01 s", "--set run.duration: the start is at step"},
+        {"run.seed=2", "--set run.seed: 'run.seed' is 2, but it was 1 in the run"},
+        {"gravity=9.7", "--set gravity: 'gravity' is [0.0, 0.0, -9.7], but it was [0.0, 0.0, -9.81]"},
+        {"species.small.density=2600", "'species[0].density' is 2600.0, but it was 2"},
+        {"species.big.diameter=6.5 mm", "'species[1].diameter' is 0.0065, but it was 0.006"},
+        {"species.small.count=41", "'species[0].count' is 41, but it was 40"},
+        {"species.big.name=large", "'species[1].name' is \"large\", but it was \"big\""},
+        {"container.width=31 mm", "'container.width' is 0.031, but it was 0.03"},
+        {"container.top=open", "'container.top' is \"open\", but it was \"lid\""},
+        {"container.depth=21 mm", "'container.depth' is 0.021, but it was 0.02"},
+        {"contact.friction=0.1",
+         "--set contact.friction: 'contact.pair[0].friction' of [\"small\", \"small\"] is 0.1, but it was "
+         "0.4"},
+        {"contact.wall.friction=0.1",
+         "--set contact.wall.friction: 'contact.pair[2].friction' of [\"small\", \"wall\"] is 0.1"},
+        {"contact.law=spring-dashpot",
+         "--set contact.law: 'contact.pair[0].law' of [\"small\", \"small\"] is \"spring-dashpot\""},
+        {"contact.arms=radius", "'contact.arms' is \"radius\", but it was \"contact-plane\""},
+        {"drive.direction=[1, 0, 0]",
+         "--set drive.direction: 'drive.direction' is [1.0, 0.0, 0.0], but it was [0.0, 0.0, 1.0]"},
+        {"drive.g_level=2.1", "--set drive.g_level: 'drive.amplitude' is "},
+        {"drive.phase=0.25", "'drive.phase' is 0.25, but it was 0.0"},
+        {"drive.moves=floor", "'drive.moves' is \"floor\", but it was \"container\""},
+        {"run.overlap=0.04", "--set run.overlap: 'run.overlap' is 0.04, but it was 0.05"},
+        {"run.step=1 us", "--set run.step: 'run.step' is "},
+        {"run.integrator=gear", "'run.integrator' is \"gear\", but it was \"velocity-verlet\""},
+    };
+    for (const auto& [assignment, says] : changes)
+        EXPECT_THAT(refusal(next_of({assignment})), HasSubstr(says)) << assignment;
+    EXPECT_THAT(refusal(next_of({}, "[[wall]]\npoint = [0, 0, \"5 mm\"]\nnormal = [0, 0, 1]\n")),
+                HasSubstr(":32:1: 'wall[0].point' is [0.0, 0.0, 0.005], but it was not there in the run"));
+}
+
+// Without a stiffness of its own the scene of a file gets another than the one whose grains fell.
+TEST_F(Continuation, WhatThePlanChoseIsInTheSceneOfTheRun) {
+    const auto read = [](const std::string& text, const std::vector<std::string>& sets) {
+        return read_scene_text(text, "fifty.toml", with_tested_precision(sets));
+    };
+    const Scene scene = read(test::small_scene_text, {"start.settle_limit=0.02 s"});
+    first(scene);
+    const std::vector<std::string> sets = {"start.method=file", "start.file=" + (here / "first.grs").string(),
+                                           "start.keep_clock=true"};
+    EXPECT_THAT(refusal(read(test::small_scene_text, sets)),
+                HasSubstr("take the scene.toml of that run, which has what its plan chose"));
+    EXPECT_EQ(refusal(read(resolved_scene(scene, make_plan(scene)), sets)), "accepted");
+}
+
+TEST_F(Continuation, ContainersOfOtherShapesAreRefused) {
+    first(scene_of());
+    const auto with_container = [&](const std::string& lines) {
+        std::string text = test::small_scene_text;
+        const auto at = text.find("shape = \"box\""), end = text.find("[drive]");
+        text.replace(at, end - at, lines);
+        text += "[start]\nmethod = \"file\"\nfile = \"" + (here / "first.grs").string() +
+                "\"\nkeep_clock = true\n";
+        return refusal(read_scene_text(text, "fifty.toml", with_tested_precision({kStiffness})));
+    };
+    const std::string says = "'container.shape' is \"";
+    EXPECT_THAT(with_container("shape = \"none\"\n"), HasSubstr(says + "none\", but it was \"box\""));
+    EXPECT_THAT(with_container("shape = \"cylinder\"\ndiameter = \"40 mm\"\nheight = \"40 mm\"\n"),
+                HasSubstr(says + "cylinder\", but it was \"box\""));
+}
+
+// Every key of the list decides or is written down as not deciding: what the writer leaves out could change
+// unseen.
+TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
+    const std::string walton = test::small_scene_text;
+    std::string all = scene_to_keep(scene_of(), make_plan(scene_of()));
+    const auto take = [&](const std::string& text) {
+        const Scene scene = read_scene_text(text, "all.toml");
+        all += scene_to_keep(scene, make_plan(scene));
+    };
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string text = walton;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    take(changed(
+        "shape = \"box\"\nwidth = \"30 mm\"\n",
+        "shape = \"wedge\"\nhalf_angle = \"20 deg\"\nslant_height = \"10 mm\"\nhalf_width = \"20 mm\"\n"));
+    take(changed("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\n",
+                 "shape = \"cylinder\"\ndiameter = \"40 mm\"\n"));
+    take(changed("restitution = 0.7", "law = \"hertz\"\nrestitution = 0.7"));
+    take(changed("restitution = 0.7", "restitution = 0.7\nrestitution_speed = 1"));
+    take(changed("restitution = 0.7", "restitution_table = [[0.1, 0.9], [1, 0.8]]"));
+    take(changed("restitution = 0.7",
+                 "law = \"spring-dashpot\"\nnormal_damping = 100\ntangential_damping = 50"));
+    take(walton + "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n");
+
+    const auto compared = deciding_differences("", all);
+    const auto is_compared = [&](const std::string& key) {
+        return std::any_of(compared.begin(), compared.end(), [&](const KeyDifference& d) {
+            return find_key(d.key) != nullptr && find_key(d.key)->path == key;
+        });
+    };
+    // What the plan or the reader turns into other keys.
+    const std::vector<std::string> turned = {"drive.g_level", "species[].mass", "run.steps_per_contact"};
+    for (const Key& key : scene_keys()) {
+        if (!decides_future(key.path) || key.path.starts_with("species[].diameter.")) continue;
+        if (std::find(turned.begin(), turned.end(), key.path) != turned.end()) continue;
+        const std::string name = key.path.substr(key.path.rfind('.') + 1);
+        const bool of_pair = find_key("contact.pair[]." + name) != nullptr;
+        const bool general = key.path == "contact." + name || key.path == "contact.wall." + name;
+        EXPECT_TRUE(is_compared(of_pair && general ? "contact.pair[]." + name : key.path)) << key.path;
+    }
+}
+
+TEST_F(Continuation, RotationMayBeginOrEnd) {
+    first(scene_of());
+    Scene scene = next_of({"film.rotation=true"});
+    Simulation turning(scene, make_plan(scene), 1);
+    const std::int64_t end = turning.step() + 200;
+    turning.advance(end);
+    EXPECT_EQ(turning.frame().orientation.size(), turning.grains());
+    turning.save_checkpoint(here / "turning.grs");
+    scene = next_of({}, "", true, "turning.grs");
+    Simulation again(scene, make_plan(scene), 2);
+    EXPECT_TRUE(again.frame().orientation.empty());
+    scene = next_of();
+    Simulation straight(scene, make_plan(scene), 1);
+    straight.advance(end + 300);
+    again.advance(end + 300);
+    EXPECT_EQ(again.state_hash(), straight.state_hash());
+}
+
+// A checkpoint of a run whose first step was still to come, with a drive that starts at once.
+TEST_F(Continuation, FromBeforeTheFirstStep) {
+    for (const char* integrator : {"velocity-verlet", "gear"}) {
+        first(scene_of());
+        const std::vector<std::string> sets = {"drive.ramp=0", "drive.phase=0.25",
+                                               std::string("run.integrator=") + integrator};
+        Scene scene = next_of(sets, "", false);
+        Simulation whole(scene, make_plan(scene), 1);
+        whole.pack();
+        whole.save_checkpoint(here / "start.grs");
+        scene = next_of(sets, "", true, "start.grs");
+        Simulation next(scene, make_plan(scene), 2);
+        next.pack();
+        whole.advance(300);
+        next.advance(300);
+        EXPECT_EQ(next.state_hash(), whole.state_hash()) << integrator;
+    }
+}
+
+TEST_F(Continuation, AnewTheMassesAreThoseOfTheScene) {
+    first(scene_of());
+    for (const char* file : {"first.grs", "final.csv"}) {
+        const Scene dense =
+            next_of({"species.small.density=5000", "species.big.density=5000"}, "", false, file);
+        const Scene same = next_of({}, "", false, file);
+        Simulation heavy(dense, make_plan(dense), 1), light(same, make_plan(same), 1);
+        heavy.pack(), light.pack();
+        EXPECT_NEAR(heavy.measures().kinetic / light.measures().kinetic, 2, 1e-9) << file;
+    }
+}
+
+TEST_F(Continuation, AnewGrainsMustFitTheScene) {
+    first(scene_of());
+    const auto plane = [](const char* height) {
+        return std::string("[[wall]]\npoint = [0, 0, \"") + height + "\"]\nnormal = [0, 0, 1]\n";
+    };
+    for (const char* file : {"first.grs", "final.csv"}) {
+        const auto anew = [&](const std::vector<std::string>& sets, const std::string& more = "") {
+            return refusal(next_of(sets, more, false, file));
+        };
+        EXPECT_EQ(anew({}), "accepted");
+        EXPECT_EQ(anew({"film.rotation=true"}), "accepted");
+        EXPECT_THAT(anew({"container.width=20 mm"}), HasSubstr("lies outside the container, beyond the "));
+        EXPECT_THAT(anew({}, plane("8 mm")), HasSubstr("lies outside the container, beyond the wall 1"));
+        EXPECT_THAT(anew({}, plane("1.2 mm")), HasSubstr("overlapping the wall 1 by 0."));
+        EXPECT_THAT(anew({"species.small.count=39"}), HasSubstr("has 40 grains of \"small\""));
+        EXPECT_THAT(anew({"species.big.diameter=5 mm"}), HasSubstr("with a diameter of 0.006 m"));
+    }
+    Scene one = scene_of({}, "");
+    one = next_of({}, "", false);
+    one.species.pop_back();
+    EXPECT_THAT(refusal(one), HasSubstr("has grains of species 1, but the scene lists only 1"));
+}
+
+TEST_F(Continuation, TablesAreNotBelieved) {
+    first(scene_of());
+    const std::string table = test::text_of(here / "final.csv");
+    const auto with_last_row = [&](const std::string& row) {
+        const auto at = table.rfind('\n', table.size() - 2) + 1;
+        test::write_text(here / "final.csv", table.substr(0, at) + row + "\n");
+        return refusal(next_of({}, "", false, "final.csv"));
+    };
+    const std::string still = ",0,0,0,0,0,0";
+    EXPECT_THAT(with_last_row("50,1,0.003,0,0,0.03" + still), HasSubstr("has a grain of number 50"));
+    EXPECT_THAT(with_last_row("49,2,0.003,0,0,0.03" + still), HasSubstr("has grains of species 2"));
+    EXPECT_THAT(with_last_row("49,1,0.003,0,0,1e300" + still), HasSubstr("so far out"));
+}
+
+// A checkpoint whose checksum is right, though what it holds is not.
+class ForgedCheckpoint : public Continuation {
+  protected:
+    static constexpr std::size_t kBody = 16;  // name and version, checksum
+
+    void forge(std::string bytes) const {
+        const std::uint64_t sum = XXH64(bytes.data() + kBody, bytes.size() - kBody, 0);
+        std::memcpy(bytes.data() + 8, &sum, sizeof sum);
+        test::write_text(here / "first.grs", bytes);
+    }
+};
+
+// Whatever is in it, the answer is a message or a run; never an access out of range, which sanitizers see.
+TEST_F(ForgedCheckpoint, NeverCrashes) {
+    const std::string good = first(scene_of());
+    const Scene keeps = next_of(), anew = next_of({}, "", false);
+    const Plan plan = make_plan(keeps);
+    Random random(1, Stream::centres);
+    int refused = 0;
+    constexpr int kForged = 600;
+    for (int k = 0; k < kForged; ++k) {
+        std::string bytes = good;
+        const std::int32_t values[] = {-1, 50, 51, 1 << 20, 0x7fffffff, -0x7fffffff - 1, 0x7ff00000, k};
+        const std::int32_t value = values[static_cast<int>(random.between(0, 8))];
+        const std::size_t body = good.size() - kBody - sizeof value;
+        const auto at =
+            kBody + static_cast<std::size_t>(random.between(0, 1) * static_cast<double>(body)) / 4 * 4;
+        std::memcpy(bytes.data() + at, &value, sizeof value);
+        if (k % 16 == 0) bytes.resize(at);
+        forge(bytes);
+        try {
+            Simulation run(k % 8 == 1 ? anew : keeps, plan, 1 + k % 2);
+            run.pack();
+            run.advance(run.step() + 3);
+        } catch (const UserError& mistake) {
+            EXPECT_THAT(mistake.what(), HasSubstr("first.grs"));
+            ++refused;
+        } catch (const RunError&) {
+        }
+    }
+    EXPECT_GT(refused, kForged / 8);
+}
+
+TEST_F(ForgedCheckpoint, OfAnotherVersionIsRefused) {
+    std::string bytes = first(scene_of());
+    bytes[7] = '8';
+    forge(bytes);
+    for (const bool keep_clock : {true, false})
+        EXPECT_THAT(
+            refusal(next_of({}, "", keep_clock)),
+            HasSubstr("is a checkpoint of another version of grainreel; give the final.csv beside it"));
+}
+
+TEST_F(ForgedCheckpoint, WithAnotherMassIsRefused) {
+    const Scene scene = scene_of();
+    const std::string good = first(scene);
+    Grains one;
+    one.add(0, 0, Vec3::Zero(), 0.5 * scene.species[0].diameter.mean, scene.species[0].density);
+    std::string bytes = good;
+    const double mass = one.motion[0].inverse_mass, other = 2 * mass;
+    const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&mass), sizeof mass));
+    ASSERT_NE(at, std::string::npos);
+    std::memcpy(bytes.data() + at, &other, sizeof other);
+    forge(bytes);
+    EXPECT_THAT(refusal(next_of()), HasSubstr("with another mass than its species"));
+}
+
+}  // namespace
+}  // namespace grainreel
