@@ -1,29 +1,66 @@
 #include "engine/output/contacts_file.hpp"
 
 #include <netcdf.h>
+#include <xxhash.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
 #include "engine/output/netcdf_file.hpp"
 
 namespace grainreel {
 
+namespace {
+
+// As the file has it.
+struct Row {
+    std::int32_t frame, first, second;
+    float normal;
+    std::array<float, 3> tangential, point;
+};
+static_assert(sizeof(Row) == 10 * sizeof(float));  // no gaps, whose bytes the checksum would count
+
+int checksum_of(const Row& row) {
+    return static_cast<int>(XXH32(&row, sizeof row, 0));
+}
+
+constexpr std::int32_t most_faces = 1000;  // of a container and its scene's walls
+
+// What no run writes, be the checksum right or missing.
+bool possible(const Row& row) {
+    return row.frame >= 0 && row.first >= 0 && row.second >= -most_faces && std::isfinite(row.normal) &&
+           row.normal >= 0;
+}
+
+std::array<float, 3> floats(const Vec3& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+}  // namespace
+
 struct ContactsWriter::Impl {
     explicit Impl(const std::filesystem::path& path) : file(NetcdfFile::create(path, NetcdfFormat::cdf2)) {}
 
-    template <class Value, class Of>
-    void put_column(int variable, std::size_t width, std::size_t count, const Of& of) {
-        std::vector<Value> column(count * width);
-        for (std::size_t i = 0; i < count; ++i) {
-            for (std::size_t k = 0; k < width; ++k)
-                column[i * width + k] = static_cast<Value>(of(i, static_cast<int>(k)));
+    // of(row): the numbers of one, Width of them.
+    template <class Value, std::size_t Width, class Of>
+    void put_column(int variable, const std::vector<Row>& of_rows, const Of& of) {
+        std::vector<Value> column;
+        for (const Row& row : of_rows) {
+            const std::array<Value, Width> numbers = of(row);
+            column.insert(column.end(), numbers.begin(), numbers.end());
         }
-        file.put(variable, {rows, 0}, {count, width}, column.data());
+        std::vector<std::size_t> start{rows}, count{of_rows.size()};
+        if (Width > 1) start.push_back(0), count.push_back(Width);
+        file.put(variable, start, count, column.data());
     }
 
     NetcdfFile file;
     std::size_t rows = 0;
-    int frame = -1, first = -1, second = -1, normal = -1, tangential = -1, point = -1;
+    int frame = -1, first = -1, second = -1, normal = -1, tangential = -1, point = -1, checksum = -1;
 };
 
 ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::string& title,
@@ -41,41 +78,88 @@ ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::str
     impl_->normal = file.variable("normal", NC_FLOAT, {row}, "newton");
     impl_->tangential = file.variable("tangential", NC_FLOAT, {row, spatial}, "newton");
     impl_->point = file.variable("point", NC_FLOAT, {row, spatial}, "meter");
+    impl_->checksum = file.variable("checksum", NC_INT, {row});
     file.end_definitions();
     file.sync(0);
 }
 
 ContactsWriter::~ContactsWriter() = default;
 
-void ContactsWriter::write(std::int64_t frame, const std::vector<Simulation::ContactRecord>& c) {
-    const std::size_t n = c.size();
-    if (n == 0) return;
-    impl_->put_column<int>(impl_->frame, 1, n, [&](std::size_t, int) { return frame; });
-    impl_->put_column<int>(impl_->first, 1, n, [&](std::size_t i, int) { return c[i].first; });
-    impl_->put_column<int>(impl_->second, 1, n, [&](std::size_t i, int) { return c[i].second; });
-    impl_->put_column<float>(impl_->normal, 1, n, [&](std::size_t i, int) { return c[i].normal; });
-    impl_->put_column<float>(impl_->tangential, 3, n,
-                             [&](std::size_t i, int k) { return c[i].tangential[k]; });
-    impl_->put_column<float>(impl_->point, 3, n, [&](std::size_t i, int k) { return c[i].point[k]; });
-    impl_->rows += n;
-    impl_->file.sync(impl_->rows);
+void ContactsWriter::write(std::int64_t frame, const std::vector<Simulation::ContactRecord>& contacts) {
+    if (contacts.empty()) return;
+    std::vector<Row> rows;
+    for (const Simulation::ContactRecord& c : contacts)
+        rows.push_back({static_cast<std::int32_t>(frame), c.first, c.second, static_cast<float>(c.normal),
+                        floats(c.tangential), floats(c.point)});
+    using Int = std::array<int, 1>;
+    Impl& to = *impl_;
+    to.put_column<int, 1>(to.frame, rows, [](const Row& r) { return Int{r.frame}; });
+    to.put_column<int, 1>(to.first, rows, [](const Row& r) { return Int{r.first}; });
+    to.put_column<int, 1>(to.second, rows, [](const Row& r) { return Int{r.second}; });
+    to.put_column<float, 1>(to.normal, rows, [](const Row& r) { return std::array<float, 1>{r.normal}; });
+    to.put_column<float, 3>(to.tangential, rows, [](const Row& r) { return r.tangential; });
+    to.put_column<float, 3>(to.point, rows, [](const Row& r) { return r.point; });
+    to.put_column<int, 1>(to.checksum, rows, [](const Row& r) { return Int{checksum_of(r)}; });
+    to.rows += rows.size();
+    to.file.sync(to.rows);
 }
 
 struct ContactsReader::Impl {
-    explicit Impl(const std::filesystem::path& path) : file(NetcdfFile::open(path)) {
-        first = file.find_variable("first");
-        second = file.find_variable("second");
-        normal = file.find_variable("normal");
-        const std::size_t written = file.length("row"), rows = file.whole_records(written);
-        cut_off = rows < written;
+    explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
+        checksums = file.has_variable("checksum");
+        const std::size_t counted = file.length("row"), on_disk = file.records_on_disk();
+        const std::size_t rows = std::min(counted, on_disk);
+        cut_off = rows < counted;
+        uncounted = on_disk - rows;
         frame_of.resize(rows);
         if (rows > 0) file.get(file.find_variable("frame"), {0}, {rows}, frame_of.data());
+        const auto fall = std::is_sorted_until(frame_of.begin(), frame_of.end());
+        if (fall != frame_of.end())
+            damaged(static_cast<std::size_t>(fall - frame_of.begin()),
+                    "its frame is less than the one before");
     }
 
+    [[noreturn]] void damaged(std::size_t row, const char* what) const {
+        throw UserError(
+            fmt::format("{}: row {} (the first is 0) is damaged: {}; copy the file again, or let "
+                        "film.colour.by be something else and film.force_chains false",
+                        source, row, what));
+    }
+
+    // Width numbers of each of `count` rows, put into place by set(row, numbers).
+    template <class Value, std::size_t Width, class Set>
+    void get_column(const char* name, std::size_t begin, std::vector<Row>& rows, const Set& set) const {
+        std::vector<std::size_t> start{begin}, count{rows.size()};
+        if (Width > 1) start.push_back(0), count.push_back(Width);
+        std::vector<std::array<Value, Width>> column(rows.size());
+        file.get(file.find_variable(name), start, count, column.front().data());
+        for (std::size_t i = 0; i < rows.size(); ++i) set(rows[i], column[i]);
+    }
+
+    std::vector<Row> read(std::size_t begin, std::size_t count) const {
+        std::vector<Row> rows(count);
+        get_column<int, 1>("frame", begin, rows, [](Row& r, const auto& v) { r.frame = v[0]; });
+        get_column<int, 1>("first", begin, rows, [](Row& r, const auto& v) { r.first = v[0]; });
+        get_column<int, 1>("second", begin, rows, [](Row& r, const auto& v) { r.second = v[0]; });
+        get_column<float, 1>("normal", begin, rows, [](Row& r, const auto& v) { r.normal = v[0]; });
+        get_column<float, 3>("tangential", begin, rows, [](Row& r, const auto& v) { r.tangential = v; });
+        get_column<float, 3>("point", begin, rows, [](Row& r, const auto& v) { r.point = v; });
+        std::vector<int> sums(count);
+        if (checksums) file.get(file.find_variable("checksum"), {begin}, {count}, sums.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            if (checksums && sums[i] != checksum_of(rows[i]))
+                damaged(begin + i, "its checksum is not that of its numbers");
+            if (!possible(rows[i])) damaged(begin + i, "it holds what no contact can have");
+        }
+        return rows;
+    }
+
+    std::string source;  // for messages
     NetcdfFile file;
-    int first = -1, second = -1, normal = -1;
+    bool checksums = false;
     std::vector<int> frame_of;  // of each row, rising
     bool cut_off = false;
+    std::size_t uncounted = 0;
 };
 
 ContactsReader::ContactsReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
@@ -85,19 +169,25 @@ bool ContactsReader::cut_off() const {
     return impl_->cut_off;
 }
 
+std::size_t ContactsReader::uncounted() const {
+    return impl_->uncounted;
+}
+
+bool ContactsReader::has_checksums() const {
+    return impl_->checksums;
+}
+
 std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
     const std::vector<int>& frames = impl_->frame_of;
     const auto [low, high] = std::equal_range(frames.begin(), frames.end(), static_cast<int>(frame));
-    const auto begin = static_cast<std::size_t>(low - frames.begin()),
-               count = static_cast<std::size_t>(high - low);
-    if (count == 0) return {};
-    std::vector<int> first(count), second(count);
-    std::vector<double> normal(count);
-    impl_->file.get(impl_->first, {begin}, {count}, first.data());
-    impl_->file.get(impl_->second, {begin}, {count}, second.data());
-    impl_->file.get(impl_->normal, {begin}, {count}, normal.data());
-    std::vector<Touch> touches(count);
-    for (std::size_t i = 0; i < count; ++i) touches[i] = {first[i], second[i], normal[i]};
+    // With one row more on each side: damage to a number of a frame may have moved a row to its neighbour.
+    const auto from = low - (low == frames.begin() ? 0 : 1), to = high + (high == frames.end() ? 0 : 1);
+    if (from == to) return {};
+    const std::vector<Row> rows =
+        impl_->read(static_cast<std::size_t>(from - frames.begin()), static_cast<std::size_t>(to - from));
+    std::vector<Touch> touches;
+    for (const Row& row : rows)
+        if (row.frame == static_cast<int>(frame)) touches.push_back({row.first, row.second, row.normal});
     return touches;
 }
 

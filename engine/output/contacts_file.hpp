@@ -1,7 +1,8 @@
 // contacts.nc: who pushes whom, and how hard, at the moments of the trajectory. The number of contacts
 // changes from frame to frame and classic NetCDF has one unlimited dimension, so the file is one long table:
 // dimension `row`, columns frame (counts the trajectory's frames from 0), first, second (ids; a wall is -1 -
-// its face), normal (N), tangential (N, on `second`) and point (m). Forces and points are floats.
+// its face), normal (N), tangential (N, on `second`), point (m) and checksum (XXH32 of the row's other
+// numbers as they stand in memory, in this order). Forces and points are floats.
 #pragma once
 
 #include <filesystem>
@@ -33,14 +34,19 @@ class ContactsWriter {
 // Forces between grains, frame by frame.
 class ContactsReader {
   public:
-    // Throws UserError when the file is missing or no contacts.nc. What a killed run left is read.
+    // Throws UserError when the file is missing, damaged or no contacts.nc. What a killed run left is read.
     explicit ContactsReader(const std::filesystem::path& path);
     ~ContactsReader();
 
-    // Those of a frame of the trajectory, as they were written; none beyond the last frame.
+    // Those of a frame of the trajectory, as they were written; none beyond the last frame. Throws UserError,
+    // with the row, when one of them is damaged.
     std::vector<Touch> touches(std::size_t frame) const;
     // Whether the end of the file is missing, so that the last frames lack contacts.
     bool cut_off() const;
+    // Rows that lie in the file beyond those that its header counts.
+    std::size_t uncounted() const;
+    // False in a file of an earlier version: there damage may look like data.
+    bool has_checksums() const;
 
   private:
     struct Impl;

@@ -6,14 +6,12 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <optional>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/output/netcdf_layout.hpp"
 
 namespace grainreel {
 
@@ -49,11 +47,14 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& path, NetcdfFormat fo
 }
 
 NetcdfFile NetcdfFile::open(const std::filesystem::path& path) {
+    const NetcdfHeader header = read_netcdf_header(path);
     int id = -1;
     if (const int status = nc_open(path.c_str(), NC_NOWRITE, &id); status != NC_NOERR) {
         throw UserError(fmt::format("{}: cannot be read: {}", path.string(), nc_strerror(status)));
     }
-    return NetcdfFile(path, id, false);
+    NetcdfFile file(path, id, false);
+    file.header_ = header;
+    return file;
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
@@ -61,7 +62,8 @@ NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
       id_(std::exchange(other.id_, -1)),
       writing_(other.writing_),
       failed_(other.failed_),
-      records_(other.records_) {}
+      records_(other.records_),
+      header_(other.header_) {}
 
 NetcdfFile::~NetcdfFile() {
     close();
@@ -133,13 +135,11 @@ std::string NetcdfFile::text_attribute(int variable, const std::string& name) co
     return text;
 }
 
-std::size_t NetcdfFile::whole_records(std::size_t records) const {
-    const std::optional<NetcdfLayout> layout = netcdf_layout(id_);
+std::size_t NetcdfFile::records_on_disk() const {
     std::error_code error;
     const std::uint64_t length = std::filesystem::file_size(path_, error);
-    if (!layout || layout->record == 0 || error) return records;
-    const std::uint64_t whole = length > layout->begin ? (length - layout->begin) / layout->record : 0;
-    return static_cast<std::size_t>(std::min<std::uint64_t>(records, whole));
+    if (header_.record == 0 || error) return 0;
+    return static_cast<std::size_t>(length > header_.begin ? (length - header_.begin) / header_.record : 0);
 }
 
 using Index = std::vector<std::size_t>;
@@ -157,21 +157,33 @@ void NetcdfFile::put(int variable, const Index& start, const Index& count, const
     wrote(nc_put_vara_text(id_, variable, start.data(), count.data(), values));
 }
 
-void NetcdfFile::get(int variable, const Index& start, const Index& count, int* values) const {
-    if (const int status = nc_get_vara_int(id_, variable, start.data(), count.data(), values);
-        status != NC_NOERR) {
+template <class Function, class Value>
+void NetcdfFile::get_by(Function read, int variable, const Index& start, const Index& count,
+                        Value* values) const {
+    int rank = 0;
+    int status = nc_inq_varndims(id_, variable, &rank);
+    // The library takes a number for each dimension that the file says the variable has.
+    if (status == NC_NOERR && static_cast<std::size_t>(rank) != count.size()) status = NC_EINVALCOORDS;
+    if (status == NC_NOERR) status = read(id_, variable, start.data(), count.data(), values);
+    if (status != NC_NOERR)
         throw UserError(fmt::format("{}: cannot be read: {}", path_.string(), nc_strerror(status)));
-    }
+}
+
+void NetcdfFile::get(int variable, const Index& start, const Index& count, int* values) const {
+    get_by(nc_get_vara_int, variable, start, count, values);
+}
+void NetcdfFile::get(int variable, const Index& start, const Index& count, float* values) const {
+    get_by(nc_get_vara_float, variable, start, count, values);
 }
 void NetcdfFile::get(int variable, const Index& start, const Index& count, double* values) const {
-    if (const int status = nc_get_vara_double(id_, variable, start.data(), count.data(), values);
-        status != NC_NOERR) {
-        throw UserError(fmt::format("{}: cannot be read: {}", path_.string(), nc_strerror(status)));
-    }
+    get_by(nc_get_vara_double, variable, start, count, values);
 }
 
 void NetcdfFile::sync(std::size_t records) {
     wrote(nc_sync(id_));
+    std::error_code error;
+    if (!std::filesystem::exists(path_, error))
+        throw RunError(fmt::format("{}: has been removed while the run wrote it", path_.string()));
     records_ = records;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/output/netcdf_header.hpp"
+
 namespace grainreel {
 
 // CDF-2 holds records of up to 4 GiB a variable; CDF-5 any.
@@ -16,7 +18,8 @@ class NetcdfFile {
   public:
     // Makes the file, in define mode, without fill values: every variable of a record must be written.
     static NetcdfFile create(const std::filesystem::path& path, NetcdfFormat format);
-    // Opens it for reading. Throws UserError when it is missing or no NetCDF file.
+    // Opens it for reading. Throws UserError when it is missing, no classic NetCDF file, or its header is
+    // damaged.
     static NetcdfFile open(const std::filesystem::path& path);
 
     ~NetcdfFile();
@@ -35,8 +38,9 @@ class NetcdfFile {
     bool has_variable(const std::string& name) const;
     std::size_t length(const std::string& dimension) const;                   // UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
-    // Of the first `records`, how many are whole in the file; fewer when it was cut off.
-    std::size_t whole_records(std::size_t records) const;
+    // How many whole records lie in the file that is read, whatever its header counts: fewer when it was cut
+    // off, more when the count is damaged.
+    std::size_t records_on_disk() const;
 
     void put(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
              const int* values);
@@ -49,9 +53,12 @@ class NetcdfFile {
     void get(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
              int* values) const;
     void get(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
+             float* values) const;
+    void get(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
              double* values) const;
 
     // All written so far belongs to whole records: from here a killed program leaves `records` of them.
+    // Throws RunError when that fails, or when somebody has removed the file.
     void sync(std::size_t records);
 
   private:
@@ -59,6 +66,9 @@ class NetcdfFile {
         : path_(path), id_(id), writing_(writing) {}
     // Notes a failed write and throws RunError.
     void wrote(int status);
+    template <class Function, class Value>
+    void get_by(Function read, int variable, const std::vector<std::size_t>& start,
+                const std::vector<std::size_t>& count, Value* values) const;
     void close() noexcept;
 
     std::filesystem::path path_;
@@ -66,6 +76,7 @@ class NetcdfFile {
     bool writing_ = false;
     bool failed_ = false;
     std::size_t records_ = 0;  // whole ones
+    NetcdfHeader header_;      // of a file that is read
 };
 
 std::string netcdf_version();  // of the library, "4.9.0"

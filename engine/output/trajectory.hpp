@@ -6,14 +6,10 @@
 // float), since an overlap at rest is smaller than a float's last place; as the recent convention asks,
 // cell_lengths is 0 where nothing is periodic.
 //
-// Dimensions: frame (unlimited), atom (a capacity), spatial = cell_spatial = cell_angular = 3, label = 5.
-//   a frame:            time, cycles, phase, step (double: classic NetCDF has no 64-bit integer), grains,
-//                       wall_offset, wall_velocity, floor_offset, floor_velocity, cell_origin, cell_lengths,
-//                       cell_angles
-//   a frame and grain:  id, type (1 is the scene's first species), radius, coordinates, velocities (float),
-//                       spin (float, rad/s) and, when asked for, orientation (float, x y z w)
-// Grains may appear and vanish: a frame's grains fill the first places, the rest hold id -1 and the format's
-// fill value, by which OVITO knows where a frame ends.
+// docs/scenes.md lists all dimensions and variables. Numbers of a frame that need 64 bits are doubles:
+// classic NetCDF has no such integer. Grains may appear and vanish: a frame's grains fill the first places,
+// the rest hold id -1 and the format's fill value, by which OVITO knows where a frame ends. Every frame has a
+// checksum of its moment and pose and one of its grains.
 #pragma once
 
 #include <filesystem>
@@ -21,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/error.hpp"
 #include "engine/frame.hpp"
 
 namespace grainreel {
@@ -31,6 +28,7 @@ struct TrajectoryInfo {
     std::vector<std::string> species;
     std::size_t capacity = 0;  // the most grains a frame can have
     bool orientation = false;
+    bool checksums = true;          // false in a file of an earlier version: there damage may look like data
     Vec3 cell_origin{0, 0, 0};      // m
     Vec3 periodic_length{0, 0, 0};  // m, 0 where nothing is periodic
 };
@@ -52,17 +50,27 @@ class TrajectoryWriter {
     std::unique_ptr<Impl> impl_;
 };
 
+// A frame whose checksum is not that of its numbers, or that holds what no run can have: NaN, a radius of 0,
+// a species that is none. The other frames may well be whole.
+class DamagedFrame : public UserError {
+  public:
+    using UserError::UserError;
+};
+
 class TrajectoryReader {
   public:
-    // Throws UserError when the file is missing, was cut off, or is no such trajectory: then it says what it
-    // lacks.
+    // Throws UserError when the file is missing, was cut off, has a damaged header, or is no such trajectory:
+    // then it says what it lacks.
     explicit TrajectoryReader(const std::filesystem::path& path);
     ~TrajectoryReader();
 
     std::size_t frames() const;
+    // Frames that lie in the file beyond those that its header counts: that count is damaged, or the run that
+    // writes the file goes on.
+    std::size_t uncounted() const;
     const TrajectoryInfo& info() const;
 
-    // 0 <= index < frames(). Throw UserError when the file cannot be read.
+    // 0 <= index < frames(). Throw DamagedFrame, and UserError when the file cannot be read.
     Frame read(std::size_t index) const;
     // Likewise, but without the grains, which are most of the work: time, phase and pose alone.
     Frame read_moment(std::size_t index) const;

@@ -1,31 +1,35 @@
 #include <netcdf.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/output/frame_faults.hpp"
 #include "engine/output/netcdf_file.hpp"
 #include "engine/output/trajectory.hpp"
+#include "engine/output/trajectory_layout.hpp"
 
 namespace grainreel {
 
 namespace {
 
-constexpr std::array variables_of_ours{
-    "time",          "cycles",       "phase",          "step",        "grains",       "wall_offset",
-    "wall_velocity", "floor_offset", "floor_velocity", "cell_origin", "cell_lengths", "id",
-    "type",          "radius",       "coordinates",    "velocities",  "spin"};
+constexpr double most_steps = 9007199254740992;  // 2^53: beyond, doubles leave out whole numbers
 
 // Another program's file may follow the same convention; what counts is that nothing is missing.
 void check_complete(const NetcdfFile& file, const std::string& name) {
     std::vector<std::string> missing;
-    for (const char* variable : variables_of_ours)
-        if (!file.has_variable(variable)) missing.emplace_back(variable);
+    const auto check = [&](const TrajectoryVariable& variable) {
+        if (!file.has_variable(variable.name)) missing.emplace_back(variable.name);
+    };
+    std::for_each(frame_variables.begin(), frame_variables.end(), check);
+    std::for_each(grain_variables.begin(), grain_variables.end(), check);
     if (missing.empty()) return;
-    if (missing.size() == variables_of_ours.size())
+    if (missing.size() == frame_variables.size() + grain_variables.size())
         throw UserError(
             fmt::format("{}: has none of a trajectory's variables: it was cut off, or is another file; "
                         "give the trajectory.nc of a run",
@@ -36,11 +40,10 @@ void check_complete(const NetcdfFile& file, const std::string& name) {
 }
 
 // The library would read zeros beyond the end.
-void check_whole(const NetcdfFile& file, std::size_t frames, const std::string& name) {
-    const std::size_t whole = file.whole_records(frames);
-    if (whole == frames) return;
-    throw UserError(
-        fmt::format("{}: was cut off: of its {} frames {} are whole; copy it again", name, frames, whole));
+void check_whole(std::size_t frames, std::size_t whole, const std::string& name) {
+    if (whole < frames)
+        throw UserError(fmt::format("{}: was cut off: of its {} frames {} are whole; copy it again", name,
+                                    frames, whole));
 }
 
 }  // namespace
@@ -49,74 +52,122 @@ struct TrajectoryReader::Impl {
     explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
         check_complete(file, source);
         frames = file.length("frame");
-        check_whole(file, frames, source);
+        const std::size_t on_disk = file.records_on_disk();
+        check_whole(frames, on_disk, source);
+        uncounted = on_disk - frames;
         info.title = file.text_attribute(NC_GLOBAL, "title");
         info.program_version = file.text_attribute(NC_GLOBAL, "programVersion");
         info.capacity = file.length("atom");
-        info.orientation = file.has_variable("orientation");
+        info.orientation = file.has_variable(orientation_variable.name);
         std::istringstream names(file.text_attribute(file.find_variable("type"), "species"));
         for (std::string name; std::getline(names, name);) info.species.push_back(name);
+        info.checksums = file.has_variable(frame_checksum) && file.has_variable(grain_checksum);
         if (frames == 0) return;
-        info.cell_origin = vector("cell_origin", 0);
-        info.periodic_length = vector("cell_lengths", 0);
+        file.get(file.find_variable("cell_origin"), {0, 0}, {1, 3}, info.cell_origin.data());
+        file.get(file.find_variable("cell_lengths"), {0, 0}, {1, 3}, info.periodic_length.data());
     }
 
-    double number(const char* name, std::size_t frame) const {
-        double value = 0;
-        file.get(file.find_variable(name), {frame}, {1}, &value);
-        return value;
+    [[noreturn]] void damaged(std::size_t frame, const std::string& what) const {
+        throw DamagedFrame(fmt::format(
+            "{}: frame {} (the first is 0) is damaged: {}; copy the file again, or run the scene again",
+            source, frame, what));
     }
 
-    Vec3 vector(const char* name, std::size_t frame) const {
-        Vec3 value;
-        file.get(file.find_variable(name), {frame, 0}, {1, 3}, value.data());
-        return value;
+    Checksum begin_sum(std::size_t frame) const {
+        return begin_checksum(frame, info.capacity, info.species, info.orientation);
     }
 
-    std::vector<std::int32_t> integers(const char* name, std::size_t frame, std::size_t grains) const {
-        std::vector<std::int32_t> values(grains);
-        if (grains > 0) file.get(file.find_variable(name), {frame, 0}, {1, grains}, values.data());
+    void check_sum(const char* variable, std::size_t frame, const Checksum& sum) const {
+        if (!info.checksums) return;
+        std::array<int, 2> words{};
+        file.get(file.find_variable(variable), {frame, 0}, {1, 2}, words.data());
+        if (words != sum.words()) damaged(frame, "its checksum is not that of its numbers");
+    }
+
+    // As stored, and added to the sum. `places`: 0 for a variable of the frame.
+    template <class Value>
+    std::vector<Value> read(const TrajectoryVariable& variable, std::size_t frame, std::size_t places,
+                            std::size_t width, Checksum& sum) const {
+        std::vector<std::size_t> start{frame}, count{1};
+        if (places > 0) start.push_back(0), count.push_back(places);
+        if (variable.dimension != nullptr) start.push_back(0), count.push_back(width);
+        const int id = file.find_variable(variable.name);
+        std::vector<Value> values(std::max<std::size_t>(places, 1) * width);
+        file.get(id, start, count, values.data());
+        sum.add(values.data(), values.size());
         return values;
     }
 
-    std::vector<double> rows(const char* name, std::size_t frame, std::size_t grains,
-                             std::size_t width) const {
-        std::vector<double> values(grains * width);
-        if (grains > 0) file.get(file.find_variable(name), {frame, 0, 0}, {1, grains, width}, values.data());
-        return values;
-    }
-
-    std::vector<Vec3> vectors(const char* name, std::size_t frame, std::size_t grains) const {
-        const std::vector<double> flat = rows(name, frame, grains, 3);
-        std::vector<Vec3> values(grains);
-        for (std::size_t i = 0; i < grains; ++i) values[i] = Eigen::Map<const Vec3>(flat.data() + 3 * i);
-        return values;
-    }
-
-    void read_grains(std::size_t index, Frame& frame) const {
-        const double grains = number("grains", index);
-        if (!(grains >= 0 && grains <= static_cast<double>(info.capacity)))
-            throw UserError(fmt::format(
-                "{}: frame {} says that it has {} grains, in a file with places for {}; copy it again",
-                source, index, grains, info.capacity));
-        const auto n = static_cast<std::size_t>(grains);
-        frame.id = integers("id", index, n);
-        frame.species = integers("type", index, n);
-        for (std::int32_t& species : frame.species) --species;
-        frame.radius = rows("radius", index, n, 1);
-        frame.position = vectors("coordinates", index, n);
-        frame.velocity = vectors("velocities", index, n);
-        frame.spin = vectors("spin", index, n);
-        if (!info.orientation) return;
-        const std::vector<double> flat = rows("orientation", index, n, 4);
-        for (std::size_t i = 0; i < n; ++i) frame.orientation.emplace_back(flat.data() + 4 * i);  // x y z w
-    }
+    struct Moment {
+        Frame frame;  // without its grains
+        std::size_t grains = 0;
+    };
+    Moment read_moment(std::size_t index) const;
+    void read_grains(std::size_t index, std::size_t n, Frame& frame) const;
 
     std::string source;  // for messages
     NetcdfFile file;
-    std::size_t frames = 0;
+    std::size_t frames = 0, uncounted = 0;
     TrajectoryInfo info;
 };
+
+TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t index) const {
+    Checksum sum = begin_sum(index);
+    auto variable = frame_variables.begin();
+    const auto number = [&] { return read<double>(*variable++, index, 0, 1, sum).front(); };
+    const auto vector = [&] { return Vec3(read<double>(*variable++, index, 0, 3, sum).data()); };
+    Frame frame;
+    frame.time = number();
+    frame.cycles = number();
+    frame.phase = number();
+    const double step = number();
+    const int count = read<int>(*variable++, index, 0, 1, sum).front();
+    for (Vec3* pose : {&frame.wall_offset, &frame.wall_velocity, &frame.floor_offset, &frame.floor_velocity})
+        *pose = vector();
+    for (; variable != frame_variables.end(); ++variable) read<double>(*variable, index, 0, 3, sum);  // cell
+    check_sum(frame_checksum, index, sum);
+    if (auto fault = moment_fault(frame)) damaged(index, *fault);
+    if (!(std::abs(step) <= most_steps)) damaged(index, fmt::format("its step is {:.3g}", step));
+    if (count < 0 || static_cast<std::size_t>(count) > info.capacity)
+        damaged(index, fmt::format("it says that it has {} grains, in a file with places for {}", count,
+                                   info.capacity));
+    frame.step = std::llround(step);
+    return {std::move(frame), static_cast<std::size_t>(count)};
+}
+
+// The first n of what is x, y, z, x, y, z ...
+template <class Value>
+std::vector<Vec3> vectors(const std::vector<Value>& flat, std::size_t n) {
+    std::vector<Vec3> values(n);
+    for (std::size_t i = 0; i < n; ++i) values[i] = Vec3(flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]);
+    return values;
+}
+
+template <class Value>
+std::vector<Value> first_of(std::vector<Value> values, std::size_t n) {
+    values.resize(n);
+    return values;
+}
+
+void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, Frame& frame) const {
+    Checksum sum = begin_sum(index);
+    auto variable = grain_variables.begin();
+    const std::size_t places = info.capacity;
+    frame.id = first_of(read<int>(*variable++, index, places, 1, sum), n);
+    frame.species = first_of(read<int>(*variable++, index, places, 1, sum), n);
+    frame.radius = first_of(read<double>(*variable++, index, places, 1, sum), n);
+    frame.position = vectors(read<double>(*variable++, index, places, 3, sum), n);
+    frame.velocity = vectors(read<float>(*variable++, index, places, 3, sum), n);
+    frame.spin = vectors(read<float>(*variable++, index, places, 3, sum), n);
+    if (info.orientation) {
+        const std::vector<float> flat = read<float>(orientation_variable, index, places, 4, sum);
+        for (std::size_t i = 0; i < 4 * n; i += 4)
+            frame.orientation.emplace_back(flat[i + 3], flat[i], flat[i + 1], flat[i + 2]);  // w x y z
+    }
+    check_sum(grain_checksum, index, sum);
+    for (std::int32_t& type : frame.species) type = type < 1 ? -1 : type - 1;
+    if (auto fault = grains_fault(frame, info.species.size())) damaged(index, *fault);
+}
 
 TrajectoryReader::TrajectoryReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
 TrajectoryReader::~TrajectoryReader() = default;
@@ -124,28 +175,23 @@ TrajectoryReader::~TrajectoryReader() = default;
 std::size_t TrajectoryReader::frames() const {
     return impl_->frames;
 }
+std::size_t TrajectoryReader::uncounted() const {
+    return impl_->uncounted;
+}
 const TrajectoryInfo& TrajectoryReader::info() const {
     return impl_->info;
 }
 
 Frame TrajectoryReader::read(std::size_t index) const {
-    Frame frame = read_moment(index);
-    impl_->read_grains(index, frame);
-    return frame;
+    GRAINREEL_CHECK(index < impl_->frames);
+    Impl::Moment moment = impl_->read_moment(index);
+    impl_->read_grains(index, moment.grains, moment.frame);
+    return std::move(moment.frame);
 }
 
 Frame TrajectoryReader::read_moment(std::size_t index) const {
     GRAINREEL_CHECK(index < impl_->frames);
-    Frame frame;
-    frame.step = std::llround(impl_->number("step", index));
-    frame.time = impl_->number("time", index);
-    frame.cycles = impl_->number("cycles", index);
-    frame.phase = impl_->number("phase", index);
-    frame.wall_offset = impl_->vector("wall_offset", index);
-    frame.wall_velocity = impl_->vector("wall_velocity", index);
-    frame.floor_offset = impl_->vector("floor_offset", index);
-    frame.floor_velocity = impl_->vector("floor_velocity", index);
-    return frame;
+    return impl_->read_moment(index).frame;
 }
 
 }  // namespace grainreel

@@ -82,7 +82,7 @@ void RecordedPanel::start(const std::vector<Instant>& instants, const std::vecto
 FramePtr RecordedPanel::next(const SceneRun::GoOn& go_on) {
     if (!go_on()) return nullptr;
     done_ = static_cast<double>(next_ + 1) / static_cast<double>(frames_.size());
-    return std::make_shared<const Frame>(run_.trajectory().read(frames_.at(next_++)));
+    return std::make_shared<const Frame>(run_.grains(frames_.at(next_++)));
 }
 
 }  // namespace grainreel

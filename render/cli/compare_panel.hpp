@@ -65,7 +65,9 @@ class LivePanel final : public ComparePanel {
 class RecordedPanel final : public ComparePanel {
   public:
     RecordedPanel(const std::filesystem::path& folder, const std::vector<std::string>& sets)
-        : run_(folder, sets) {}
+        : run_(folder, sets) {
+        run_.leave_out_damaged();
+    }
     const Scene& scene() const override { return run_.scene(); }
     const FinishedRun& run() const { return run_; }
     std::string place() const override { return std::filesystem::absolute(run_.folder()).string(); }

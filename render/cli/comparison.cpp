@@ -79,7 +79,10 @@ void make_sources(const Options& options, Comparison& all) {
     std::size_t next = 0;
     for (const fs::path& input : options.compare.inputs) {
         if (is_run(input)) {
-            all.sources.push_back(std::make_unique<RecordedPanel>(input, options.sets));
+            auto recorded = std::make_unique<RecordedPanel>(input, options.sets);
+            const std::vector<std::string>& lacks = recorded->run().warnings();
+            all.warnings.insert(all.warnings.end(), lacks.begin(), lacks.end());
+            all.sources.push_back(std::move(recorded));
             continue;
         }
         const Scene& scene = scenes[next++];

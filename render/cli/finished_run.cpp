@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -90,8 +92,8 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
         throw UserError(
             fmt::format("{}: has {} species, but scene.toml beside it has {}; they are of two runs", name,
                         species.size(), scene_.species.size()));
+    read_moments();
     check_grains();
-    for (std::size_t i = 0; i < trajectory_.frames(); ++i) moments_.push_back(trajectory_.read_moment(i));
     if (scene_.film.look.rotation && !trajectory_.info().orientation)
         throw UserError(
             fmt::format("{}: has no orientations, and the film shows rotation; run it with "
@@ -99,6 +101,63 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
                         name));
     if (needs_touches(scene_.film.shows)) read_contacts();
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
+}
+
+void FinishedRun::read_moments() {
+    const std::string name = (folder_ / "trajectory.nc").string();
+    if (!trajectory_.info().checksums)
+        warnings_.push_back(
+            fmt::format("{}: has no checksums, for an earlier version wrote it; damage that leaves possible "
+                        "numbers would not show",
+                        name));
+    if (trajectory_.uncounted() > 0)
+        warnings_.push_back(
+            fmt::format("{}: counts {} frames and holds {} more; they are left out. The run goes on, or the "
+                        "file's header "
+                        "is damaged",
+                        name, trajectory_.frames(), trajectory_.uncounted()));
+    places_.resize(trajectory_.frames());
+    std::iota(places_.begin(), places_.end(), std::size_t{0});
+    keep_those([&](std::size_t place) { moments_.push_back(trajectory_.read_moment(place)); });
+}
+
+void FinishedRun::leave_out_damaged() {
+    std::vector<Frame> all = std::move(moments_);
+    std::size_t next = 0;
+    moments_.clear();
+    keep_those([&](std::size_t place) {
+        Frame& moment = all[next++];
+        trajectory_.read(place);
+        if (contacts_) contacts_->touches(place);
+        moments_.push_back(std::move(moment));
+    });
+}
+
+void FinishedRun::keep_those(const std::function<void(std::size_t)>& read) {
+    std::vector<std::size_t> kept, damaged;
+    std::string first;
+    for (const std::size_t place : places_) {
+        try {
+            read(place);
+            kept.push_back(place);
+        } catch (const DamagedFrame& error) {
+            if (damaged.empty()) first = error.what();
+            damaged.push_back(place);
+        }
+    }
+    if (kept.empty()) throw UserError(fmt::format("{} (and no other frame is whole)", first));
+    places_ = std::move(kept);
+    if (damaged.empty()) return;
+    constexpr std::size_t named = 5;
+    std::string others;
+    for (std::size_t i = 1; i < std::min(damaged.size(), named); ++i)
+        others += fmt::format(", {}", damaged[i]);
+    warnings_.push_back(fmt::format(
+        "{}; {} left out{}", first,
+        damaged.size() == 1 ? "it is" : fmt::format("{} frames are", damaged.size()),
+        damaged.size() == 1
+            ? ""
+            : fmt::format(": {}{}{}", damaged.front(), others, damaged.size() > named ? " ..." : "")));
 }
 
 // As many as the scene grows, and of its sizes: another run's trajectory may have as many species.
@@ -111,7 +170,7 @@ void FinishedRun::check_grains() const {
             fmt::format("{}: has {} grains, but scene.toml beside it has {}; they are of two runs", name,
                         grains, scene_.grains()));
     constexpr double kRoom = 1e-4;  // of floats
-    const Frame frame = trajectory_.read(0);
+    const Frame frame = first_whole();
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const Species& species = scene_.species[static_cast<std::size_t>(frame.species[i])];
         const double diameter = 2 * frame.radius[i];
@@ -125,6 +184,17 @@ void FinishedRun::check_grains() const {
     }
 }
 
+Frame FinishedRun::first_whole() const {
+    for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+        try {
+            return trajectory_.read(places_[i]);
+        } catch (const DamagedFrame&) {
+            continue;  // whoever draws it says so
+        }
+    }
+    return trajectory_.read(places_.back());
+}
+
 void FinishedRun::read_contacts() {
     const fs::path file = file_in(folder_, "contacts.nc",
                                   "the run was not told to keep contacts (output.contacts = true); let "
@@ -133,6 +203,14 @@ void FinishedRun::read_contacts() {
     if (contacts_->cut_off())
         warnings_.push_back(
             fmt::format("{}: was cut off; the last frames are drawn without contacts", file.string()));
+    if (contacts_->uncounted() > 0)
+        warnings_.push_back(fmt::format(
+            "{}: holds more rows than it counts; the last frames may lack contacts. The run goes on, or the "
+            "file's header is damaged",
+            file.string()));
+    if (!contacts_->has_checksums() && trajectory_.info().checksums)
+        warnings_.push_back(fmt::format(
+            "{}: has no checksums; damage that leaves possible numbers would not show", file.string()));
 }
 
 void FinishedRun::read_measures_of_run() {
@@ -161,21 +239,25 @@ void FinishedRun::read_measures_of_run() {
                         measures().string(), last, end));
 }
 
+Frame FinishedRun::grains(std::size_t index) const {
+    return trajectory_.read(places_.at(index));
+}
+
 Frame FinishedRun::frame(std::size_t index) const {
-    Frame frame = trajectory_.read(index);
+    Frame frame = grains(index);
     if (measures_) {
         const double end = frame.time * (1 + 1e-9) + 1e-12;
         frame.measures = measures_;
         frame.measure_rows = static_cast<std::size_t>(
             std::upper_bound(measured_.begin(), measured_.end(), end) - measured_.begin());
     }
-    if (contacts_) frame.touches = contacts_->touches(index);
+    if (contacts_) frame.touches = contacts_->touches(places_.at(index));
     if (!needs_displacement(scene_.film.shows)) return frame;
     const double period = 1 / scene_.drive.frequency, wanted = frame.time - period;
     const std::size_t before = nearest(wanted);
     if (std::abs(moments_[before].time - wanted) > 1e-3 * period) return frame;
     const bool periodic = scene_.container.periodic_depth;
-    set_displacement(frame, trajectory_.read(before).position, periodic ? scene_.container.depth : 0);
+    set_displacement(frame, grains(before).position, periodic ? scene_.container.depth : 0);
     return frame;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,12 +23,19 @@ class FinishedRun {
     FinishedRun(const std::filesystem::path& folder, const std::vector<std::string>& sets);
 
     const std::filesystem::path& folder() const { return folder_; }
-    const Scene& scene() const { return scene_; }  // named after the folder
-    const TrajectoryReader& trajectory() const { return trajectory_; }
+    const Scene& scene() const { return scene_; }                                // named after the folder
     std::filesystem::path measures() const { return folder_ / "measures.csv"; }  // may be missing
 
-    // Every frame without its grains, in order of time.
+    // Reads all there is and leaves out the frames whose grains are damaged, with a warning, so that no
+    // damage shows up when half a film is made. Throws UserError when none is left, or contacts are damaged.
+    void leave_out_damaged();
+
+    // Every frame without its grains, in order of time; without those whose moment is damaged, of which there
+    // is a warning. Indices below are of this list.
     const std::vector<Frame>& moments() const { return moments_; }
+    // The frame as it was kept. Throws UserError when it is damaged.
+    Frame grains(std::size_t index) const;
+    Frame first_whole() const;  // the first that is not damaged
     // With what the film wants beside the grains: measures until then, contacts, and the displacements over a
     // period when the trajectory has that moment.
     Frame frame(std::size_t index) const;
@@ -37,6 +45,9 @@ class FinishedRun {
     std::size_t nearest(double time) const;
 
   private:
+    void read_moments();
+    // Reads each of places_ and keeps those that are not damaged.
+    void keep_those(const std::function<void(std::size_t)>& read);
     void check_grains() const;
     void read_contacts();
     void read_measures_of_run();
@@ -44,8 +55,9 @@ class FinishedRun {
     std::filesystem::path folder_;
     Scene scene_;
     TrajectoryReader trajectory_;
-    std::optional<ContactsReader> contacts_;  // of a film that wants them
-    std::vector<Frame> moments_;
+    std::optional<ContactsReader> contacts_;        // of a film that wants them
+    std::vector<std::size_t> places_;               // in the trajectory, of the frames that are drawn
+    std::vector<Frame> moments_;                    // theirs
     std::shared_ptr<const MeasureTable> measures_;  // null unless the film plots some
     std::vector<double> measured_;                  // s, their times
     std::vector<std::string> warnings_;

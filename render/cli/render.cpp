@@ -7,8 +7,9 @@
 namespace grainreel {
 
 int draw_again(const Options& options, Reporter& reporter) {
-    const FinishedRun run(options.render.run, options.sets);
+    FinishedRun run(options.render.run, options.sets);
     if (options.render.at) return draw_still(options, reporter, run);
+    run.leave_out_damaged();
     RedrawRun redraw(options, reporter, run);
     return redraw.run();
 }

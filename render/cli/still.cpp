@@ -75,19 +75,18 @@ int draw_still(const Options& options, Reporter& reporter, const FinishedRun& ru
     // A camera that moves is where it would be in the film of all the run's frames.
     Scene scene = run.scene();
     const auto seconds = [&](std::size_t frames) { return static_cast<double>(frames) / scene.film.rate; };
-    settle_orbit(scene.film.camera, seconds(run.trajectory().frames()));
+    settle_orbit(scene.film.camera, seconds(run.moments().size()));
     Renderer renderer(scene, drawing_threads(run.scene().run.threads).raster, options.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) reporter.info(note);
     for (const std::string& line : run.warnings()) reporter.warning(line);
     for (const std::string& line : film_warnings(scene, 1)) reporter.warning(line);
-    renderer.start_from(run.trajectory().read(0));
+    renderer.start_from(run.first_whole());
     const std::string& title = run.scene().film.title;
-    for (const std::size_t earlier : within_trails(run, index))
-        renderer.remember(run.trajectory().read(earlier));
+    for (const std::size_t earlier : within_trails(run, index)) renderer.remember(run.grains(earlier));
     write_png(path, renderer.draw(frame, "", seconds(index)), texts_of(run.scene().name, title, frame, ""),
               run.scene().film.transparent);
     reporter.info(fmt::format("wrote {}: frame {} of {}, at {:.6g} s", path.string(), index + 1,
-                              run.trajectory().frames(), frame.time));
+                              run.moments().size(), frame.time));
     std::printf("%s\n", path.c_str());
     return 0;
 }

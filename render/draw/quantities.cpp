@@ -25,11 +25,15 @@ Quantities::Quantities(const Scene& scene, GrainValue by) : by_(by) {
 
 void Quantities::start_from(const Frame& frame) {
     if (by_ != GrainValue::start_height) return;
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        const auto id = static_cast<std::size_t>(frame.id[i]);
-        if (start_height_.size() <= id) start_height_.resize(id + 1, none);
-        start_height_[id] = (frame.position[i] - frame.floor_offset).z();
-    }
+    start_id_ = frame.id;
+    start_height_.clear();
+    for (const Vec3& position : frame.position) start_height_.push_back((position - frame.floor_offset).z());
+}
+
+double Quantities::start_height_of(std::int32_t id) const {
+    const auto at = std::lower_bound(start_id_.begin(), start_id_.end(), id);
+    if (at == start_id_.end() || *at != id) return none;
+    return start_height_[static_cast<std::size_t>(at - start_id_.begin())];
 }
 
 // Ids rise along a frame, but some may be missing.
@@ -55,7 +59,6 @@ const std::vector<double>& Quantities::of(const Frame& frame) {
     }
     values_.assign(frame.size(), none);
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        const auto id = static_cast<std::size_t>(frame.id[i]);
         switch (by_) {
             case GrainValue::speed:
                 values_[i] = frame.velocity[i].norm();
@@ -64,7 +67,7 @@ const std::vector<double>& Quantities::of(const Frame& frame) {
                 values_[i] = frame.velocity[i].z();
                 break;
             case GrainValue::start_height:
-                if (id < start_height_.size()) values_[i] = start_height_[id];
+                values_[i] = start_height_of(frame.id[i]);
                 break;
             case GrainValue::displacement:
                 if (!frame.displacement.empty()) values_[i] = frame.displacement[i].norm();

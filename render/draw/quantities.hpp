@@ -21,11 +21,13 @@ class Quantities {
     const std::vector<double>& of(const Frame& frame);
 
   private:
+    double start_height_of(std::int32_t id) const;  // NaN when it was not there
     void count_touches(const Frame& frame, bool forces);
 
     const GrainValue by_;
-    std::vector<double> density_;       // kg/m3, by species
-    std::vector<double> start_height_;  // m, by id
+    std::vector<double> density_;         // kg/m3, by species
+    std::vector<std::int32_t> start_id_;  // rising; ids may be far apart
+    std::vector<double> start_height_;    // m, theirs
     std::vector<double> values_;
 };
 

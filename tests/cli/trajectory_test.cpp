@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/contacts_file.hpp"
-#include "engine/output/netcdf_layout.hpp"
+#include "engine/output/netcdf_header.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -207,7 +207,8 @@ TEST(Trajectory, AForeignFileIsToldWhatItLacks) {
     EXPECT_EQ(mistake_in(here / "other.nc"),
               (here / "other.nc").string() +
                   ": not a trajectory of grainreel: it lacks cycles, phase, wall_offset, wall_velocity, "
-                  "floor_offset, floor_velocity, cell_origin, cell_lengths; give the trajectory.nc of a run");
+                  "floor_offset, floor_velocity, cell_origin, cell_lengths, cell_angles; give the "
+                  "trajectory.nc of a run");
 }
 
 // The library reads zeros there; one byte less must show.
@@ -240,7 +241,7 @@ TEST(Trajectory, AMomentIsAFrameWithoutGrains) {
 }
 
 // Against what the library writes, in each of the classic formats.
-TEST(NetcdfLayout, IsWhatLiesOnDisk) {
+TEST(NetcdfHeader, IsWhatLiesOnDisk) {
     const TemporaryFolder here;
     for (const int format : {0, NC_64BIT_OFFSET, NC_64BIT_DATA}) {
         for (const int columns : {1, 3}) {
@@ -264,12 +265,9 @@ TEST(NetcdfLayout, IsWhatLiesOnDisk) {
                 ASSERT_EQ(nc_put_vara_int(file, variable, start.data(), count.data(), values.data()),
                           NC_NOERR);
             nc_close(file);
-            ASSERT_EQ(nc_open(path.c_str(), NC_NOWRITE, &file), NC_NOERR);
-            const std::optional<NetcdfLayout> layout = netcdf_layout(file);
-            nc_close(file);
-            ASSERT_TRUE(layout.has_value());
-            EXPECT_EQ(layout->record, columns == 1 ? 10u : 12u + 8u + 12u) << format;
-            EXPECT_EQ(layout->begin + 4 * layout->record, std::filesystem::file_size(path))
+            const NetcdfHeader header = read_netcdf_header(path);
+            EXPECT_EQ(header.record, columns == 1 ? 10u : 12u + 8u + 12u) << format;
+            EXPECT_EQ(header.begin + 4 * header.record, std::filesystem::file_size(path))
                 << format << ", columns " << columns;
         }
     }

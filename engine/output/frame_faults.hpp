@@ -1,0 +1,17 @@
+// Whether the numbers of a frame that was read from a file can be those of a run.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "engine/frame.hpp"
+
+namespace grainreel {
+
+// The first thing wrong: "its time is nan s", "grain 12 has a radius of -1 m"; none when all is possible.
+// Of time, phase and pose; and of the grains, of which there are `species` kinds.
+std::optional<std::string> moment_fault(const Frame& frame);
+std::optional<std::string> grains_fault(const Frame& frame, std::size_t species);
+
+}  // namespace grainreel
