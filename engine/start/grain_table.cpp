@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -18,8 +19,26 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::string_view plain_header = "id,species,radius,x,y,z,vx,vy,vz,wx,wy,wz";
+constexpr std::string_view plain_header = "id,type,radius,x,y,z,vx,vy,vz,wx,wy,wz";
 constexpr std::string_view orientation_columns = ",qx,qy,qz,qw";
+// Of earlier versions, where `species` counted from 0.
+constexpr std::string_view old_header = "id,species,radius,x,y,z,vx,vy,vz,wx,wy,wz";
+
+struct TableForm {
+    bool orientation = false;
+    const char* species = "type";  // the column's name
+    std::int32_t first_species = 1;
+};
+
+std::optional<TableForm> form_of(std::string_view header) {
+    TableForm form;
+    form.orientation = header.ends_with(orientation_columns);
+    if (form.orientation) header.remove_suffix(orientation_columns.size());
+    if (header == plain_header) return form;
+    form.species = "species";
+    form.first_species = 0;
+    return header == old_header ? std::optional(form) : std::nullopt;
+}
 
 void append(fmt::memory_buffer& row, const double* values, int count) {
     for (int i = 0; i < count; ++i) fmt::format_to(std::back_inserter(row), ",{}", values[i]);
@@ -77,19 +96,22 @@ class Row {
     std::size_t at_ = 0, last_ = 0;
 };
 
-void read_grain(Row& row, bool with_orientation, std::unordered_set<std::int32_t>& ids, Frame& frame) {
+void read_grain(Row& row, const TableForm& form, std::unordered_set<std::int32_t>& ids, Frame& frame) {
     frame.id.push_back(row.take<std::int32_t>("id"));
     if (frame.id.back() < 0) row.reject("`id` is negative");
     if (!ids.insert(frame.id.back()).second)
         row.reject(fmt::format("grain {} is here twice", frame.id.back()));
-    frame.species.push_back(row.take<std::int32_t>("species"));
-    if (frame.species.back() < 0) row.reject("`species` is negative");
+    const auto species = row.take<std::int32_t>(form.species);
+    if (species < form.first_species)
+        row.reject(
+            fmt::format("`{}` is {}, but it counts from {}", form.species, species, form.first_species));
+    frame.species.push_back(species - form.first_species);
     frame.radius.push_back(row.take<double>("radius"));
     if (frame.radius.back() <= 0) row.reject("`radius` is not positive");
     frame.position.push_back(row.take_vector({"x", "y", "z"}));
     frame.velocity.push_back(row.take_vector({"vx", "vy", "vz"}));
     frame.spin.push_back(row.take_vector({"wx", "wy", "wz"}));
-    if (with_orientation) {
+    if (form.orientation) {
         const Vec3 q = row.take_vector({"qx", "qy", "qz"});
         frame.orientation.emplace_back(row.take<double>("qw"), q.x(), q.y(), q.z());
     }
@@ -104,7 +126,8 @@ void write_grain_table(const std::filesystem::path& path, const Frame& frame) {
     fmt::format_to(std::back_inserter(text), "{}{}\n", plain_header,
                    with_orientation ? orientation_columns : "");
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        fmt::format_to(std::back_inserter(text), "{},{},{}", frame.id[i], frame.species[i], frame.radius[i]);
+        fmt::format_to(std::back_inserter(text), "{},{},{}", frame.id[i], frame.species[i] + 1,
+                       frame.radius[i]);
         append(text, frame.position[i].data(), 3);
         append(text, frame.velocity[i].data(), 3);
         append(text, frame.spin[i].data(), 3);
@@ -121,8 +144,8 @@ Frame read_grain_table(const std::filesystem::path& path) {
         throw UserError(fmt::format("{}: cannot be opened; give the final.csv of a run", path.string()));
     std::getline(file, line);
     if (line.ends_with('\r')) line.pop_back();
-    const bool with_orientation = line == std::string(plain_header) + std::string(orientation_columns);
-    if (!with_orientation && line != plain_header) {
+    const std::optional<TableForm> form = form_of(line);
+    if (!form) {
         throw UserError(fmt::format("{}:1:1: not a table of grains; the first line must be `{}`",
                                     path.string(), plain_header));
     }
@@ -132,7 +155,7 @@ Frame read_grain_table(const std::filesystem::path& path) {
         if (line.ends_with('\r')) line.pop_back();
         if (line.empty()) continue;
         Row row(path, number, line);
-        read_grain(row, with_orientation, ids, frame);
+        read_grain(row, *form, ids, frame);
     }
     if (frame.size() == 0) throw UserError(fmt::format("{}:2:1: no grains in the table", path.string()));
     return frame;

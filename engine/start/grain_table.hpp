@@ -1,10 +1,11 @@
 // final.csv: the state of every grain as a table, one row a grain. Written with as many digits as it takes to
 // read back the same bits, so a scene may start from it.
 //
-//   id,species,radius,x,y,z,vx,vy,vz,wx,wy,wz[,qx,qy,qz,qw]
+//   id,type,radius,x,y,z,vx,vy,vz,wx,wy,wz[,qx,qy,qz,qw]
 //
-// SI units: radius and position m, velocity m/s, spin (angular velocity) rad/s; `species` counts the scene's
-// species from 0; the orientation is a unit quaternion, there only when the run kept it.
+// SI units: radius and position m, velocity m/s, spin (angular velocity) rad/s; `type` counts the scene's
+// species from 1 and `id` the grains from 0, as in trajectory.nc; the orientation is a unit quaternion, there
+// only when the run kept it. Earlier versions had the column `species` there, counted from 0: it is read too.
 #pragma once
 
 #include <filesystem>

@@ -72,7 +72,7 @@ void check_grains_possible(const Scene& scene, const Grains& grains) {
         const std::int32_t species = grains.species[i];
         if (species < 0 || species >= std::ssize(scene.species))
             fail(scene, fmt::format("has grains of species {}, but the scene lists only {}; list them all",
-                                    species, scene.species.size()));
+                                    std::int64_t{species} + 1, scene.species.size()));
         const auto& [position, radius] = grains.place[i];
         const Motion& motion = grains.motion[i];
         if (!std::isfinite(radius) || radius <= 0) reject("has no radius");

@@ -65,23 +65,37 @@ std::string reading_error(const std::string& text) {
     return "no error";
 }
 
-constexpr const char* header = "id,species,radius,x,y,z,vx,vy,vz,wx,wy,wz\n";
+constexpr const char* header = "id,type,radius,x,y,z,vx,vy,vz,wx,wy,wz\n";
 
 TEST(GrainTable, MistakesAreNamedWithTheirPlace) {
-    const std::string good = "0,0,0.1,0,0,0,0,0,0,0,0,0\n";
+    const std::string good = "0,1,0.1,0,0,0,0,0,0,0,0,0\n";
     const std::string h = header;
     EXPECT_EQ(reading_error(h + good), "no error");
     EXPECT_THAT(reading_error("id,x\n"), HasSubstr("final.csv:1:1: not a table of grains"));
     EXPECT_THAT(reading_error(h), HasSubstr("no grains"));
     EXPECT_THAT(reading_error(h + good + good), HasSubstr("final.csv:3:1: grain 0 is here twice"));
-    EXPECT_THAT(reading_error(h + "0,0,0.1,0,oops,0,0,0,0,0,0,0\n"),
+    EXPECT_THAT(reading_error(h + "0,1,0.1,0,oops,0,0,0,0,0,0,0\n"),
                 HasSubstr("final.csv:2:11: `oops` is no number for `y`"));
-    EXPECT_THAT(reading_error(h + "0,0,0.1,0,nan,0,0,0,0,0,0,0\n"), HasSubstr("`y` is nan"));
-    EXPECT_THAT(reading_error(h + "0,0,-1,0,0,0,0,0,0,0,0,0\n"),
+    EXPECT_THAT(reading_error(h + "0,1,0.1,0,nan,0,0,0,0,0,0,0\n"), HasSubstr("`y` is nan"));
+    EXPECT_THAT(reading_error(h + "0,1,-1,0,0,0,0,0,0,0,0,0\n"),
                 HasSubstr("final.csv:2:5: `radius` is not positive"));
-    EXPECT_THAT(reading_error(h + "0,0,0.1,0,0,0,0,0,0,0,0\n"), HasSubstr("the row ends before `wz`"));
-    EXPECT_THAT(reading_error(h + "0,0,0.1,0,0,0,0,0,0,0,0,0,7\n"), HasSubstr("more columns"));
+    EXPECT_THAT(reading_error(h + "0,1,0.1,0,0,0,0,0,0,0,0\n"), HasSubstr("the row ends before `wz`"));
+    EXPECT_THAT(reading_error(h + "0,1,0.1,0,0,0,0,0,0,0,0,0,7\n"), HasSubstr("more columns"));
+    EXPECT_THAT(reading_error(h + "0,0,0.1,0,0,0,0,0,0,0,0,0\n"),
+                HasSubstr("final.csv:2:3: `type` is 0, but it counts from 1"));
     EXPECT_THROW(read_grain_table("/nowhere/final.csv"), UserError);
+}
+
+// Whose column was `species`, from 0.
+TEST(GrainTable, TablesOfEarlierVersionsAreReadAsTheyWereMeant) {
+    const TemporaryFolder here;
+    const std::string columns = "radius,x,y,z,vx,vy,vz,wx,wy,wz\n", rest = ",0.1,0,0,0,0,0,0,0,0,0\n";
+    write_text(here / "old.csv", "id,species," + columns + "0,0" + rest + "1,1" + rest);
+    write_text(here / "new.csv", "id,type," + columns + "0,1" + rest + "1,2" + rest);
+    for (const char* file : {"old.csv", "new.csv"})
+        EXPECT_THAT(read_grain_table(here / file).species, testing::ElementsAre(0, 1)) << file;
+    EXPECT_THAT(reading_error("id,species," + columns + "0,-1" + rest),
+                HasSubstr("final.csv:2:3: `species` is -1, but it counts from 0"));
 }
 
 TEST(MeasuresCsv, HasAColumnForEveryNumber) {

@@ -260,7 +260,7 @@ TEST_F(Continuation, AnewGrainsMustFitTheScene) {
     Scene one = scene_of({}, "");
     one = next_of({}, "", false);
     one.species.pop_back();
-    EXPECT_THAT(refusal(one), HasSubstr("has grains of species 1, but the scene lists only 1"));
+    EXPECT_THAT(refusal(one), HasSubstr("has grains of species 2, but the scene lists only 1"));
 }
 
 TEST_F(Continuation, TablesAreNotBelieved) {
@@ -272,9 +272,9 @@ TEST_F(Continuation, TablesAreNotBelieved) {
         return refusal(next_of({}, "", false, "final.csv"));
     };
     const std::string still = ",0,0,0,0,0,0";
-    EXPECT_THAT(with_last_row("50,1,0.003,0,0,0.03" + still), HasSubstr("has a grain of number 50"));
-    EXPECT_THAT(with_last_row("49,2,0.003,0,0,0.03" + still), HasSubstr("has grains of species 2"));
-    EXPECT_THAT(with_last_row("49,1,0.003,0,0,1e300" + still), HasSubstr("so far out"));
+    EXPECT_THAT(with_last_row("50,2,0.003,0,0,0.03" + still), HasSubstr("has a grain of number 50"));
+    EXPECT_THAT(with_last_row("49,3,0.003,0,0,0.03" + still), HasSubstr("has grains of species 3"));
+    EXPECT_THAT(with_last_row("49,2,0.003,0,0,1e300" + still), HasSubstr("so far out"));
 }
 
 // A checkpoint whose checksum is right, though what it holds is not.
