@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -40,13 +41,15 @@ bool is_empty_folder(const fs::path& path) {
 
 // All that a run may leave in its folder, beside frames/ and movie.work/ (what a film needs while it is
 // made); the .part are of files cut off while being written.
-constexpr std::array<std::string_view, 23> files_of_runs{
-    "run.json",        ".run.json.part",  "scene.toml",     ".scene.toml.part",
-    "final.csv",       ".final.csv.part", "checkpoint.grs", "checkpoint.grs.part",
-    "movie.mp4",       "movie.mp4.part",  "movie.webm",     "movie.webm.part",
-    "movie.gif",       "movie.mkv",       "movie.y4m",      "poster.png",
-    "poster.png.part", "sheet.png",       "sheet.png.part", "trajectory.nc",
-    "contacts.nc",     "measures.csv",    "log.txt"};
+constexpr std::array<std::string_view, 24> files_of_runs{
+    ".lock",           "run.json",         ".run.json.part",
+    "scene.toml",      ".scene.toml.part", "final.csv",
+    ".final.csv.part", "checkpoint.grs",   "checkpoint.grs.part",
+    "movie.mp4",       "movie.mp4.part",   "movie.webm",
+    "movie.webm.part", "movie.gif",        "movie.mkv",
+    "movie.y4m",       "poster.png",       "poster.png.part",
+    "sheet.png",       "sheet.png.part",   "trajectory.nc",
+    "contacts.nc",     "measures.csv",     "log.txt"};
 
 bool is_file_of_runs(const fs::path& name) {
     return std::find(files_of_runs.begin(), files_of_runs.end(), name.string()) != files_of_runs.end();
@@ -99,13 +102,27 @@ std::optional<fs::path> foreign_file(const fs::path& run) {
     return std::nullopt;
 }
 
-// What --force is to replace must be a run and nothing else.
-void check_replaceable(const fs::path& path) {
+[[noreturn]] void refuse_in_use(const fs::path& path, const std::string& holder) {
+    throw UserError(fmt::format("--out {}: is in use by {}; wait until that ends, or choose another name",
+                                path.string(), holder));
+}
+
+void check_not_in_use(const fs::path& path) {
+    if (const auto holder = FolderLock::holder(path)) refuse_in_use(path, *holder);
+}
+
+void check_holds_run(const fs::path& path) {
     if (!taken(path / "run.json")) {
         throw UserError(fmt::format(
             "--out {}: holds no run (no run.json), so --force leaves it alone; choose another name",
             path.string()));
     }
+}
+
+// What --force is to replace must be a run and nothing else, and no run may go on in there.
+void check_replaceable(const fs::path& path) {
+    for (const std::string& panel : panels_in_run_json(path / "run.json"))
+        if (panel.find('/') == std::string::npos) check_not_in_use(path / panel);
     if (const auto foreign = foreign_file(path)) {
         throw UserError(
             fmt::format("--out {}: holds {}, which is no file of a run, so --force leaves the folder "
@@ -123,7 +140,7 @@ fs::path without_trailing_slash(const fs::path& path) {
 
 }  // namespace
 
-RunFolder::RunFolder(const RunFolderRequest& request) {
+RunFolder::RunFolder(const RunFolderRequest& request) : command_(request.command) {
     if (request.out) {
         take(*request.out, request.force);
         return;
@@ -138,12 +155,15 @@ void RunFolder::take(const fs::path& out, bool force) {
     const fs::path path = without_trailing_slash(out);
     if (is_empty_folder(path)) return adopt(path);
     if (taken(path)) {
+        check_not_in_use(path);
         if (!force) {
             throw UserError(
                 fmt::format("--out {}: exists already; choose another name, or --force to replace "
                             "it when the new run is complete",
                             path.string()));
         }
+        check_holds_run(path);
+        previous_lock_ = locked(path);
         check_replaceable(path);
         move_aside(path);
     }
@@ -158,8 +178,15 @@ void RunFolder::adopt(const fs::path& path) {
                                     path.string(), std::generic_category().message(errno)));
     }
     ::close(log);
+    lock_ = locked(path);
     adopted_ = true;
     path_ = path;
+}
+
+RunFolder::Lock RunFolder::locked(const fs::path& path) const {
+    std::optional<FolderLock> lock = FolderLock::take(path, command_);
+    if (!lock) refuse_in_use(path, FolderLock::holder(path).value_or("another process"));
+    return std::make_unique<FolderLock>(std::move(*lock));
 }
 
 bool RunFolder::make(const fs::path& path) {
@@ -172,10 +199,10 @@ bool RunFolder::make(const fs::path& path) {
     }
     if (!error && ::access(path.c_str(), W_OK | X_OK) != 0) error = {errno, std::generic_category()};
     if (error) {
-        std::error_code ignored;
-        if (!previous_.empty()) fs::rename(previous_, path, ignored);
+        put_back(path);
         cannot_make(path, error);
     }
+    lock_ = locked(path);
     path_ = path;
     return true;
 }
@@ -192,6 +219,16 @@ void RunFolder::move_aside(const fs::path& path) {
                                     path.string(), error.message()));
     }
     previous_ = aside;
+    previous_lock_->renamed(aside);
+}
+
+void RunFolder::put_back(const fs::path& path) {
+    if (previous_.empty()) return;
+    std::error_code error;
+    fs::rename(previous_, path, error);
+    if (!error) previous_lock_->renamed(path);
+    previous_lock_.reset();
+    previous_.clear();
 }
 
 void RunFolder::remove_previous() {
@@ -209,8 +246,7 @@ void RunFolder::discard() {
         return;
     }
     fs::remove_all(path_, ignored);
-    if (!previous_.empty()) fs::rename(previous_, path_, ignored);
-    previous_.clear();
+    put_back(path_);
 }
 
 }  // namespace grainreel

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+
+#include "engine/output/folder_lock.hpp"
 
 namespace grainreel {
 
@@ -11,20 +14,22 @@ struct RunFolderRequest {
     std::string name;                       // of the scene
     std::filesystem::path base = "output";  // where folders without an explicit name go
     std::optional<std::filesystem::path>
-        out;             // the wanted folder, new or empty; without it base/name, base/name-2, ...
-    bool force = false;  // an `out` that holds a run is replaced
+        out;                // the wanted folder, new or empty; without it base/name, base/name-2, ...
+    bool force = false;     // an `out` that holds a run is replaced
+    std::string command{};  // told to others who want the folder
 };
 
 // Made when scene and plan are accepted, not before. An earlier run that is to be replaced waits beside the
-// new one under a hidden name until the new one is complete.
+// new one under a hidden name until the new one is complete. Both are locked as long as this lives.
 class RunFolder {
   public:
     // Throws UserError when `out` is an empty name, when it exists, is not empty and `force` is not set, when
-    // `force` is set and it holds no run of ours or files that are not ours, and when the folder cannot be
-    // made or written.
+    // `force` is set and it holds no run of ours or files that are not ours, when another process fills it or
+    // a panel's folder in it, and when the folder cannot be made or written.
     explicit RunFolder(const RunFolderRequest& request);
 
     const std::filesystem::path& path() const { return path_; }
+    const FolderLock& lock() const { return *lock_; }
 
     // Where the run that is being replaced waits; empty when there is none.
     const std::filesystem::path& previous() const { return previous_; }
@@ -41,9 +46,14 @@ class RunFolder {
     void adopt(const std::filesystem::path& path);  // an empty folder
     bool make(const std::filesystem::path& path);   // false when something of that name exists
     void move_aside(const std::filesystem::path& path);
+    void put_back(const std::filesystem::path& path);  // the previous run
+    using Lock = std::unique_ptr<FolderLock>;
+    Lock locked(const std::filesystem::path& path) const;  // UserError when another process has it
 
+    std::string command_;
     std::filesystem::path path_;
     std::filesystem::path previous_;
+    Lock lock_, previous_lock_;
     bool adopted_ = false;  // the folder was there before, empty
 };
 

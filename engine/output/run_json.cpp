@@ -1,13 +1,18 @@
 #include "engine/output/run_json.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <ctime>
 #include <fstream>
+#include <iterator>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
 
 namespace grainreel {
@@ -50,6 +55,34 @@ Json drawn(const RunRecord& r) {
         runs.push_back(
             {{"run", run.folder}, {"frames", run.frames}, {"first_s", run.first}, {"last_s", run.last}});
     return runs;
+}
+
+// Room on disk that run.json has beyond its end while the run goes on: when the disk is full and no new file
+// can be had, its last word is written there, over the first.
+constexpr off_t reserve = 32768;  // bytes
+
+void reserve_room(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) return;
+    ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, reserve);  // not every file system can; then there is none
+    ::close(file);
+}
+
+bool write_all(int file, const std::string& text) {
+    return ::pwrite(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()) &&
+           ::ftruncate(file, static_cast<off_t>(text.size())) == 0;
+}
+
+// False when there is no room; then the file stays as it was.
+bool overwrite(const std::filesystem::path& path, const std::string& text) {
+    std::ifstream old(path, std::ios::binary);
+    const std::string before{std::istreambuf_iterator<char>(old), std::istreambuf_iterator<char>()};
+    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) return false;
+    const bool written = write_all(file, text);
+    if (!written) write_all(file, before);
+    ::close(file);
+    return written;
 }
 
 }  // namespace
@@ -98,7 +131,14 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"peak_memory_bytes", r.peak_memory},
         {"warnings", r.warnings}};
     // Names and messages come from the user's files: what is not UTF-8 is shown, not a reason to fail.
-    replace_file(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    try {
+        replace_file(path, text);
+    } catch (const RunError&) {
+        if (!overwrite(path, text)) throw;
+        return;
+    }
+    if (r.status == RunStatus::running || r.status == RunStatus::interrupted) reserve_room(path);
 }
 
 std::vector<std::string> panels_in_run_json(const std::filesystem::path& path) {

@@ -1,5 +1,6 @@
 // run.json: what was run, with what, and how it went. Written when the run begins (status "running") and
-// again, in one stroke, when it ends; a run that was killed still says "running".
+// again, in one stroke, when it ends; a run that was killed still says "running". On a full disk its last
+// word takes the place of its first, for which there is room.
 #pragma once
 
 #include <cstdint>

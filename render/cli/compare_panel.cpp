@@ -1,6 +1,7 @@
 #include "render/cli/compare_panel.hpp"
 
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,15 +20,17 @@ SceneRun::GoOn LivePanel::noting(const SceneRun::GoOn& go_on) {
 }
 
 void LivePanel::begin(const std::filesystem::path& folder, const std::string& command) {
-    folder_ = folder / place();
+    const std::filesystem::path own = folder / place();
     std::error_code error;
-    std::filesystem::create_directory(folder_, error);
-    if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
-    run_.use_folder(folder_);
+    std::filesystem::create_directory(own, error);
+    if (error) throw RunError(fmt::format("{}: cannot be made: {}", own.string(), error.message()));
+    std::optional<FolderLock> lock = FolderLock::take(own, command);
+    if (!lock) throw RunError(fmt::format("{}: another process has it", own.string()));
+    run_.use_folder(folder_.emplace(std::move(*lock)));
     describe_program(record_, command);
     run_.describe(record_);
     record_.warnings = run_.plan().warnings;
-    write_run_json(folder_ / "run.json", record_);
+    write_run_json(folder_->folder() / "run.json", record_);
 }
 
 bool LivePanel::pack(const SceneRun::GoOn& go_on) {
@@ -61,8 +64,7 @@ bool LivePanel::finish(const SceneRun::GoOn& go_on) {
 }
 
 void LivePanel::close(RunStatus status, int exit_status, FirstFailure& failure) {
-    if (folder_.empty()) return;
-    run_.close(failed_);
+    if (!folder_) return;
     run_.conclude(record_);
     record_.status = failed_.any()                 ? RunStatus::failed
                      : status == RunStatus::failed ? RunStatus::interrupted
@@ -71,7 +73,7 @@ void LivePanel::close(RunStatus status, int exit_status, FirstFailure& failure) 
     record_.error = failed_.what();
     record_.finished = utc_now();
     record_.wall_seconds = run_.times().all();
-    failed_.attempt([&] { write_run_json(folder_ / "run.json", record_); });
+    failed_.attempt([&] { write_run_json(folder_->folder() / "run.json", record_); });
     if (failed_.any()) failure.note(failed_.what());
 }
 

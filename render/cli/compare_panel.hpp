@@ -4,9 +4,11 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/output/folder_lock.hpp"
 #include "render/cli/finished_run.hpp"
 #include "render/cli/scene_run.hpp"
 #include "render/film/timeline.hpp"
@@ -27,7 +29,9 @@ class ComparePanel {
     virtual void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) = 0;
     virtual FramePtr next(const SceneRun::GoOn& go_on) = 0;  // of the next instant
     virtual bool finish(const SceneRun::GoOn& go_on) = 0;    // what remains of the run after the last
-    // status: of the whole; where another panel has failed, this one was interrupted.
+    // After all that, whatever happened: the end state; then the record of its run. status: of the whole;
+    // where another panel has failed, this one was interrupted. close() may be called twice.
+    virtual void keep_state() = 0;
     virtual void close(RunStatus status, int exit_status, FirstFailure& failure) = 0;
     void note_failure(const std::string& what) { failed_.note(what); }
 
@@ -51,12 +55,13 @@ class LivePanel final : public ComparePanel {
     void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;
     FramePtr next(const SceneRun::GoOn& go_on) override;
     bool finish(const SceneRun::GoOn& go_on) override;
+    void keep_state() override { run_.close(failed_); }
     void close(RunStatus status, int exit_status, FirstFailure& failure) override;
 
   private:
     SceneRun::GoOn noting(const SceneRun::GoOn& go_on);
     SceneRun run_;
-    std::filesystem::path folder_;
+    std::optional<FolderLock> folder_;  // once it is made
     RunRecord record_;
     FramePtr frame_;         // shown last
     std::size_t again_ = 0;  // how often that frame is to be shown yet
@@ -76,6 +81,7 @@ class RecordedPanel final : public ComparePanel {
     void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;
     FramePtr next(const SceneRun::GoOn& go_on) override;
     bool finish(const SceneRun::GoOn&) override { return true; }
+    void keep_state() override {}
     void close(RunStatus, int, FirstFailure&) override {}
 
   private:

@@ -44,6 +44,7 @@ bool CompareRun::work() {
                  [](ComparePanel& panel, FramePtr&) { return panel.pack(go_on); }))
         return false;
     begun_ = true;
+    keep_state_before_exit(true);
     const std::vector<FilmSegment>& segments = all_.film.film.segments;
     for (const auto& source : all_.sources) source->start(all_.instants, segments);
     pictures_planned_ = static_cast<std::int64_t>(all_.instants.size());
@@ -103,7 +104,11 @@ void CompareRun::show_progress(Progress::Stage stage) {
     reporter_.progress(progress);
 }
 
-void CompareRun::close_state() {
+void CompareRun::keep_state() {
+    for (const auto& source : all_.sources) source->keep_state();
+}
+
+void CompareRun::conclude() {
     for (const auto& source : all_.sources) source->close(record_.status, *record_.exit_status, failure_);
 }
 

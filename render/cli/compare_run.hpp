@@ -16,7 +16,8 @@ class CompareRun final : public FilmRun {
 
   private:
     bool work() override;
-    void close_state() override;
+    void keep_state() override;
+    void conclude() override;
     std::string stopped_text() const override;
     void report_written() override;
 

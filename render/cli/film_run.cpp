@@ -38,7 +38,8 @@ void FilmRun::check_film(const Scene& scene, std::int64_t frames) const {
     if (options_.film) check_max_size(scene, frames);
 }
 
-void FilmRun::make_folder(const RunFolderRequest& request) {
+void FilmRun::make_folder(RunFolderRequest request) {
+    request.command = options_.command;
     folder_.emplace(request);
     log_.emplace(folder_->path() / "log.txt");
     reporter_.keep_log(&*log_);
@@ -60,11 +61,17 @@ int FilmRun::run() {
     }
     if (stopped)
         reporter_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
-    close_film();
-    settle_status(stopped);
-    close_state();
-    settle_status(stopped);
-    close_record();
+    keep_state();
+    // What was asked to stop says so from here on: a second signal may end it while the film is finished.
+    if (stopped) close_record(stopped);
+    keep_state_before_exit(false);
+    if (in_a_hurry()) {
+        abandon_film();
+    } else {
+        close_film();
+    }
+    close_record(stopped);
+    if (record_.status == RunStatus::complete) folder_->remove_previous();
     report_end();
     std::fprintf(options_.to_stdout ? stderr : stdout, "%s\n", folder_->path().c_str());
     return *record_.exit_status;
@@ -116,16 +123,28 @@ void FilmRun::close_film() {
     times_.add("encoding (beside the engine)", film_report_.encode_seconds);
 }
 
-void FilmRun::close_record() {
+// What is on disk of it plays; what is queued is not drawn any more.
+void FilmRun::abandon_film() {
+    if (!film_) return;
+    film_report_.frames = film_->frames_done();
+    film_.reset();
+    reporter_.info("the film was left as it is");
+}
+
+void FilmRun::close_record(bool stopped) {
+    settle_status(stopped);
+    conclude();
+    settle_status(stopped);
     record_.error = failure_.what();
     record_.finished = utc_now();
-    record_.film_frames = film_report_.frames;
+    record_.film_frames = film_ ? film_->frames_done() : film_report_.frames;
     record_.encoder = film_report_.encoder;
     record_.peak_memory = peak_memory();
-    times_.add("total", watch_.seconds());
-    for (const auto& time : times_.all()) record_.wall_seconds.push_back(time);
-    failure_.attempt([&] { write_run_json(folder_->path() / "run.json", record_); });
-    if (record_.status == RunStatus::complete && !failure_.any()) folder_->remove_previous();
+    RunRecord now = record_;
+    for (const auto& time : times_.all()) now.wall_seconds.push_back(time);
+    now.wall_seconds.emplace_back("total", watch_.seconds());
+    failure_.attempt([&] { write_run_json(folder_->path() / "run.json", now); });
+    settle_status(stopped);
 }
 
 void FilmRun::report_end() {

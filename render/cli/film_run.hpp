@@ -36,9 +36,11 @@ class FilmRun {
 
     // The work itself, between the made folder and the closed film; false when asked to stop.
     virtual bool work() = 0;
-    // After the film, whatever happened: what else is to be kept, and what the record says of it. By then the
-    // record has its status.
-    virtual void close_state() {}
+    // After the work, whatever happened, and before the film is finished, which may take its time: what else
+    // is to be kept.
+    virtual void keep_state() {}
+    // What the record says of that. By then the record has its status. May be called twice.
+    virtual void conclude() {}
     virtual std::string stopped_text() const = 0;  // "stopped at 0.10 of 0.20 s"
     virtual void report_written() = 0;             // that which went well
 
@@ -46,7 +48,7 @@ class FilmRun {
     // What scene and options ask of the film's file. Throws UserError.
     void check_film(const Scene& scene, std::int64_t frames) const;
     // To be called when all that the user gave has been accepted.
-    void make_folder(const RunFolderRequest& request);
+    void make_folder(RunFolderRequest request);
     // Shows the warnings and writes run.json for the first time.
     void begin_record(const std::vector<std::string>& warnings);
     // draw: what makes pictures; none for the Renderer.
@@ -69,8 +71,9 @@ class FilmRun {
 
   private:
     void close_film();
+    void abandon_film();
     void settle_status(bool stopped);
-    void close_record();
+    void close_record(bool stopped);
     void report_end();
 };
 

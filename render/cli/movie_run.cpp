@@ -35,6 +35,7 @@ bool MovieRun::work() {
     describe();
     if (!pack()) return false;
     begun_ = true;
+    keep_state_before_exit(true);
     run_.start(std::move(shots_), run_.scene().film.segments);
     pictures_planned_ = run_.shots();
     open_film(run_.scene());
@@ -59,7 +60,7 @@ void MovieRun::describe() {
     }
     run_.describe(record_);
     begin_record(warnings);
-    run_.use_folder(folder_->path());
+    run_.use_folder(folder_->lock());
     reporter_.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene.file, scene.grains(),
                                  run_.plan().steps, run_.plan().clock.step, run_.plan().step_reason));
     reporter_.detail(fmt::format("threads: engine {}, raster {}, encoder {}", run_.simulation().threads(),
@@ -114,8 +115,11 @@ void MovieRun::show_progress() {
     reporter_.progress(progress);
 }
 
-void MovieRun::close_state() {
+void MovieRun::keep_state() {
     run_.close(failure_);
+}
+
+void MovieRun::conclude() {
     run_.conclude(record_);
     record_.wall_seconds = run_.times().all();
 }

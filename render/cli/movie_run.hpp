@@ -20,7 +20,8 @@ class MovieRun final : public FilmRun {
 
   private:
     bool work() override;
-    void close_state() override;
+    void keep_state() override;
+    void conclude() override;
     std::string stopped_text() const override;
     void report_written() override;
 

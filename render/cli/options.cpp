@@ -145,7 +145,8 @@ void add_movie(CLI::App& app, Options& options) {
     movie.footer(
         std::string(
             "The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the film so "
-            "that it\nplays and keeps the end state; a second one stops at once.\n") +
+            "that it\nplays and keeps the end state; a second one keeps the end state alone, a third stops "
+            "at once.\n") +
         exit_statuses);
     movie.callback([&options] { options.verb = Options::Verb::movie; });
 }

@@ -90,6 +90,7 @@ bool RedrawRun::work() {
     open_film(scene_);
     for (const std::size_t index : chosen_) {
         if (stop_signal() != 0) return false;
+        folder_->lock().check_there();
         FramePtr frame;
         {
             const auto timer = times_.during("reading");

@@ -13,23 +13,20 @@
 
 namespace grainreel {
 
-namespace {
-
-constexpr double checkpoint_interval = 30;  // s, of wall time
-
-}  // namespace
-
 SceneRun::SceneRun(const Scene& scene, const Plan& plan, int threads)
     : scene_(scene), plan_(plan), simulation_(scene, plan, threads) {}
 
-void SceneRun::use_folder(const std::filesystem::path& folder) {
-    folder_ = folder;
-    replace_file(folder_ / "scene.toml", resolved_scene(scene_, plan_));
+void SceneRun::use_folder(const FolderLock& folder) {
+    folder_ = &folder;
+    replace_file(path_of("scene.toml"), resolved_scene(scene_, plan_));
 }
 
 bool SceneRun::pack(const PackingWatcher& watcher) {
     const auto timer = times_.during("packing");
-    packing_ = simulation_.pack(watcher);
+    packing_ = simulation_.pack([&](const PackingProgress& now) {
+        folder_->check_there();
+        return watcher(now);
+    });
     if (!packing_.finished) return false;
     first_step_ = simulation_.step();
     packed_ = true;
@@ -49,7 +46,7 @@ std::optional<std::string> SceneRun::packing_warning() const {
 }
 
 void SceneRun::start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments) {
-    files_.emplace(folder_, scene_, plan_, simulation_.grains());
+    files_.emplace(folder_->folder(), scene_, plan_, simulation_.grains());
     const double depth = scene_.container.periodic_depth ? scene_.container.depth : 0;
     if (needs_displacement(scene_.film.shows))
         earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, first_step_, depth);
@@ -61,7 +58,7 @@ void SceneRun::start(std::vector<Shot> shots, const std::vector<FilmSegment>& se
     agenda_.emplace(std::move(shots), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
                     std::move(moments));
     shots_ = agenda_->shots();
-    since_checkpoint_ = Stopwatch();
+    save_checkpoint();  // of a packing that may have taken hours
 }
 
 std::optional<SceneRun::Taken> SceneRun::next(const GoOn& go_on) {
@@ -76,6 +73,7 @@ std::optional<SceneRun::Taken> SceneRun::next(const GoOn& go_on) {
 bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
     while (simulation_.step() < target) {
         if (!go_on()) return false;
+        folder_->check_there();
         const std::int64_t from = simulation_.step();
         const std::int64_t to = std::min(target, from + pace_.steps());
         Stopwatch stretch;
@@ -88,7 +86,7 @@ bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
         const double work = static_cast<double>(to - from) * static_cast<double>(simulation_.grains());
         particle_steps_ += work;
         rate_.add(work, seconds);
-        if (since_checkpoint_.seconds() > checkpoint_interval) save_checkpoint();
+        if (checkpoints_.due()) save_checkpoint();
     }
     return go_on();
 }
@@ -128,8 +126,9 @@ void SceneRun::add_what_the_film_needs(Frame& frame) {
 
 void SceneRun::save_checkpoint() {
     const auto timer = times_.during("writing");
-    simulation_.save_checkpoint(folder_ / "checkpoint.grs");
-    since_checkpoint_ = Stopwatch();
+    const Stopwatch writing;
+    simulation_.save_checkpoint(path_of("checkpoint.grs"));
+    checkpoints_.saved(writing.seconds());
 }
 
 void SceneRun::close(FirstFailure& failure) {
@@ -138,7 +137,7 @@ void SceneRun::close(FirstFailure& failure) {
         if (files_ && files_->last_measures() && files_->last_measures()->step != simulation_.step())
             files_->add_measures(simulation_.measures());
     });
-    failure.attempt([&] { write_grain_table(folder_ / "final.csv", simulation_.frame()); });
+    failure.attempt([&] { write_grain_table(path_of("final.csv"), simulation_.frame()); });
     failure.attempt([&] { save_checkpoint(); });
     failure.attempt([&] { state_hash_ = simulation_.state_hash(); });
 }

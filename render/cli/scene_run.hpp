@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/output/folder_lock.hpp"
 #include "engine/output/run_json.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/cli/agenda.hpp"
+#include "render/cli/checkpoint_pace.hpp"
 #include "render/cli/earlier_positions.hpp"
 #include "render/cli/exposed_moments.hpp"
 #include "render/cli/first_failure.hpp"
@@ -35,8 +37,9 @@ class SceneRun {
     // Throws UserError for what scene or plan get wrong; nothing is on disk then.
     SceneRun(const Scene& scene, const Plan& plan, int threads);
 
-    // Writes scene.toml there; the other files follow with start().
-    void use_folder(const std::filesystem::path& folder);
+    // Writes scene.toml there; the other files follow with start(). The lock outlives the run; from here
+    // pack() and next() throw RunError soon after the folder is gone.
+    void use_folder(const FolderLock& folder);
     // False when the watcher stopped it.
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
@@ -71,11 +74,12 @@ class SceneRun {
     FramePtr serve(const Stop& stop);
     void add_what_the_film_needs(Frame& frame);
     void save_checkpoint();
+    std::filesystem::path path_of(const char* file) const { return folder_->folder() / file; }
 
     Scene scene_;
     Plan plan_;
     Simulation simulation_;
-    std::filesystem::path folder_;
+    const FolderLock* folder_ = nullptr;
     PackingResult packing_;
     bool packed_ = false;
     std::int64_t first_step_ = 0, shots_ = 0;
@@ -86,7 +90,7 @@ class SceneRun {
     PeriodMeans means_;
     StageTimes times_;
     Pace pace_;
-    Stopwatch since_checkpoint_;
+    CheckpointPace checkpoints_;
     double particle_steps_ = 0;                // of vibration
     RecentRate rate_;                          // particle-steps/s
     std::optional<std::uint64_t> state_hash_;  // of the end state

@@ -10,13 +10,17 @@ namespace grainreel {
 namespace {
 
 std::atomic<int> first_signal = 0;
+std::atomic<bool> state_to_keep = false, second_signal = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free);  // what a handler may touch
 
 extern "C" void on_stop(int signal) {
     int none = 0;
     const bool first = first_signal.compare_exchange_strong(none, signal);
     // One closed terminal sends several SIGHUP, the kernel's and the shell's: they hurry nobody.
-    if (!first && signal != SIGHUP) ::_exit(128 + signal);
+    if (first || signal == SIGHUP) return;
+    const bool second = !second_signal.exchange(true);
+    if (!second || !state_to_keep) ::_exit(128 + signal);
 }
 
 // nohup and its like have the signal ignored before the program starts, and that holds.
@@ -41,6 +45,14 @@ void install_signal_handlers() {
 
 int stop_signal() {
     return first_signal;
+}
+
+void keep_state_before_exit(bool keep) {
+    state_to_keep = keep;
+}
+
+bool in_a_hurry() {
+    return second_signal;
 }
 
 }  // namespace grainreel

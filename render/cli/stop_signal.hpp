@@ -1,5 +1,6 @@
-// Ctrl-C, SIGTERM and SIGHUP (the terminal is gone): the first asks the run to end in good order, a second
-// Ctrl-C or SIGTERM ends the program at once.
+// Ctrl-C, SIGTERM and SIGHUP (the terminal is gone): the first asks the run to end in good order. A second
+// Ctrl-C or SIGTERM ends the program at once, but for a run whose state is yet to be kept: that is kept
+// first, and the film left as it is. A third ends it at once in any case.
 #pragma once
 
 namespace grainreel {
@@ -10,5 +11,11 @@ void install_signal_handlers();
 
 // SIGINT, SIGTERM or SIGHUP, whichever came first; 0 while none did.
 int stop_signal();
+
+// From here, until told otherwise, there is a state that a second signal may not cost.
+void keep_state_before_exit(bool keep);
+
+// A second Ctrl-C or SIGTERM has come while there was.
+bool in_a_hurry();
 
 }  // namespace grainreel

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "engine/base/error.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -60,7 +61,7 @@ TEST(RunFolder, ForceKeepsTheOldRunUntilTheNewOneIsComplete) {
     make_run(here / "run");
     RunFolder folder({"wedge", "output", here.path() / "run/", true});
     EXPECT_EQ(folder.path(), here / "run");
-    EXPECT_TRUE(fs::is_empty(here / "run"));
+    EXPECT_EQ(entries(here / "run"), 1u);  // the lock
     EXPECT_EQ(folder.previous(), here / ".run.old-1");
     EXPECT_EQ(text_of(folder.previous() / "movie.mp4"), "the old film");
     folder.remove_previous();
@@ -128,11 +129,68 @@ TEST(RunFolder, AnEmptyFolderIsTakenOnceAndEmptyAgainWhenDiscarded) {
         RunFolder folder({"wedge", "output", here / "mine", force});
         EXPECT_EQ(folder.path(), here / "mine");
         EXPECT_TRUE(folder.previous().empty());
-        EXPECT_THAT(message_of({"wedge", "output", here / "mine", false}), HasSubstr("exists already"));
+        EXPECT_THAT(message_of({"wedge", "output", here / "mine", false}), HasSubstr("is in use by process"));
         write_text(folder.path() / "run.json", "begun");
         folder.discard();
         EXPECT_TRUE(fs::is_empty(here / "mine"));
     }
+}
+
+TEST(RunFolder, AFolderInUseIsRefusedAndItsHolderNamed) {
+    const TemporaryFolder here;
+    const fs::path run = here / "run";
+    {
+        const RunFolder folder({"wedge", "output", run, false, "grainreel movie wedge.toml"});
+        write_text(run / "run.json", "{}");
+        for (const bool force : {false, true}) {
+            const std::string message = message_of({"wedge", "output", run, force});
+            EXPECT_THAT(message, HasSubstr("--out " + run.string() + ": is in use by process " +
+                                           std::to_string(::getpid()) + ", which began 2"));
+            EXPECT_THAT(message, HasSubstr(" (grainreel movie wedge.toml); wait until that ends"));
+        }
+        EXPECT_EQ(entries(here.path()), 1u);
+        EXPECT_EQ(text_of(run / "run.json"), "{}");
+    }
+    EXPECT_EQ(entries(run), 1u);  // the lock is gone with its holder
+    EXPECT_EQ(message_of({"wedge", "output", run, true}), "no error");
+}
+
+TEST(RunFolder, ARunThatIsBeingReplacedIsInUseToo) {
+    const TemporaryFolder here;
+    make_run(here / "run");
+    const RunFolder folder({"wedge", "output", here / "run", true});
+    EXPECT_THAT(message_of({"wedge", "output", here / "run", true}), HasSubstr("is in use"));
+    EXPECT_THAT(message_of({"wedge", "output", here / ".run.old-1", true}), HasSubstr("is in use"));
+}
+
+// A killed run leaves the file, but not the lock.
+TEST(RunFolder, ALockFileThatWasLeftBehindMeansNothing) {
+    const TemporaryFolder here;
+    make_run(here / "run");
+    write_text(here / "run/.lock", "1\nelsewhere\n2031-05-04T12:30:00Z\ngrainreel movie\n");
+    EXPECT_EQ(message_of({"wedge", "output", here / "run", true}), "no error");
+}
+
+TEST(RunFolder, AComparisonWithAPanelInUseIsLeftAlone) {
+    const TemporaryFolder here;
+    make_run(here / "both");
+    write_text(here / "both/run.json", R"({"panels": ["weak"]})");
+    make_run(here / "both/weak");
+    const RunFolder panel({"weak", "output", here / "both/weak", true});
+    fs::remove_all(here / "both/.weak.old-1");
+    EXPECT_THAT(message_of({"wedge", "output", here / "both", true}),
+                HasSubstr("--out " + (here / "both/weak").string() + ": is in use"));
+}
+
+TEST(RunFolder, KnowsWhenItIsGone) {
+    const TemporaryFolder here;
+    RunFolder folder({"wedge", "output", here / "run", false});
+    EXPECT_NO_THROW(folder.lock().check_there());
+    fs::rename(here / "run", here / "elsewhere");
+    EXPECT_THROW(folder.lock().check_there(), RunError);
+    const RunFolder another({"wedge", "output", here / "run", false});  // of the same name
+    EXPECT_THROW(folder.lock().check_there(), RunError);
+    EXPECT_NO_THROW(another.lock().check_there());
 }
 
 TEST(RunFolder, AnEmptyNameIsAUserError) {

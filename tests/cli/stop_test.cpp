@@ -10,6 +10,7 @@
 #include "engine/start/grain_table.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/cli/small_disk.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -97,10 +98,50 @@ TEST_F(StoppedMovie, GoesOnUnderNohup) {
     EXPECT_EQ(program.wait().status, 143);
 }
 
-TEST_F(StoppedMovie, ASecondSignalStopsAtOnce) {
-    Program program(long_run({"--no-film"}), {here.path(), {}});
+// To the end of 0.3 s, from the checkpoint of a run that was ended; the state's hash is that of a run in one
+// go.
+void expect_goes_on(const fs::path& here) {
+    std::string text = text_of(here / "run/scene.toml");
+    write_text(here / "whole.toml", text);
+    const std::size_t start = text.find("\n[start]") + 1;
+    text.replace(start, text.find("\n[", start) - start,
+                 "[start]\nmethod = \"file\"\nfile = \"run/checkpoint.grs\"\nkeep_clock = true\n");
+    write_text(here / "continued.toml", text);
+    std::vector<std::string> hashes;
+    for (const std::string name : {"whole", "continued"}) {
+        const Ended ended = run_program(
+            {"movie", name + ".toml", "--no-film", "--duration", "0.3 s", "--out", name}, {here, {}});
+        ASSERT_EQ(ended.status, 0) << ended.err;
+        hashes.push_back(nlohmann::json::parse(text_of(here / name / "run.json"))["engine"]["state_hash"]);
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST_F(StoppedMovie, ASecondSignalKeepsTheStateAndLeavesTheFilm) {
+    // Drawn so large that the film is far behind.
+    Program program(long_run({"--size", "1920x1080"}), {here.path(), {}});
     ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 1; }));
+    fs::remove(here / "run/checkpoint.grs");
     // Held, so that both signals wait for it and no good order comes between them.
+    program.send(SIGSTOP);
+    program.send(SIGINT);
+    program.send(SIGTERM);
+    program.send(SIGCONT);
+    const Ended ended = program.wait();
+    EXPECT_TRUE(ended.status == 130 || ended.status == 143) << ended.status;
+    EXPECT_THAT(ended.err, HasSubstr("the film was left as it is"));
+    EXPECT_EQ(record()["status"], "interrupted");
+    EXPECT_EQ(record()["exit_status"], ended.status);
+    EXPECT_EQ(read_grain_table(here / "run/final.csv").size(), 50u);
+    EXPECT_FALSE(fs::exists(here / "run/poster.png"));
+    EXPECT_TRUE(fs::exists(here / "run/checkpoint.grs"));
+}
+
+// There is no state yet, so nothing to wait for.
+TEST_F(StoppedMovie, ASecondSignalWhilePackingStopsAtOnce) {
+    Program program(long_run({"--set", "species.small.count=150", "--set", "run.step=1e-7 s"}),
+                    {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/scene.toml"); }));
     program.send(SIGSTOP);
     program.send(SIGINT);
     program.send(SIGTERM);
@@ -108,6 +149,14 @@ TEST_F(StoppedMovie, ASecondSignalStopsAtOnce) {
     const int status = program.wait().status;
     EXPECT_TRUE(status == 130 || status == 143) << status;
     EXPECT_EQ(record()["status"], "running");
+}
+
+TEST_F(StoppedMovie, ACheckpointIsThereFromTheStart) {
+    Program program(long_run({"--no-film"}), {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 1; }));
+    program.send(SIGKILL);
+    program.wait();
+    expect_goes_on(here.path());
 }
 
 TEST_F(StoppedMovie, KilledLeavesAReadableTrajectoryAndFilm) {
@@ -160,6 +209,62 @@ TEST_F(StoppedMovie, AFullDiskEndsTheRunAndKeepsTheFramesBefore) {
         time = frame.time;
     }
     EXPECT_EQ(read_grain_table(here / "run/final.csv").size(), 50u);
+}
+
+// So full that no new file can be had: run.json says so all the same.
+TEST_F(StoppedMovie, AFullDiskIsWrittenDownInRunJson) {
+    fs::create_directory(here / "disk");
+    const SmallDisk disk(here / "disk", 300000);
+    if (!disk.mounted()) GTEST_SKIP() << "no disk of its own can be mounted here";
+    const Ended ended = run_program({"movie", scene.string(), "--duration", "3600 s", "--no-film", "--out",
+                                     "disk/run", "--set", "output.measures_interval=10 s"},
+                                    {here.path(), {}});
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    const auto written = nlohmann::json::parse(text_of(here / "disk/run/run.json"));
+    EXPECT_EQ(written["status"], "failed");
+    EXPECT_EQ(written["exit_status"], 1);
+    EXPECT_THAT(written["error"], HasSubstr("cannot be written: No space left on device"));
+    const TrajectoryReader trajectory(here / "disk/run/trajectory.nc");
+    EXPECT_EQ(trajectory.frames(), written["written"]["trajectory_frames"].get<std::size_t>());
+    EXPECT_GT(trajectory.frames(), 0u);
+}
+
+TEST_F(StoppedMovie, AFolderThatIsGoneEndsTheRun) {
+    for (const char* without : {"output.trajectory=true", "output.trajectory=false"}) {
+        Program program(long_run({"--no-film", "--set", without, "--set", "output.measures_interval=10 s"}),
+                        {here.path(), {}});
+        ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/checkpoint.grs"); }));
+        fs::rename(here / "run", here / "moved");
+        fs::remove_all(here / "moved");
+        const Ended ended = program.wait();
+        EXPECT_EQ(ended.status, 1);
+        EXPECT_THAT(ended.err, HasSubstr("run: the run's folder is gone: it was removed or renamed"));
+        EXPECT_FALSE(fs::exists(here / "run"));
+    }
+}
+
+TEST_F(StoppedMovie, AFolderInUseIsLeftAlone) {
+    Program program(long_run({"--no-film"}), {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 2; }));
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"movie", scene.string(), "--out", "run"},
+             {"movie", scene.string(), "--out", "run", "--force"},
+             {"compare", scene.string(), scene.string(), "--size", "640x360", "--out", "run", "--force"}}) {
+        const Ended refused = run_program(words, {here.path(), {}});
+        EXPECT_EQ(refused.status, 2);
+        EXPECT_THAT(refused.err, HasSubstr("error: --out run: is in use by process "));
+        EXPECT_THAT(refused.err, HasSubstr("--duration '3600 s'"));  // its command
+    }
+    // To read there is allowed.
+    EXPECT_EQ(run_program({"render", "run", "--at", "0", "--out", "still.png"}, {here.path(), {}}).status, 0);
+    program.send(SIGINT);
+    EXPECT_EQ(program.wait().status, 130);
+    EXPECT_EQ(record()["status"], "interrupted");
+    EXPECT_FALSE(fs::exists(here / "run/.lock"));
+    EXPECT_EQ(
+        run_program({"movie", scene.string(), "--no-film", "--out", "run", "--force"}, {here.path(), {}})
+            .status,
+        0);
 }
 
 TEST_F(StoppedMovie, AFilmThatCannotGrowEndsTheRunToo) {

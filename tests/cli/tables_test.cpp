@@ -190,6 +190,24 @@ TEST(RunJson, HoldsTheRecord) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(here.path()), {}), 1);  // nothing left over
 }
 
+// A folder in the way stands for the full disk: no new file can be had.
+TEST(RunJson, IsWrittenInPlaceWhereNoNewFileCanBeHad) {
+    const TemporaryFolder here;
+    RunRecord record;
+    record.command = "grainreel movie long.toml";
+    write_run_json(here / "run.json", record);
+    std::filesystem::create_directories(here / ".run.json.part/in the way");
+    for (const std::string& error : {std::string(9000, 'x'), std::string("short")}) {
+        record.status = RunStatus::failed;
+        record.error = error;
+        write_run_json(here / "run.json", record);
+        const nlohmann::json ended = nlohmann::json::parse(text_of(here / "run.json"));
+        EXPECT_EQ(ended["status"], "failed");
+        EXPECT_EQ(ended["error"], error);
+    }
+    EXPECT_THROW(write_run_json(here / "none/run.json", record), RunError);
+}
+
 TEST(RunLog, EveryLineIsOnDiskAtOnceWithItsTime) {
     const TemporaryFolder here;
     RunLog log(here / "log.txt");

@@ -1,0 +1,36 @@
+// A folder that a process fills: a lock on the file .lock in it, which says who that is. The system drops the
+// lock when the process ends, however that happens; a file that is left behind means nothing.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace grainreel {
+
+class FolderLock {
+  public:
+    // Takes the lock of a folder that is there; none when somebody else has it. Where the file cannot be
+    // made, or the file system knows no locks, the folder is taken without one. `command`: told to others.
+    static std::optional<FolderLock> take(const std::filesystem::path& folder, const std::string& command);
+    // Who has the folder's lock: "process 4711, which began 2031-05-04T12:30:00Z (grainreel movie ...)"; none
+    // when nobody has it.
+    static std::optional<std::string> holder(const std::filesystem::path& folder);
+
+    ~FolderLock();
+    FolderLock(FolderLock&& other) noexcept;
+    FolderLock& operator=(FolderLock&&) = delete;
+
+    const std::filesystem::path& folder() const { return folder_; }
+    void renamed(const std::filesystem::path& folder) { folder_ = folder; }
+    // Throws RunError when the folder is no longer there under its name: it was removed, or renamed.
+    void check_there() const;
+
+  private:
+    FolderLock(std::filesystem::path folder, int file) : folder_(std::move(folder)), file_(file) {}
+
+    std::filesystem::path folder_;
+    int file_ = -1;  // descriptor; -1 without a lock
+};
+
+}  // namespace grainreel
