@@ -26,6 +26,11 @@ void add_camera_path(Keys& keys) {
         keys.push_back(
             of_dimension(entry(path, KeyKind::vector, note(fallback), about), Dimension::length, any));
     };
+    keys.push_back(choice("film.camera.frame", all_of(camera_frame_words), literal("\"reach\""),
+                          "Framed: all of the container, the bed at rest, or what the grains reach."));
+    keys.push_back(quantity("film.camera.reach", Dimension::length, positive,
+                            note("of a live run estimated, of a finished one measured"),
+                            "Height above the floor that the grains reach."));
     place("film.camera.position", "by azimuth, elevation and automatic framing",
           "Where the camera stands; nothing is framed then.");
     place("film.camera.target", "the container's middle",

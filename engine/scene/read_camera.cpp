@@ -12,8 +12,13 @@ void read_place(Document& document, Camera& camera) {
     camera.position = document.vector("film.camera.position");
     camera.target = document.vector("film.camera.target");
     if (camera.position)
-        for (const char* key : {"film.camera.azimuth", "film.camera.elevation", "film.camera.key"})
+        for (const char* key : {"film.camera.azimuth", "film.camera.elevation", "film.camera.key",
+                                "film.camera.frame", "film.camera.reach"})
             document.refuse(key, stands);
+    camera.frame = chosen<CameraFrame>(document, "film.camera.frame", camera_frame_words, CameraFrame::reach);
+    if (camera.frame != CameraFrame::reach)
+        document.refuse("film.camera.reach", "'frame' does not ask how high the grains get");
+    camera.reach = document.quantity("film.camera.reach");
     camera.azimuth = document.quantity("film.camera.azimuth").value_or(camera.azimuth);
     camera.elevation = document.quantity("film.camera.elevation").value_or(camera.elevation);
     camera.field_of_view = document.quantity("film.camera.field_of_view").value_or(camera.field_of_view);

@@ -208,7 +208,13 @@ struct CameraKey {
     bool operator==(const CameraKey&) const = default;
 };
 
+// What the automatic framing has in the picture: all of the container, the bed at rest, or what the grains
+// reach in the course of the film. Of a container higher than that the upper part runs out of the picture.
+enum class CameraFrame { container, bed, reach };
+
 struct Camera {
+    CameraFrame frame = CameraFrame::reach;
+    std::optional<double> reach;  // m above the floor's rest position; estimated, or measured, when empty
     double azimuth = 20;    // degrees, about z: 0 looks along -x at the wide face, positive goes to the right
     double elevation = 10;  // degrees above the horizon
     double field_of_view = 25;         // degrees, vertical; 0 for orthographic

@@ -30,6 +30,8 @@ inline const Words<Accuracy> accuracy_words{
 
 inline const Words<FilmLook::Style> style_words{
     {"studio", FilmLook::Style::studio}, {"flat", FilmLook::Style::flat}, {"dark", FilmLook::Style::dark}};
+inline const Words<CameraFrame> camera_frame_words{
+    {"container", CameraFrame::container}, {"bed", CameraFrame::bed}, {"reach", CameraFrame::reach}};
 inline const Words<WordPlace> word_place_words{{"automatic", WordPlace::automatic},
                                                {"gutters", WordPlace::gutters},
                                                {"plates", WordPlace::plates},

@@ -250,6 +250,8 @@ void write_camera(SceneText& out, const Camera& camera) {
     place("position", camera.position);
     place("target", camera.target);
     if (!camera.position) {
+        out.words("frame", word_of(camera.frame, camera_frame_words));
+        out.put("reach", camera.reach);
         out.put("azimuth", camera.azimuth);
         out.put("elevation", camera.elevation);
     }

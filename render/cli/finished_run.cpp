@@ -13,6 +13,7 @@
 #include "engine/scene/purposes.hpp"
 #include "engine/scene/reader.hpp"
 #include "render/cli/earlier_positions.hpp"
+#include "render/cli/known_reach.hpp"
 
 namespace grainreel {
 
@@ -99,6 +100,7 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
             fmt::format("{}: has no orientations, and the film shows rotation; run it with "
                         "output.orientation = true, or let film.rotation be false",
                         name));
+    frame_what_is_reached();
     if (needs_touches(scene_.film.shows)) read_contacts();
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
 }
@@ -193,6 +195,13 @@ Frame FinishedRun::first_whole() const {
         }
     }
     return trajectory_.read(places_.back());
+}
+
+// The camera of a run that is over need not estimate how high the grains get.
+void FinishedRun::frame_what_is_reached() {
+    Camera& camera = scene_.film.camera;
+    if (camera.frame == CameraFrame::reach && !camera.reach && !camera.position)
+        camera.reach = known_reach(trajectory_);
 }
 
 void FinishedRun::read_contacts() {

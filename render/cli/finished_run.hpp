@@ -49,6 +49,7 @@ class FinishedRun {
     // Reads each of places_ and keeps those that are not damaged.
     void keep_those(const std::function<void(std::size_t)>& read);
     void check_grains() const;
+    void frame_what_is_reached();
     void read_contacts();
     void read_measures_of_run();
 

@@ -17,6 +17,9 @@ constexpr double degrees = std::numbers::pi / 180;
 constexpr double sample_angle = 0.5;
 constexpr int key_samples = 720;
 
+// Of the camera's distance: the container does not come nearer to the eye.
+constexpr double close_by = 0.1;
+
 }  // namespace
 
 void settle_orbit(Camera& camera, double film_seconds) {
@@ -27,16 +30,70 @@ CameraPath::CameraPath(const Scene& scene, const PictureLayout& layout)
     : camera_(scene.film.camera),
       port_(layout.port),
       picture_height_(scene.film.height),
-      target_(camera_.target.value_or(extent_of(scene).middle())) {
+      margin_(type_scale(scene.film).margin),
+      target_(camera_.target.value_or(camera_.position ? extent_of(scene).middle() : framed_middle(scene))) {
     make_tracks();
-    const double margin = type_scale(scene.film).margin;
     if (camera_.position)
         look_from_position();
-    else if (camera_.target || moves())
-        keep_distance(scene, margin);
     else
-        still_ = fit_view(camera_, framing_points(scene), port_, margin, picture_height_);
-    for (const Vec3& point : framing_points(scene)) radius_ = std::max(radius_, (point - target_).norm());
+        frame_by_itself(scene);
+    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene));
+    for (const Vec3& point : all) radius_ = std::max(radius_, (point - target_).norm());
+    if (still_) still_->nearest = std::min(still_->nearest, 0.5 * least_depth(all));
+}
+
+// Of a container that is cut off as much is left out as can be: what stands high would come close to a camera
+// that looks down.
+void CameraPath::frame_by_itself(const Scene& scene) {
+    FramedPart part = framed_part(scene);
+    double scale = frame_part(scene, part);
+    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene));
+    while (part.cut && camera_.field_of_view > 0 && least_depth(all) < close_by * distance_) {
+        part.top *= 1.25;
+        if (part.top >= scene.container.height) part = whole_container(scene);
+        scale = frame_part(scene, part);
+    }
+    if (part.cut && still_) show_more(scene, part, scale);
+}
+
+// Returns pixels a metre at the middle of what is framed.
+double CameraPath::frame_part(const Scene& scene, const FramedPart& part) {
+    if (camera_.target || moves()) {
+        keep_distance(scene, part);
+        return camera_.field_of_view <= 0 ? focal_ : focal_ / distance_;
+    }
+    still_ = fit_view(camera_, framing_points(scene, camera_.azimuth, part), port_, margin_, picture_height_);
+    distance_ = still_->to_view(target_).z();
+    return still_->pixels_per_metre(target_);
+}
+
+// Where the port's width is what binds, its free height shows more of the container.
+void CameraPath::show_more(const Scene& scene, FramedPart part, double scale) {
+    double most = scene.container.height;
+    for (int i = 0; i < 20; ++i) {
+        const double middle = 0.5 * (part.top + most);
+        const bool as_large = frame_part(scene, {middle, true}) >= (1 - 1e-9) * scale;
+        (as_large ? part.top : most) = middle;
+    }
+    frame_part(scene, part);
+}
+
+// m before the eye, of the nearest point that is seen on the way.
+double CameraPath::least_depth(const std::vector<Vec3>& points) const {
+    double least = 1e300;
+    const auto take = [&](const View& view) {
+        for (const Vec3& point : points) least = std::min(least, view.to_view(point).z());
+    };
+    if (still_) {
+        take(*still_);
+        return least;
+    }
+    for (const Pose& here : samples()) {
+        View view = looking(here.azimuth, here.elevation);
+        view.eye = target_ + shift_ * view.up - distance_ * view.forward;
+        take(view);
+    }
+    return least;
 }
 
 // Through those keys that say something, from `at_first` where the first one does not; none says: no track.
@@ -107,12 +164,13 @@ std::vector<CameraPath::Pose> CameraPath::samples() const {
     return poses;
 }
 
-void CameraPath::keep_distance(const Scene& scene, double margin) {
-    Framing framing(camera_, port_, margin, picture_height_);
-    const Vec3 middle = extent_of(scene).middle();
+void CameraPath::keep_distance(const Scene& scene, const FramedPart& part) {
+    Framing framing(camera_, port_, margin_, picture_height_);
+    const Vec3 middle = framed_middle(scene);
     for (const Pose& here : samples()) {
         const View view = looking(here.azimuth, here.elevation);
-        for (const Vec3& point : framing_points(scene, here.azimuth)) framing.take(view, point - middle);
+        for (const Vec3& point : framing_points(scene, here.azimuth, part))
+            framing.take(view, point - middle);
     }
     focal_ = framing.focal();
     distance_ = framing.distance();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
+#include "render/draw/framing.hpp"
 #include "render/draw/layout.hpp"
 #include "render/draw/monotone_curve.hpp"
 #include "render/draw/view.hpp"
@@ -17,7 +18,7 @@ void settle_orbit(Camera& camera, double film_seconds);
 
 class CameraPath {
   public:
-    // A camera that moves keeps one distance, the least from which all of the container is in the port at
+    // A camera that moves keeps one distance, the least from which all that is framed is in the port at
     // every moment of the way, so that the picture does not breathe. An orbit of unknown duration stands
     // still.
     CameraPath(const Scene& scene, const PictureLayout& layout);
@@ -36,13 +37,18 @@ class CameraPath {
     Track track(double at_first, Value value) const;
     void make_tracks();
     void look_from_position();
-    void keep_distance(const Scene& scene, double margin);
+    void frame_by_itself(const Scene& scene);
+    double frame_part(const Scene& scene, const FramedPart& part);
+    void show_more(const Scene& scene, FramedPart part, double scale);
+    void keep_distance(const Scene& scene, const FramedPart& part);
+    double least_depth(const std::vector<Vec3>& points) const;
     std::vector<Pose> samples() const;
     Pose pose(double film_time) const;
 
     Camera camera_;
     const Rectangle port_;
     const int picture_height_;
+    const double margin_;  // pixels, between what is framed and the port's border
     Vec3 target_;
     std::optional<View> still_;         // with the plain automatic framing
     double distance_ = 0, shift_ = 0;   // m, of the eye from the target, and of both upwards in the picture

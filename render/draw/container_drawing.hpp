@@ -11,6 +11,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/canvas.hpp"
+#include "render/draw/framing.hpp"
 #include "render/draw/layout.hpp"
 #include "render/draw/palette.hpp"
 #include "render/draw/view.hpp"
@@ -19,11 +20,6 @@ namespace grainreel {
 
 // m: how thick walls, floor and lid are drawn.
 double drawn_thickness(const Container& container);
-
-// Every point that has to stay in the picture of a camera at this azimuth (degrees): the drawn container at
-// rest and at both ends of its stroke, as drawn, and the marks beside it.
-std::vector<Vec3> framing_points(const Scene& scene, double azimuth);
-std::vector<Vec3> framing_points(const Scene& scene);  // at the camera's own azimuth
 
 // The scene's camera as the film begins.
 View frame_container(const Scene& scene, const PictureLayout& layout);

@@ -136,10 +136,10 @@ class Cylinder {
 
 }  // namespace
 
-std::vector<Vec3> cylinder_corners(const Container& container) {
+std::vector<Vec3> cylinder_corners(const Container& container, double top) {
     const double t = drawn_thickness(container);
     std::vector<Vec3> corners;
-    for (const double z : {-1.4 * t, container.height + (container.lid ? t : 0)})
+    for (const double z : {-1.4 * t, std::min(top, container.height + (container.lid ? t : 0))})
         for (const Vec3& point : circle(container.half_width + t, z)) corners.push_back(point);
     return corners;
 }

@@ -203,14 +203,32 @@ double outer_floor_half_width(const Container& container) {
     return wall_profile(container, 1).outer.front().x();
 }
 
-std::vector<Vec3> prism_corners(const Container& container) {
+namespace {
+
+// The points of a line that rises, up to `top` and there.
+std::vector<Flat> below(const std::vector<Flat>& line, double top) {
+    std::vector<Flat> points;
+    for (const Flat& p : line) {
+        if (p.y() > top) {
+            const Flat& last = points.back();
+            points.emplace_back(last + (top - last.y()) / (p.y() - last.y()) * (p - last));
+            break;
+        }
+        points.push_back(p);
+    }
+    return points;
+}
+
+}  // namespace
+
+std::vector<Vec3> prism_corners(const Container& container, double top) {
     std::vector<Vec3> corners;
     const Plate floor = floor_plate(container), lid = lid_plate(container);
     for (const double x : {-0.5 * container.depth, 0.5 * container.depth})
         for (const double side : {-1.0, 1.0}) {
-            for (const Flat& p : wall_profile(container, side).outer) corners.push_back(at(x, p));
+            for (const Flat& p : below(wall_profile(container, side).outer, top)) corners.push_back(at(x, p));
             corners.emplace_back(x, side * floor.half_width, floor.low);
-            if (container.lid) corners.emplace_back(x, side * lid.half_width, lid.high);
+            if (container.lid && lid.high <= top) corners.emplace_back(x, side * lid.half_width, lid.high);
         }
     return corners;
 }

@@ -90,9 +90,10 @@ void draw_free_wall_ghost(const FreeWall& wall, const Scene& scene, const Sketch
 // Half the width of everything drawn, at the height of the floor's top; m.
 double outer_floor_half_width(const Container& container);
 
-// Corners of the drawn container at rest, walls with thickness.
-std::vector<Vec3> prism_corners(const Container& container);
-std::vector<Vec3> cylinder_corners(const Container& container);
+// Corners of the drawn container at rest, walls with thickness; of one that is cut off at `top` (m), where it
+// is higher.
+std::vector<Vec3> prism_corners(const Container& container, double top);
+std::vector<Vec3> cylinder_corners(const Container& container, double top);
 std::vector<Vec3> extent_corners(const Extent& extent);
 
 }  // namespace grainreel

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/scene/bed.hpp"
+#include "render/draw/framing.hpp"
 #include "render/draw/writer.hpp"
 
 namespace grainreel {
@@ -137,7 +137,7 @@ FirstPart first_part(const Writer& writer, const Scene& scene, const View* view,
     const double inner = std::max(1.0, width - (layout.portrait ? 2.0 : 1.5) * type.margin);
     const double room = layout.first.height > 0 ? layout.first.height - type.margin : endless_room;
     // The scale holds at the depth of the container's middle.
-    const double scale = view ? view->pixels_per_metre(extent_of(scene).middle()) : 1;
+    const double scale = view ? view->pixels_per_metre(framed_middle(scene)) : 1;
     return (layout.portrait ? portrait_part : landscape_part)(writer, scene, view, scale, inner, room);
 }
 

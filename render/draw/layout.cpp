@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/bed.hpp"
 #include "render/draw/container_drawing.hpp"
 #include "render/draw/first_gutter.hpp"
 #include "render/draw/numbers_plan.hpp"
@@ -104,7 +103,7 @@ Judged judged(const Scene& scene, PictureLayout layout) {
     if (scene.drive.present && !plan.has_dial) layout.left_out.emplace_back("dial");
     if (scene.drive.present && layout.portrait && !plan.has_arrows) layout.left_out.emplace_back("arrows");
     if (plan.plots.size() < scene.film.shows.plots.size()) layout.left_out.emplace_back("plots");
-    const double scale = frame_container(scene, layout).pixels_per_metre(extent_of(scene).middle());
+    const double scale = frame_container(scene, layout).pixels_per_metre(framed_middle(scene));
     return {std::move(layout), scale, plan.fits};
 }
 

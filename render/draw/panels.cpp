@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/bed.hpp"
 #include "render/draw/captions.hpp"
 #include "render/draw/container_drawing.hpp"
 
@@ -89,7 +88,7 @@ double own_scale(const Panel& panel, const PanelLayout::Place& place) {
     Scene scene = panel.scene;
     scene.film.width = place.port.width;
     scene.film.height = place.port.height;
-    return frame_container(scene, bare_layout(scene.film)).pixels_per_metre(extent_of(scene).middle());
+    return frame_container(scene, bare_layout(scene.film)).pixels_per_metre(framed_middle(scene));
 }
 
 // Gives all panels one scale where they can have one; returns what the grid is worth.

@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/bed.hpp"
 #include "render/draw/cairo_surface.hpp"
 #include "render/draw/captions.hpp"
 #include "render/draw/container_drawing.hpp"
@@ -145,7 +144,7 @@ void SideBySide::Impl::write_still_words(const std::vector<Panel>& panels, const
         });
         const Scene scene = panel_scene(panels[i], place, film);
         const double own =
-            frame_container(scene, bare_layout(scene.film)).pixels_per_metre(extent_of(scene).middle());
+            frame_container(scene, bare_layout(scene.film)).pixels_per_metre(framed_middle(scene));
         on_part(place.foot, [&](const Writer& on) {
             draw_foot(on, panels[i], common, layout.scale > 0 ? 0 : own, place.foot.width);
         });

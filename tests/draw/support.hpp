@@ -40,6 +40,7 @@ inline Scene wedge(int width = 640, int height = 360) {
     c.height = 0.16;
     c.half_angle = 20 * pi / 180;
     c.slant_height = 0.1;
+    scene.film.camera.frame = CameraFrame::container;
     scene.film.look.ground = false;  // its shadow moves where walls are measured
     scene.drive.present = true;
     scene.drive.frequency = 20;

@@ -61,6 +61,21 @@ TEST(CameraKeys, AreWrittenBack) {
     }
 }
 
+TEST(CameraKeys, WhatIsFramedIsReadAndWrittenBack) {
+    EXPECT_EQ(read_text(wedge_text).film.camera.frame, CameraFrame::reach);
+    for (const char* words : {"frame = \"container\"\n", "frame = \"bed\"\n", "reach = \"90 mm\"\n"}) {
+        const Scene scene = read_text(wedge_text + "[film.camera]\n" + words);
+        EXPECT_NE(scene.film, read_text(wedge_text).film) << words;
+        EXPECT_EQ(read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml").film, scene.film);
+    }
+    EXPECT_EQ(about_camera("frame = \"bed\"\nreach = 0.1\n"),
+              "test.toml:30:1: 'reach' is of no use here: 'frame' does not ask how high the grains get; "
+              "remove it");
+    EXPECT_EQ(about_camera("position = [1, 0, 0]\nframe = \"bed\"\n"),
+              "test.toml:30:1: 'frame' is of no use here: the camera stands at 'position' and looks at "
+              "'target'; remove it");
+}
+
 TEST(CameraKeys, AreRefusedWhereTheyMeanNothing) {
     EXPECT_EQ(about_camera("position = [1, 0, 0]\nazimuth = 3\n"),
               "test.toml:30:1: 'azimuth' is of no use here: the camera stands at 'position' "

@@ -1,0 +1,123 @@
+// What the camera has in the picture when it is not told: the container, its bed, or what the grains reach.
+#include "render/draw/framing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "engine/scene/reach.hpp"
+#include "engine/scene/reader.hpp"
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+using enum CameraFrame;
+
+Scene framed(CameraFrame frame, Container::Shape shape = Container::Shape::box, int width = 1280,
+             int height = 720) {
+    Scene scene = wedge(width, height);
+    scene.container.shape = shape;
+    scene.container.height = 0.5;
+    scene.species = {species("small", 1500, 0.005, blue)};
+    scene.film.camera.frame = frame;
+    return scene;
+}
+
+double scale_of(const Scene& scene) {
+    return view_of(scene).pixels_per_metre(framed_middle(scene));
+}
+
+TEST(FramedPart, IsAsHighAsTheKeySays) {
+    const double a = 0.002;
+    Scene scene = framed(reach);
+    EXPECT_DOUBLE_EQ(framed_part(scene).top, *estimated_reach(scene));
+    EXPECT_TRUE(framed_part(scene).cut);
+    scene.film.camera.reach = 0.2;
+    EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.2);
+    scene.film.exaggerate = 4;  // drawn so: the grains go with the container, three strokes further
+    EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.2 + 3 * a);
+    scene.film.exaggerate = 1;
+    scene.film.camera.reach = 0.49;  // all but the lid: not worth a cut
+    EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.5);
+    EXPECT_FALSE(framed_part(scene).cut);
+    EXPECT_DOUBLE_EQ(framed_part(framed(bed)).top, *resting_top(framed(bed)) + a);
+    EXPECT_DOUBLE_EQ(framed_part(framed(container)).top, 0.5);
+    EXPECT_FALSE(framed_part(framed(container)).cut);
+    scene = framed(reach);
+    scene.film.camera.elevation = 80;
+    EXPECT_FALSE(framed_part(scene).cut);
+}
+
+TEST(FramedPart, AboveAnOpenTopIsWhatTheGrainsReach) {
+    Scene scene = framed(reach);
+    scene.container.lid = false;
+    scene.film.camera.reach = 0.6;
+    EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.6);
+    scene.film.camera.reach = 3;
+    EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.75);  // half as high again as the container
+}
+
+// Inside the margin on all sides and at it on two opposite ones, floor and marks included, while the
+// container runs out of the picture.
+TEST(FramedPart, FillsThePicture) {
+    for (const auto shape : {Container::Shape::box, Container::Shape::wedge, Container::Shape::cylinder})
+        for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 360}})
+            for (const double field : {0.0, 25.0, 60.0})
+                for (const double elevation : {-10.0, 10.0, 45.0}) {
+                    Scene scene = framed(reach, shape, width, height);
+                    scene.film.camera.elevation = elevation;
+                    scene.film.camera.field_of_view = field;
+                    const View view = view_of(scene);
+                    const double margin = type_scale(scene.film).margin;
+                    Pixel low(1e9, 1e9), high(-1e9, -1e9);
+                    for (const Vec3& point : framing_points(scene)) {
+                        low = low.cwiseMin(view.project(point));
+                        high = high.cwiseMax(view.project(point));
+                    }
+                    const Pixel size(view.port.width, view.port.height);
+                    ASSERT_GT(low.minCoeff(), margin - 1e-3);
+                    ASSERT_GT((size - high).minCoeff(), margin - 1e-3);
+                    for (const Vec3& corner : framing_points(scene, 20, whole_container(scene)))
+                        ASSERT_TRUE(field == 0 || view.to_view(corner).z() > 0);
+                }
+}
+
+// A bed of a tenth of the container's height: as large as the picture lets it be, not as the container does.
+TEST(FramedPart, ABedIsLargerThanInAFrameOfAllTheContainer) {
+    for (const auto shape : {Container::Shape::box, Container::Shape::cylinder}) {
+        const double all = scale_of(framed(container, shape)), some = scale_of(framed(reach, shape)),
+                     least = scale_of(framed(bed, shape));
+        EXPECT_GT(some, 1.5 * all);
+        EXPECT_GE(least, some);
+    }
+}
+
+// Where the width binds, free height shows more of the container instead of lying empty below the floor.
+TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
+    Scene scene = framed(reach, Container::Shape::box, 720, 1280);
+    const View view = view_of(scene);
+    double lowest = 0;
+    for (const Vec3& point : framing_points(scene)) lowest = std::max(lowest, view.project(point).y());
+    EXPECT_NEAR(view.port.height - lowest, type_scale(scene.film).margin, 1);
+}
+
+TEST(FramedPart, GrainsOfTheShippedBedsCoverTwiceTheArea) {
+    for (const char* name : {"wedge_segregation", "teaching_brazil_nut"}) {
+        const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";
+        const Scene scene = read_scene(file, {}), whole = read_scene(file, {"film.camera.frame=container"});
+        // Grains cover the square of the scale.
+        EXPECT_GE(std::pow(scale_of(scene) / scale_of(whole), 2), 2) << name;
+    }
+}
+
+// A camera that moves, or looks at a point of its own, frames the same.
+TEST(FramedPart, HoldsForCamerasThatMove) {
+    for (const auto& change : {+[](Camera& c) { c.orbit = 360, c.orbit_time = 5; },
+                               +[](Camera& c) { c.target = Vec3(0, 0, 0.02); }}) {
+        Scene all = framed(container), some = framed(reach);
+        change(all.film.camera), change(some.film.camera);
+        EXPECT_GT(scale_of(some), 1.4 * scale_of(all));
+    }
+}
+
+}  // namespace
+}  // namespace grainreel::test

@@ -1,0 +1,95 @@
+// How high the grains get, by formula.
+#include "engine/scene/reach.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// 500 grains of 4 mm in a box of 40 x 20 mm.
+Scene box() {
+    Scene scene;
+    Species grains;
+    grains.name = "grains";
+    grains.count = 500;
+    grains.diameter = {SizeSpread::Kind::fixed, 0.004, 0.004, 0.004, 0};
+    scene.species = {grains};
+    scene.container.shape = Container::Shape::box;
+    scene.container.half_width = 0.02;
+    scene.container.depth = 0.02;
+    scene.container.height = 0.2;
+    scene.drive.present = true;
+    scene.drive.frequency = 15;
+    scene.drive.amplitude = 0.004;
+    return scene;
+}
+
+double bed() {
+    return 500 * pi / 6 * std::pow(0.004, 3) / 0.55 / (0.04 * 0.02);
+}
+
+// The flight of a ball that lies on a plate which moves as a sin(w t), step by step: it leaves where the
+// plate falls faster than it would.
+double highest_of_a_ball(double amplitude, double w) {
+    const double g = 9.81, step = 1e-6 / w;
+    double highest = 0, height = 0, speed = 0;
+    bool flies = false;
+    for (double t = 0; t * w < pi; t += step) {
+        flies = flies || -amplitude * w * w * std::sin(w * t) < -g;
+        if (flies) {
+            speed -= g * step;
+            height += speed * step;
+        } else {
+            height = amplitude * std::sin(w * t);
+            speed = amplitude * w * std::cos(w * t);
+        }
+        highest = std::max(highest, height);
+    }
+    return highest;
+}
+
+TEST(Reach, IsTheBedAtRestAndOneAndAHalfThrows) {
+    const Scene scene = box();
+    EXPECT_NEAR(*resting_top(scene), bed(), 1e-12);
+    const double thrown = highest_of_a_ball(0.004, 2 * pi * 15);
+    EXPECT_NEAR(*estimated_reach(scene), bed() + 1.5 * thrown, 1e-5);
+}
+
+TEST(Reach, OfABedThatStaysOnTheFloorEndsWithItsStroke) {
+    Scene scene = box();
+    scene.drive.amplitude = 0.001;
+    ASSERT_LT(scene.drive.g_level(9.81), 1);
+    EXPECT_NEAR(*estimated_reach(scene), bed() + 0.001, 1e-12);
+    scene.drive.present = false;
+    EXPECT_NEAR(*estimated_reach(scene), bed(), 1e-12);
+}
+
+TEST(Reach, OfGrainsPlacedByHandIsTheirFlightUpwards) {
+    Scene scene = box();
+    scene.drive.present = false;
+    scene.species[0].count = 1;
+    scene.start.grains = {{0, 0.004, Vec3(0, 0, 0.05), Vec3(0, 0, 1), Vec3(0, 0, 0)}};
+    EXPECT_NEAR(*estimated_reach(scene), 0.052 + 1 / (2 * 9.81), 1e-12);
+}
+
+TEST(Reach, IsNotGuessedWhereTheGrainsVolumeDoesNotTellIt) {
+    Scene empty = box(), weightless = box(), tilted = box(), planes = box();
+    empty.container.shape = Container::Shape::none;
+    weightless.gravity = {0, 0, 0};
+    tilted.gravity = {0, 9.81 * std::sin(0.5), -9.81 * std::cos(0.5)};
+    planes.walls = {FreeWall{}};
+    for (const Scene& scene : {empty, weightless, tilted, planes}) {
+        EXPECT_FALSE(resting_top(scene));
+        EXPECT_FALSE(estimated_reach(scene));
+    }
+}
+
+}  // namespace
+}  // namespace grainreel
