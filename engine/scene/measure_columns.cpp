@@ -34,7 +34,7 @@ std::vector<MeasureColumn> measure_columns(const std::vector<std::string>& speci
                                Dimension::length});
         columns.push_back({plain(name) + "_height_m", "mean height of " + name, Dimension::length});
     }
-    columns.push_back({"height_difference", "height difference"});
+    columns.push_back({"height_difference", "height of big − small"});
     columns.push_back({"big_above_small", "P(big above small)"});
     columns.push_back({"big_in_top_quarter", "big ones in the top quarter"});
     columns.push_back({"unlike_neighbours", "unlike neighbours / chance"});

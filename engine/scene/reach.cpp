@@ -9,7 +9,7 @@ namespace grainreel {
 namespace {
 
 constexpr double loose_fraction = 0.55;  // solid, of a bed between walls that are near
-constexpr double thrown_further = 1.5;   // than the bed's middle
+constexpr double thrown_faster = 1.6;    // than the plate moves
 constexpr double upright = 0.95;         // cosine of the largest angle between gravity and -z
 
 bool has_a_bed(const Scene& scene) {
@@ -22,9 +22,10 @@ bool has_a_bed(const Scene& scene) {
 double throw_height(const Scene& scene) {
     const Drive& drive = scene.drive;
     if (!drive.present) return 0;
-    const double level = drive.g_level(scene.gravity.norm());
-    if (level <= 1) return drive.amplitude;
-    return thrown_further * 0.5 * drive.amplitude * (level + 1 / level);
+    const double gravity = scene.gravity.norm(), stroke = drive.amplitude * std::abs(drive.direction.z());
+    if (drive.g_level(gravity) <= 1) return stroke;
+    const double speed = thrown_faster * drive.speed();
+    return stroke + speed * speed / (2 * gravity);
 }
 
 // m: of grains placed by hand, where their own flight takes them.

@@ -81,7 +81,7 @@ ContactSheet::ContactSheet(const Film& film)
       background_(make_palette(film.background).background),
       ink_(make_palette(film.background).ink) {}
 
-ContactSheet::Tile ContactSheet::tile(const Picture& picture, std::int64_t number, double time) const {
+ContactSheet::Tile ContactSheet::tile(const Picture& picture, double time) const {
     const Surface full = surface_of(picture);
     Surface small = make_surface(width_, height_);
     const Context on(cairo_create(small.get()));
@@ -93,32 +93,40 @@ ContactSheet::Tile ContactSheet::tile(const Picture& picture, std::int64_t numbe
     cairo_pattern_set_filter(cairo_get_source(on.get()), CAIRO_FILTER_GOOD);
     cairo_pattern_set_extend(cairo_get_source(on.get()), CAIRO_EXTEND_PAD);
     cairo_paint(on.get());
-    return {number, time, small};
+    return {time, small};
 }
 
 void ContactSheet::add(const Picture& picture, double time) {
-    if (count_ % stride_ == 0) kept_.push_back(tile(picture, count_, time));
-    ++count_;
     last_time_ = time;
-    if (kept_.size() <= kept_for_one * static_cast<std::size_t>(columns_) * rows_) return;
-    stride_ *= 2;
-    std::erase_if(kept_, [&](const Tile& kept) { return kept.number % stride_ != 0; });
+    const bool later = kept_.empty() || time > kept_.back().time;
+    if (!later || (!kept_.empty() && time < kept_.back().time + apart_)) return;
+    kept_.push_back(tile(picture, time));
+    const std::size_t room = kept_for_one * static_cast<std::size_t>(columns_) * rows_;
+    if (kept_.size() <= room) return;
+    const double all = kept_.back().time - kept_.front().time;
+    apart_ = std::max(2 * apart_, 2 * all / static_cast<double>(room));
+    std::vector<Tile> left;
+    for (Tile& kept : kept_)
+        if (left.empty() || kept.time >= left.back().time + apart_) left.push_back(std::move(kept));
+    kept_ = std::move(left);
 }
 
-// The kept tiles nearest to the even places, the first and the last frame among them.
+// The kept tiles nearest to the even times, each of them once, the first and the last frame among them.
 std::vector<ContactSheet::Tile> ContactSheet::chosen(const Picture& last) const {
     std::vector<Tile> tiles = kept_;
-    if (count_ == 0) return tiles;
-    if (tiles.back().number != count_ - 1) tiles.push_back(tile(last, count_ - 1, last_time_));
-    const std::int64_t wanted = std::min<std::int64_t>(count_, std::int64_t{columns_} * rows_);
+    if (tiles.empty()) return tiles;
+    if (last_time_ > tiles.back().time) tiles.push_back(tile(last, last_time_));
+    const std::size_t wanted = std::min(tiles.size(), static_cast<std::size_t>(columns_) * rows_);
+    const double first = tiles.front().time, end = tiles.back().time;
     std::vector<Tile> result;
-    for (std::int64_t i = 0; i < wanted; ++i) {
-        const double place = wanted == 1
-                                 ? static_cast<double>(count_ - 1)
-                                 : static_cast<double>(i * (count_ - 1)) / static_cast<double>(wanted - 1);
-        const auto away = [&](const Tile& t) { return std::abs(static_cast<double>(t.number) - place); };
-        result.push_back(*std::min_element(tiles.begin(), tiles.end(),
-                                           [&](const Tile& a, const Tile& b) { return away(a) < away(b); }));
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < wanted; ++i) {
+        const double share = wanted == 1 ? 1 : static_cast<double>(i) / static_cast<double>(wanted - 1);
+        const double time = first + share * (end - first);
+        const std::size_t most = tiles.size() - (wanted - i);  // as many are still to come
+        while (next < most && std::abs(tiles[next + 1].time - time) <= std::abs(tiles[next].time - time))
+            ++next;
+        result.push_back(tiles[next++]);
     }
     return result;
 }
@@ -130,10 +138,12 @@ Picture ContactSheet::draw(const Picture& last) const {
     set_colour(on.get(), background_);
     cairo_paint(on.get());
     const std::vector<Tile> tiles = chosen(last);
-    // So many that neighbours differ in two figures.
-    const double between =
-        tiles.size() > 1 ? (tiles.back().time - tiles.front().time) / static_cast<double>(tiles.size() - 1)
+    // So many that neighbours differ, and those at the mean distance in two figures.
+    double between = tiles.size() > 1
+                         ? (tiles.back().time - tiles.front().time) / static_cast<double>(tiles.size() - 1)
                          : 1;
+    for (std::size_t i = 1; i < tiles.size(); ++i)
+        between = std::min(between, 10 * (tiles[i].time - tiles[i - 1].time));
     const int decimals =
         between > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(between))), 0, 6) : 3;
     for (std::size_t i = 0; i < tiles.size(); ++i) draw_tile(on.get(), tiles[i], i, decimals);

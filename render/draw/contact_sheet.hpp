@@ -1,4 +1,4 @@
-// A page of small pictures, frames spread evenly over a film, each with its time.
+// A page of small pictures, frames spread evenly over the time that a film shows, each with its time.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class ContactSheet {
     explicit ContactSheet(const Film& film);
 
     // Every frame of the film in order, since nobody knows how many will come: a run may be stopped. time: s,
-    // simulated.
+    // simulated, which slow motion passes slowly. Of frames of one time the first is shown.
     void add(const Picture& picture, double time);
 
     // The page as of now. last: the frame that was added last, which ends the page whatever was kept.
@@ -27,11 +27,10 @@ class ContactSheet {
 
   private:
     struct Tile {
-        std::int64_t number = 0;  // of the frame
-        double time = 0;          // s
+        double time = 0;  // s
         std::shared_ptr<_cairo_surface> picture;
     };
-    Tile tile(const Picture& picture, std::int64_t number, double time) const;
+    Tile tile(const Picture& picture, double time) const;
     std::vector<Tile> chosen(const Picture& last) const;
     void draw_tile(_cairo* on, const Tile& tile, std::size_t place, int decimals) const;
 
@@ -39,9 +38,8 @@ class ContactSheet {
     int width_, height_;  // of a tile, pixels
     double letters_;      // pixels
     Colour background_, ink_;
-    std::vector<Tile> kept_;  // every stride_-th frame, some times more than there is room for
-    std::int64_t stride_ = 1;
-    std::int64_t count_ = 0;
+    std::vector<Tile> kept_;  // by rising time, some times more than there is room for ...
+    double apart_ = 0;        // ... and no two nearer than this, s
     double last_time_ = 0;
 };
 

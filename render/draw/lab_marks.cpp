@@ -19,9 +19,13 @@ Vec3 drawn_stroke(const Scene& scene) {
     return scene.film.exaggerate * scene.drive.amplitude * scene.drive.direction;
 }
 
+bool has_lab_marks(const Scene& scene) {
+    return scene.drive.present && scene.drive.amplitude > 0 &&
+           scene.container.shape != Container::Shape::none;
+}
+
 std::vector<LabMark> lab_marks(const Scene& scene, double azimuth) {
-    if (!scene.drive.present || scene.drive.amplitude <= 0) return {};
-    if (scene.container.shape == Container::Shape::none) return {};
+    if (!has_lab_marks(scene)) return {};
     const Container& container = scene.container;
     const double thickness = drawn_thickness(container), floor_half = outer_floor_half_width(container);
     // In the plane of the near cross-section; across the line of sight beside a cylinder, or where the camera

@@ -16,6 +16,7 @@ struct LabMark {
     Vec3 along;   // m, its direction and length
     Vec3 stroke;  // m, the displacement at the end of the stroke
 };
+bool has_lab_marks(const Scene& scene);
 // azimuth: degrees, of the camera.
 std::vector<LabMark> lab_marks(const Scene& scene, double azimuth);
 

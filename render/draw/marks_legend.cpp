@@ -71,7 +71,8 @@ TextSize marks_block(const Writer& writer, const Scene& scene, double scale, dou
                   line(icon, 1.5 * pen, middle);
               });
     if (look.force_chains)
-        entry(icon, fmt::format("{} or more", quantity_text(widest_force(scene), Dimension::force)),
+        entry(icon,
+              fmt::format("contact force, {} or more", quantity_text(widest_force(scene), Dimension::force)),
               [&](double middle) {
                   colour(writer.palette.force);
                   line(icon, widest_line(scene.film.height), middle);

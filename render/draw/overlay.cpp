@@ -12,31 +12,18 @@
 #include "render/draw/halo.hpp"
 
 namespace grainreel {
-namespace {
-
-std::vector<WordBox> boxes_of(const NumbersPlan& plan, bool portrait) {
-    if (portrait) return {{plan.x, plan.clock, plan.inner, plan.height - plan.clock}};
-    std::vector<WordBox> boxes{{plan.x, plan.clock, plan.inner, plan.note_end - plan.clock}};
-    if (plan.plots.empty()) return boxes;
-    const Rectangle &top = plan.plots.front(), &low = plan.plots.back();
-    boxes.push_back({1.0 * top.x, 1.0 * top.y, 1.0 * top.width, 1.0 * (low.y + low.height - top.y)});
-    return boxes;
-}
-
-}  // namespace
 
 Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view)
     : scene_(scene),
       palette_(palette),
       layout_(layout),
-      type_(type_scale(scene.film)),
+      type_(layout.type),
       plan_(plan_numbers({nullptr, type_, palette_}, scene, layout.second.width, layout.second.height,
-                         layout.portrait)),
-      strips_(strips()),
+                         layout.stacked)),
       first_plates_(plates_around(
           first_part({nullptr, type_, palette_}, scene, &view, layout, layout.first.width).boxes, type_,
           layout.first)),
-      second_plates_(plates_around(boxes_of(plan_, layout.portrait), type_, layout.second)),
+      second_plates_(plates_around(plan_.boxes, type_, layout.second)),
       first_(blank(layout.first, first_plates_)),
       still_(blank(layout.second, second_plates_)),
       second_(blank(layout.second, second_plates_)) {
@@ -44,25 +31,9 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
     make_plots();
 }
 
-Overlay::Strips Overlay::strips() const {
-    const int width = layout_.second.width, middle = static_cast<int>(plan_.caption_x - 0.5 * type_.gap);
-    const auto strip = [&](double from, double to) {
-        const int top = static_cast<int>(from),
-                  bottom = std::min(static_cast<int>(to), layout_.second.height);
-        return Rectangle{0, top, width, std::max(0, bottom - top)};
-    };
-    Strips all{strip(0, plan_.clock_end), strip(plan_.caption, plan_.caption_end),
-               strip(plan_.note, plan_.note_end), strip(plan_.dial - 0.4 * type_.gap, plan_.dial_end)};
-    if (plan_.caption_beside) {
-        all.clock.width = all.caption.x = middle;
-        all.caption.width = width - middle;
-    }
-    return all;
-}
-
 std::vector<Rectangle> Overlay::moving() const {
-    std::vector<Rectangle> parts{strips_.clock, strips_.caption, strips_.note};
-    if (scene_.drive.present && plan_.has_dial) parts.push_back(strips_.dial);
+    std::vector<Rectangle> parts{plan_.clock_part, plan_.caption_part, plan_.note_part};
+    if (plan_.has_dial) parts.push_back(plan_.dial_part);
     parts.insert(parts.end(), plan_.plots.begin(), plan_.plots.end());
     for (Rectangle& part : parts) part.x += layout_.second.x, part.y += layout_.second.y;
     return parts;
@@ -92,10 +63,11 @@ void Overlay::draw_still_numbers(const View& view) {
     if (!scene_.drive.present) return;
     const CairoContext on(cairo_create(still_.get()));
     const Writer writer{on.get(), type_, palette_};
-    if (plan_.has_dial) dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.x, plan_.dial);
-    drive_block(writer, scene_, plan_.drive_x, plan_.drive);
-    if (layout_.portrait && plan_.has_arrows)
-        arrows_block(writer, scene_, &view, plan_.arrows_x, plan_.drive);
+    if (plan_.has_dial)
+        dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.dial.x, plan_.dial.y, &view);
+    drive_block(writer, scene_, plan_.drive.x, plan_.drive.y);
+    if (layout_.stacked && plan_.has_arrows)
+        arrows_block(writer, scene_, &view, plan_.arrows.x, plan_.arrows.y);
 }
 
 void Overlay::make_plots() {
@@ -153,27 +125,29 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
     }
     const std::string clock = clock_words(scene_, frame), caption = playback_text(frame, playback);
     if (!written_ || clock != clock_)
-        renew(picture, strips_.clock, [&](cairo_t* on) {
-            clock_block({on, type_, palette_}, scene_, frame, plan_.x, plan_.clock);
+        renew(picture, plan_.clock_part, [&](cairo_t* on) {
+            clock_block({on, type_, palette_}, scene_, frame, plan_.clock.x, plan_.clock.y);
         });
     if (!written_ || caption != caption_)
-        renew(picture, strips_.caption, [&](cairo_t* on) {
+        renew(picture, plan_.caption_part, [&](cairo_t* on) {
             const Writer writer{on, type_, palette_};
             if (!caption.empty())
-                writer.write(plan_.caption_x, plan_.caption, caption, writer.minor(), palette_.faint_ink,
+                writer.write(plan_.caption.x, plan_.caption.y, caption, writer.minor(), palette_.faint_ink,
                              plan_.caption_wrap, plan_.caption_lines);
         });
     const std::string note = note_text(scene_, frame);
-    if (strips_.note.height > 0 && (!written_ || note != note_))
-        renew(picture, strips_.note, [&](cairo_t* on) {
-            note_block({on, type_, palette_}, note, plan_.x, plan_.note + 0.5 * type_.gap, plan_.inner);
+    if (plan_.note_part.height > 0 && (!written_ || note != note_))
+        renew(picture, plan_.note_part, [&](cairo_t* on) {
+            note_block({on, type_, palette_}, note, plan_.note.x, plan_.note.y + 0.5 * type_.gap,
+                       plan_.note_wrap);
         });
     // The hand is drawn where the drive is; before the drive there is none.
     const double angle = frame.time < 0 ? -1 : frame.phase;
     const double stroke = frame.floor_offset.dot(scene_.drive.direction);
-    if (scene_.drive.present && plan_.has_dial && (!written_ || angle != angle_ || stroke != stroke_))
-        renew(picture, strips_.dial, [&](cairo_t* on) {
-            dial_block({on, type_, palette_}, scene_.drive, &frame, plan_.radius, plan_.x, plan_.dial);
+    if (plan_.has_dial && (!written_ || angle != angle_ || stroke != stroke_))
+        renew(picture, plan_.dial_part, [&](cairo_t* on) {
+            dial_block({on, type_, palette_}, scene_.drive, &frame, plan_.radius, plan_.dial.x, plan_.dial.y,
+                       &view);
         });
     renew_plots(picture, frame);
     written_ = true;

@@ -32,11 +32,6 @@ class Overlay {
     std::vector<Rectangle> moving() const;
 
   private:
-    // Parts of the second gutter whose words change, from its corner.
-    struct Strips {
-        Rectangle clock, caption, note, dial;
-    };
-    Strips strips() const;
     CairoSurface blank(const Rectangle& part, const std::vector<Rectangle>& plates) const;
     void draw_still(const View& view);
     void draw_still_numbers(const View& view);
@@ -53,7 +48,6 @@ class Overlay {
     const PictureLayout layout_;
     const TypeScale type_;
     const NumbersPlan plan_;
-    const Strips strips_;
     const std::vector<Rectangle> first_plates_, second_plates_;  // from the gutters' corners
     CairoSurface first_, still_, second_;
     std::vector<Plot> plots_;

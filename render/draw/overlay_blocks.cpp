@@ -6,14 +6,11 @@
 #include <vector>
 
 #include "render/draw/captions.hpp"
-#include "render/draw/grain_colours.hpp"
-#include "render/draw/lit_ball.hpp"
+#include "render/draw/lab_marks.hpp"
 #include "render/draw/writer.hpp"
 
 namespace grainreel {
 namespace {
-
-constexpr std::size_t most_species = 8;  // in the legend; more are summed up in a last line
 
 void set_colour(const Writer& writer, const Colour& colour) {
     cairo_set_source_rgb(writer.on, colour.red, colour.green, colour.blue);
@@ -53,6 +50,22 @@ void arrow(const Writer& writer, double x, double y, double dx, double dy, bool 
     }
 }
 
+// As draw_lab_marks() has it beside the floor.
+void lab_mark_sample(const Writer& writer, double x, double y, double reach) {
+    const double pen = std::max(1.0, writer.type.main / 16), bar = x, low = 0.8 * reach;
+    set_colour(writer, writer.palette.faint_ink);
+    stroke_line(writer, bar, y - low, bar, y + low, pen);
+    for (const double level : {-1.0, 0.0, 1.0})
+        stroke_line(writer, bar - (level == 0 ? 0.9 : 0.5) * reach, y + level * low, bar, y + level * low,
+                    pen);
+    set_colour(writer, writer.palette.accent);
+    cairo_move_to(writer.on, bar, y);
+    cairo_line_to(writer.on, bar + 0.85 * reach, y - 0.4 * reach);
+    cairo_line_to(writer.on, bar + 0.85 * reach, y + 0.4 * reach);
+    cairo_close_path(writer.on);
+    cairo_fill(writer.on);
+}
+
 // A direction that the camera looks along: a ring with the arrow's tip in it, or with its feathers.
 void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
     const double radius = 0.42 * writer.type.main, width = std::max(1.0, writer.type.main / 12);
@@ -66,80 +79,12 @@ void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
     stroke_line(writer, x - reach, y + reach, x + reach, y - reach, width);
 }
 
-double largest_diameter(const Scene& scene) {
-    double largest = 0;
-    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
-    return largest;
-}
-
-// The floor's displacement from the middle of its stroke, in amplitudes. A drive that starts without a ramp
-// in mid-period moves about a middle that is not the rest position.
-double share_of_stroke(const Drive& drive, const Frame& frame) {
-    if (drive.amplitude <= 0) return 0;
-    const double middle = drive.ramp > 0 ? 0 : -std::sin(2 * std::numbers::pi * drive.phase);
-    return frame.floor_offset.dot(drive.direction) / drive.amplitude - middle;
-}
-
 }  // namespace
 
 TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
     const std::string& title = scene.film.title.empty() ? scene.title : scene.film.title;
     if (title.empty()) return {};
     return writer.write(x, y, title, writer.title(), writer.palette.ink, wrap, 6);
-}
-
-namespace {
-
-// A ball of the species' colour and relative size, its name, and how many there are.
-TextSize legend_entry(const Writer& writer, const Scene& scene, std::size_t i, double x, double y,
-                      double wrap) {
-    const double icon = 1.5 * writer.type.main, indent = icon + 0.5 * writer.type.gap;
-    const double text_wrap = wrap > 0 ? std::max(1.0, wrap - indent) : 0;
-    TextSize size;
-    const auto line = [&](const std::string& text, const TextStyle& style, const Colour& colour) {
-        const TextSize part = writer.write(x + indent, y + size.height, text, style, colour, text_wrap);
-        size.width = std::max(size.width, indent + part.width);
-        size.height += part.height;
-    };
-    if (i == most_species) {
-        line(fmt::format("and {} more", scene.species.size() - i), writer.minor(), writer.palette.faint_ink);
-        return size;
-    }
-    const Species& species = scene.species[i];
-    line(species.name, writer.main(), writer.palette.ink);
-    line(fmt::format("{} × {}", species.count, diameter_text(species.diameter)), writer.minor(),
-         writer.palette.faint_ink);
-    const bool by_species = scene.film.shows.colour.by == GrainValue::species;
-    const double share = std::max(0.25, species.diameter.largest / std::max(largest_diameter(scene), 1e-30));
-    if (writer.on)
-        draw_lit_ball(writer.on, x + 0.5 * icon, y + 0.5 * size.height, 0.5 * icon * share,
-                      by_species ? species.colour : neutral_grain);
-    return size;
-}
-
-}  // namespace
-
-TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
-    const std::size_t count = std::min(scene.species.size(), most_species + 1);
-    const Writer measure{nullptr, writer.type, writer.palette};
-    double widest = 1;
-    for (std::size_t i = 0; i < count; ++i)
-        widest = std::max(widest, legend_entry(measure, scene, i, 0, 0, 0).width);
-    const double each = widest + writer.type.gap;
-    const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor((wrap + writer.type.gap) / each)));
-    TextSize size;
-    for (std::size_t first = 0; first < count; first += columns) {
-        double height = 0;
-        for (std::size_t i = first; i < std::min(count, first + columns); ++i) {
-            const double left = static_cast<double>(i - first) * each;
-            const TextSize entry =
-                legend_entry(writer, scene, i, x + left, y + size.height, columns > 1 ? 0 : wrap);
-            size.width = std::max(size.width, left + entry.width);
-            height = std::max(height, entry.height);
-        }
-        size.height += height + 0.4 * writer.type.gap;
-    }
-    return size;
 }
 
 TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest) {
@@ -157,29 +102,36 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
 }
 
 TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view, double x, double y) {
-    const double reach = 0.85 * writer.type.main, row = 2.6 * writer.type.main,
+    const double reach = 0.75 * writer.type.main, row = 2.2 * writer.type.main,
                  indent = 1.5 * writer.type.main;
     TextSize size;
-    const auto entry = [&](const Vec3& direction, bool both, const std::string& label) {
+    // sample(x, y) draws about its middle.
+    const auto entry = [&](const std::string& label, const auto& sample) {
         const double middle = y + size.height + 0.5 * row;
-        if (writer.on) {
-            set_colour(writer, both ? writer.palette.accent : writer.palette.ink);
-            const double across = direction.dot(view->right), up = direction.dot(view->up);
-            if (std::hypot(across, up) < 0.2)
-                arrow_on_end(writer, x + 0.5 * indent, middle, both || direction.dot(view->forward) < 0);
-            else
-                arrow(writer, x + 0.5 * indent, middle, reach * across, -reach * up, both);
-        }
+        if (writer.on) sample(x + 0.5 * indent, middle);
         const double half_line = 0.5 * measure_text(label, writer.minor()).height;
         const TextSize text = writer.write(x + indent + 0.4 * writer.type.gap, middle - half_line, label,
                                            writer.minor(), writer.palette.faint_ink);
         size.width = std::max(size.width, indent + 0.4 * writer.type.gap + text.width);
         size.height += row;
     };
-    if (scene.gravity.norm() > 0) entry(scene.gravity.normalized(), false, "gravity");
-    if (scene.drive.present)
-        entry(scene.drive.direction, true,
-              scene.drive.moves == Drive::Moves::floor ? "floor vibrates" : "vibration");
+    const auto direction = [&](const Vec3& along, bool both) {
+        return [&, along, both](double at_x, double at_y) {
+            set_colour(writer, both ? writer.palette.accent : writer.palette.ink);
+            const double across = along.dot(view->right), up = along.dot(view->up);
+            if (std::hypot(across, up) < 0.2)
+                arrow_on_end(writer, at_x, at_y, both || along.dot(view->forward) < 0);
+            else
+                arrow(writer, at_x, at_y, reach * across, -reach * up, both);
+        };
+    };
+    if (scene.gravity.norm() > 0) entry("gravity", direction(scene.gravity.normalized(), false));
+    if (!scene.drive.present) return size;
+    entry(scene.drive.moves == Drive::Moves::floor ? "floor vibrates" : "vibration",
+          direction(scene.drive.direction, true));
+    if (has_lab_marks(scene))
+        entry("floor and its stroke",
+              [&](double at_x, double at_y) { lab_mark_sample(writer, at_x, at_y, reach); });
     return size;
 }
 
@@ -236,48 +188,6 @@ TextSize exaggeration_block(const Writer& writer, const Film& film, double x, do
             writer.write(x, y + size.height, line, {writer.type.minor, true}, writer.palette.accent);
         size = {std::max(size.width, part.width), size.height + part.height};
     }
-    return size;
-}
-
-TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
-                    double y) {
-    const double pen = std::max(1.0, writer.type.main / 16);
-    const double bar = 2 * radius + 0.9 * writer.type.main;  // from the left, where the displacement is shown
-    const TextSize size{bar + 0.6 * writer.type.main, 2 * radius + 2 * pen};
-    if (!writer.on) return size;
-    const double cx = x + radius, cy = y + radius + pen;
-    if (!frame) {
-        set_colour(writer, writer.palette.faint_ink);
-        cairo_set_line_width(writer.on, pen);
-        cairo_new_path(writer.on);  // text leaves a current point behind
-        cairo_arc(writer.on, cx, cy, radius, 0, 2 * std::numbers::pi);
-        cairo_stroke(writer.on);
-        stroke_line(writer, cx - radius, cy, cx + radius, cy, 0.6 * pen);
-        stroke_line(writer, x + bar, cy - radius, x + bar, cy + radius, pen);
-        for (const double level : {-1.0, 0.0, 1.0})
-            stroke_line(writer, x + bar - 3 * pen, cy + level * radius, x + bar + 3 * pen,
-                        cy + level * radius, pen);
-        return size;
-    }
-    // Counter-clockwise from the right: the tip's height is the sine of the phase, which the displacement is
-    // too once the ramp is over. Close to the period's end the disc is empty, as the phase beside it is 0.00.
-    const double phase = shown_cycle(*frame).phase > 0 ? frame->phase : 0;
-    const double angle = 2 * std::numbers::pi * phase;
-    const double floor_y = cy - radius * share_of_stroke(drive, *frame);
-    const double tip_x = cx + radius * std::cos(angle), tip_y = cy - radius * std::sin(angle);
-    if (frame->time < 0) return size;  // the drive is off: no hand
-    cairo_set_source_rgba(writer.on, writer.palette.accent.red, writer.palette.accent.green,
-                          writer.palette.accent.blue, 0.14);
-    cairo_new_path(writer.on);
-    cairo_move_to(writer.on, cx, cy);
-    cairo_arc_negative(writer.on, cx, cy, radius, 0, -angle);
-    cairo_close_path(writer.on);
-    cairo_fill(writer.on);
-    set_colour(writer, writer.palette.accent);
-    stroke_line(writer, tip_x, tip_y, x + bar, floor_y, 0.6 * pen);
-    stroke_line(writer, cx, cy, tip_x, tip_y, 2 * pen);
-    dot(writer, tip_x, tip_y, 3 * pen);
-    dot(writer, x + bar, floor_y, 3 * pen);
     return size;
 }
 

@@ -31,6 +31,11 @@ double line_height(double letters) {
     return measure_text("0", {letters, false}).height;
 }
 
+// Of the words above the box: two where enough of the height is left to it.
+int most_lines(const PlotFrame& frame, const TypeScale& type) {
+    return frame.height > 9 * type.main ? 2 : 1;
+}
+
 }  // namespace
 
 void Plot::Slice::add(double value) {
@@ -50,7 +55,9 @@ Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette
     for (const TimeTick& tick : time_ticks()) end = measure_text(tick.text, {type.minor, false}).width;
     left_ = std::ceil(measure_text("−0.00", {type.minor, false}).width + 0.6 * type.minor);
     right_ = std::floor(frame.width - std::max(0.5 * end, 0.4 * type.main));
-    top_ = std::ceil(line_height(type.main) + 0.6 * type.minor);
+    const std::string longest = frame.dimension == Dimension::number ? frame.label : frame.label + " (mmm)";
+    top_ = std::ceil(measure_text(longest, {type.main, false}, frame.width, most_lines(frame, type)).height +
+                     0.6 * type.minor);
     bottom_ = std::floor(frame.height - 2 * words - 0.35 * type.minor);
     forget();
 }
@@ -134,7 +141,8 @@ void Plot::draw_axes() {
     const std::string unit = fitting_unit(largest, frame_.dimension);
     const double size = unit_size(unit, frame_.dimension);
     const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
-    draw_text(on.get(), 0, 0, title, {type_.main, false}, palette_.ink, frame_.width, 1);
+    draw_text(on.get(), 0, 0, title, {type_.main, false}, palette_.ink, frame_.width,
+              most_lines(frame_, type_));
 
     // As many as stand above each other.
     const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);

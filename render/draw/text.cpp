@@ -4,6 +4,8 @@
 #include <pango/pangocairo.h>
 #include <pango/pangofc-fontmap.h>
 
+#include <algorithm>
+
 namespace grainreel {
 namespace {
 
@@ -82,11 +84,25 @@ Layout layout_in(PangoContext* context, const std::string& text, const TextStyle
     return layout;
 }
 
+constexpr double least_shrink = 0.7;  // of letters, before a word breaks
+
+// The size at which the longest word is no wider than the lines, if that is not much smaller.
+double size_for_words(const std::string& text, const TextStyle& style, double wrap) {
+    const double longest = longest_word(text, style);
+    if (wrap <= 0 || longest <= wrap || longest * least_shrink > wrap) return style.size;
+    return 0.999 * style.size * wrap / longest;
+}
+
 // Letters that the fonts by file lack, as in a title in Chinese, come from the system's.
 Layout make_layout(const std::string& text, const TextStyle& style, double wrap, int lines) {
     Layout layout = layout_in(own_context(), text, style, wrap, lines);
     if (pango_layout_get_unknown_glyphs_count(layout.get()) == 0) return layout;
     return layout_in(system_context(), text, style, wrap, lines);
+}
+
+Layout make_wrapped(const std::string& text, const TextStyle& style, double wrap, int lines) {
+    if (wrap <= 0) return make_layout(text, style, 0, 1);
+    return make_layout(text, {size_for_words(text, style, wrap), style.bold}, wrap, lines);
 }
 
 TextSize size_of(PangoLayout* layout) {
@@ -98,13 +114,23 @@ TextSize size_of(PangoLayout* layout) {
 
 }  // namespace
 
+double longest_word(const std::string& text, const TextStyle& style) {
+    double longest = 0;
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find(' ', from), text.size());
+        longest = std::max(longest, measure_text(text.substr(from, to - from), style).width);
+        from = to + 1;
+    }
+    return longest;
+}
+
 TextSize measure_text(const std::string& text, const TextStyle& style, double wrap, int lines) {
-    return size_of(make_layout(text, style, wrap, lines).get());
+    return size_of(make_wrapped(text, style, wrap, lines).get());
 }
 
 TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
                    const Colour& colour, double wrap, int lines) {
-    const Layout layout = make_layout(text, style, wrap, lines);
+    const Layout layout = make_wrapped(text, style, wrap, lines);
     cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
     cairo_move_to(on, x, y);
     pango_cairo_show_layout(on, layout.get());

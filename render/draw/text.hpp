@@ -20,8 +20,12 @@ struct TextStyle {
 };
 
 // wrap: pixels, where lines break between words (0: nowhere); at most `lines` lines, the last cut short by an
-// ellipsis.
+// ellipsis. A word that is a little too long for its line makes the letters smaller; one that is much too
+// long breaks.
 TextSize measure_text(const std::string& text, const TextStyle& style, double wrap = 0, int lines = 1);
+
+// Pixels, of one line; words end at spaces.
+double longest_word(const std::string& text, const TextStyle& style);
 
 // (x, y): top left corner of the text. Returns its size.
 TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,

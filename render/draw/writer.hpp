@@ -32,8 +32,11 @@ struct Writer {
 
 // Each draws itself with its top left corner at (x, y), pixels, and returns its size.
 TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
-// In as many columns as `wrap` has room for; in one with wrap 0, which sets no limit.
-TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
+// In as many columns as `wrap` has room for; in one with wrap 0, which sets no limit. Of species that there
+// is no `room` (pixels of height; 0: without end) for it says how many there are; nothing where not one fits.
+TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap,
+                      double room = 0);
+std::size_t species_in_legend(const Writer& writer, const Scene& scene, double wrap, double room);
 // Where the colours are inside the colour bar's block, whose words end at y; whole pixels.
 struct ColourBarPlace {
     int x = 0, y = 0, width = 0, height = 0;
@@ -53,9 +56,9 @@ TextSize drive_block(const Writer& writer, const Scene& scene, double x, double 
 // The last of these alone; nothing while motion is drawn as it is.
 TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y);
 // A hand that turns once a period, and beside it where in its stroke the floor is; without `frame` only the
-// still part.
+// still part. view: tells right from left for a drive that goes sideways; null: seen along -x.
 TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
-                    double y);
+                    double y, const View* view = nullptr);
 // Lines of the scene's own words, each in up to two lines of the gutter.
 TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap);
 // All that clock_block would write.

@@ -1,4 +1,5 @@
 // `grainreel render` from the outside: a finished run drawn again.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -6,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/output/trajectory.hpp"
+#include "render/cli/known_reach.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
@@ -25,12 +27,14 @@ std::ptrdiff_t entries_of(const fs::path& folder) {
 class RenderProgram : public testing::Test {
   protected:
     Ended program(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
-    // A run of the small scene in run/, its [[film.segment]] and what follows replaced.
+    // A run of the small scene in run/, its [[film.segment]] and what follows replaced. Its camera frames the
+    // container: how high the grains get is known only after the run.
     void run(const std::string& segment, const std::vector<std::string>& more) {
         std::string text = small_scene_text;
         text.replace(text.find("[[film.segment]]"), std::string::npos, segment);
         write_text(here / "run.toml", text);
-        std::vector<std::string> words = {"movie", "run.toml", "--out", "run", "--duration", "0.3 s"};
+        std::vector<std::string> words = {"movie",      "run.toml", "--out", "run",
+                                          "--duration", "0.3 s",    "--set", "film.camera.frame=container"};
         words.insert(words.end(), more.begin(), more.end());
         const Ended ended = program(words);
         ASSERT_EQ(ended.status, 0) << ended.err;
@@ -77,6 +81,26 @@ TEST_F(RenderProgram, KeptContactsDrawForceChainsAndTheirColours) {
     const Ended refused = program({"render", "run", "--at", "0.1"});
     EXPECT_EQ(refused.status, 2);
     EXPECT_THAT(refused.err, HasSubstr("has no contacts.nc; the run was not told to keep contacts"));
+}
+
+// Of a finished run it is known how high the grains get: the picture is that of a scene that says so.
+TEST_F(RenderProgram, FramesWhatTheGrainsReached) {
+    short_run();
+    const TrajectoryReader trajectory(here / "run/trajectory.nc");
+    const double reach = *known_reach(trajectory);
+    const auto still = [&](const std::string& name, const std::string& set) {
+        EXPECT_EQ(program({"render", "run", "--at", "0.1", "--out", name, "--set", set}).status, 0);
+        return text_of(here / name);
+    };
+    const std::string known = still("known.png", "film.camera.frame=reach");
+    EXPECT_NE(known, still("all.png", "film.camera.frame=container"));
+    const std::string said =
+        program({"render", "run", "--at", "0.1", "--out", "said.png", "--set", "film.camera.frame=reach",
+                 "--set", fmt::format("film.camera.reach={:.17g}", reach)})
+                    .status == 0
+            ? text_of(here / "said.png")
+            : "";
+    EXPECT_TRUE(known == said);
 }
 
 TEST_F(RenderProgram, FromToAndEveryChooseFrames) {

@@ -224,7 +224,7 @@ TEST(ColourBar, EndsAreTheMapsEnds) {
                 ++rows;
                 longest = std::max(longest, right - left + 1);
             }
-            const TypeScale type = type_scale(scene.film);
+            const TypeScale type = plan_layout(scene).type;
             EXPECT_GE(rows, static_cast<int>(0.65 * type.main));
             EXPECT_GE(longest, 0.6 * part.width);
         }

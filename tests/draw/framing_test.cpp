@@ -87,7 +87,7 @@ TEST(FramedPart, ABedIsLargerThanInAFrameOfAllTheContainer) {
         const double all = scale_of(framed(container, shape)), some = scale_of(framed(reach, shape)),
                      least = scale_of(framed(bed, shape));
         EXPECT_GT(some, 1.5 * all);
-        EXPECT_GE(least, some);
+        EXPECT_GE(least, 0.99 * some);  // as large, seen at the depth of another middle
     }
 }
 
@@ -101,7 +101,7 @@ TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
 }
 
 TEST(FramedPart, GrainsOfTheShippedBedsCoverTwiceTheArea) {
-    for (const char* name : {"wedge_segregation", "teaching_brazil_nut"}) {
+    for (const char* name : {"wedge_segregation", "wedge_mixing", "teaching_brazil_nut"}) {
         const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";
         const Scene scene = read_scene(file, {}), whole = read_scene(file, {"film.camera.frame=container"});
         // Grains cover the square of the scale.

@@ -81,7 +81,7 @@ TEST(TransparentFilm, PlotsHaveNoBox) {
     const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette(scene.film.background);
     const NumbersPlan plan = plan_numbers({nullptr, type, palette}, scene, layout.second.width,
-                                          layout.second.height, layout.portrait);
+                                          layout.second.height, layout.stacked);
     ASSERT_EQ(plan.plots.size(), 1u);
     Rectangle part = plan.plots[0];
     part.x += layout.second.x, part.y += layout.second.y;

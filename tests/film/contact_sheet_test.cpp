@@ -54,6 +54,36 @@ TEST(ContactSheet, FramesAreSpreadEvenlyFromTheFirstToTheLast) {
     }
 }
 
+// Ten times slower at both ends: three quarters of the frames show a twelfth of the time.
+TEST(ContactSheet, TilesAreSpreadOverTheTimeThatTheFilmShows) {
+    const Film film = film_of(4, 3, 160, 96);
+    ContactSheet sheet(film);
+    Picture last;
+    const auto add = [&](double time) {
+        const int grey = static_cast<int>(20 * time + 0.5);  // ten seconds are 200
+        last = flat(film.width, film.height, grey, grey, grey);
+        sheet.add(last, time);
+        sheet.add(last, time);  // where two segments meet, one moment is there twice
+    };
+    for (int k = 0; k < 120; ++k) add(0.4 * k / 120);
+    for (int k = 0; k < 110; ++k) add(0.4 + 9.2 * k / 110);
+    for (int k = 0; k <= 120; ++k) add(9.6 + 0.4 * k / 120);
+    const std::vector<int> found = greys(sheet.draw(last), film);
+    for (int i = 0; i < 12; ++i)
+        EXPECT_NEAR(found[static_cast<std::size_t>(i)], 200 * i / 11.0, 200 / 11.0 / 8 + 1.5) << i;
+}
+
+TEST(ContactSheet, NoTimeStandsTwice) {
+    const Film film = film_of(3, 2, 160, 96);
+    ContactSheet sheet(film);
+    Picture last;
+    for (const int grey : {10, 10, 20, 20, 30, 30, 30}) {
+        last = flat(film.width, film.height, grey, grey, grey);
+        sheet.add(last, 0.1 * grey);
+    }
+    EXPECT_EQ(greys(sheet.draw(last), film), (std::vector<int>{10, 20, 30, 255, 255, 255}));
+}
+
 TEST(ContactSheet, FewerFramesThanTilesLeaveTheRestEmpty) {
     const Film film = film_of(3, 2, 160, 96);
     const std::vector<int> found = greys(sheet_of(film, 4), film);
