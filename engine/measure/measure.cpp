@@ -106,6 +106,7 @@ Measures measure(const Scene& scene, const Clock& clock, const Surroundings& aro
     m.time = clock.time(step);
     m.phase = clock.phase(step);
     m.cycles = clock.cycles(step);
+    m.bed_periods = clock.steps_per_period > 0 ? 1 : 0;
     const Kinetic kinetic = kinetic_energy(grains);
     const ContactSummary contacts = summarise_contacts(loop, step);
     m.kinetic = kinetic.translation;

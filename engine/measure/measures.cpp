@@ -14,7 +14,7 @@ std::vector<double> values_of(const Measures& m) {
         add({centre.x(), centre.y(), centre.z(), m.species_height[s]});
     }
     add({m.height_difference, m.big_above_small, m.big_in_top_quarter, m.unlike_neighbours, m.lacey});
-    add({m.contact_number, m.largest_overlap, m.floor_position});
+    add({m.contact_number, m.largest_overlap, m.floor_position, static_cast<double>(m.bed_periods)});
     return values;
 }
 

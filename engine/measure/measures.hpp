@@ -32,6 +32,8 @@ struct Measures {
     double contact_number = 0;   // mean number of force-carrying contacts a grain, walls included
     double largest_overlap = 0;  // overlap / smaller radius
     double floor_position = 0;   // m, along the drive's direction
+    int bed_periods =
+        0;  // of the drive, after which the bed repeats itself (PeriodMultiple); 0 without a drive
 };
 
 // One number a column of measures.csv, in the order of measure_columns().

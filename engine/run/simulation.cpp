@@ -237,6 +237,16 @@ Frame Simulation::frame() const {
     return f;
 }
 
+double Simulation::centre_height() const {
+    const Impl& m = *impl_;
+    double moment = 0, mass = 0;
+    for (std::size_t i = 0; i < m.grains.size(); ++i) {
+        moment += m.grains.mass(i) * m.grains.place[i].position.z();
+        mass += m.grains.mass(i);
+    }
+    return moment / mass - m.around.motion.at(m.step).offset.z();
+}
+
 Measures Simulation::measures() const {
     const Impl& m = *impl_;
     return measure(m.scene, m.plan.clock, m.around, m.grains, *m.loop, m.step, m.start_energy);

@@ -57,6 +57,7 @@ class Simulation {
     int threads() const;
 
     Frame frame() const;
+    double centre_height() const;  // m, of the centre of mass above the floor where that is now
     Measures measures() const;
     std::uint64_t state_hash() const;  // of every bit that decides the future
 

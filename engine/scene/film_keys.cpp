@@ -174,6 +174,8 @@ void add_film(Keys& keys) {
                  "Time up to the picture for which the shutter is open: what moves leaves a streak."));
     keys.push_back(integer("film.segment[].exposures", 2, 1000, literal("16"),
                            "Moments in that time; locked: whole periods apart."));
+    keys.push_back(integer("film.periods", 1, 4, note("as the bed does"),
+                           "Periods of the drive that locked frames, displacements and means go by."));
     add_shows(keys);
 }
 

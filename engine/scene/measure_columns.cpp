@@ -42,6 +42,7 @@ std::vector<MeasureColumn> measure_columns(const std::vector<std::string>& speci
     columns.push_back({"contact_number", "contacts a grain"});
     columns.push_back({"largest_overlap", "largest overlap"});
     columns.push_back({"floor_position_m", "floor position", Dimension::length});
+    columns.push_back({"bed_periods", "periods until the bed repeats itself"});
     return columns;
 }
 

@@ -160,6 +160,7 @@ void read_film(Document& document, Scene& scene) {
         film.segments.push_back(read_segment(document, scene, fmt::format("film.segment[{}]", i)));
     if (film.segments.empty()) film.segments = default_segments(scene);
     fit_segments(document, scene);
+    film.periods = static_cast<int>(document.integer("film.periods").value_or(film.periods));
     read_shows(document, scene);
 }
 

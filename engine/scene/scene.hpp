@@ -242,6 +242,7 @@ struct Film {
     double rate = 30;   // frames a second of film
     std::string title;  // shown on the frame
     std::vector<FilmSegment> segments;
+    int periods = 0;  // of the drive, that locked frames, displacements and means go by; 0: as the bed does
     Camera camera;
     Colour background{1, 1, 1};
     FilmLook look;

@@ -319,6 +319,7 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
     out.put("size", fmt::format("[{}, {}]", film.width, film.height));
     out.put("rate", film.rate);
     out.words("title", film.title);
+    if (film.periods > 0) out.whole("periods", film.periods);
     if (!film.shows.text.empty()) out.words("text", film.shows.text);
     out.whole("quality", film.quality);
     out.words("preset", film.preset);

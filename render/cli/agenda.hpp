@@ -17,15 +17,16 @@ struct Stop {
     bool trajectory = false;
     bool measures = false;
     bool moment = false;  // a later picture wants to know how the grains are now
+    bool strobe = false;  // one of the moments at which periods are compared
 };
 
 class Agenda {
   public:
     // Steps from `first` to `last`. Shots before `first` are left out; trajectory and measures come at
     // the steps nearest to multiples of their interval (0: never), measures at `first` and `last` too.
-    // moments: steps.
+    // moments: steps. strobe_every: steps between moments at which periods are compared.
     Agenda(std::vector<Shot> shots, double trajectory_every, double measures_every, std::int64_t first,
-           std::int64_t last, std::set<std::int64_t> moments = {});
+           std::int64_t last, std::set<std::int64_t> moments = {}, std::int64_t strobe_every = 0);
 
     // The next stop, in rising order of step; the last is at `last`. Empty after it.
     std::optional<Stop> next();
@@ -36,7 +37,7 @@ class Agenda {
     std::vector<Shot> shots_;
     std::size_t shot_ = 0;
     std::set<std::int64_t> moments_;
-    double trajectory_every_, measures_every_;
+    double trajectory_every_, measures_every_, strobe_every_;
     std::int64_t first_, last_;
     std::int64_t at_;  // steps below are done with
 };

@@ -59,7 +59,7 @@ std::vector<Frame> LivePanel::moments(const std::vector<Instant>& instants,
 
 void LivePanel::start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) {
     done_ = 0;
-    run_.start(shots_at(instants, segments, run_.plan().clock, run_.plan().steps), segments);
+    run_.start(shots_at(instants, segments, run_.plan().clock, run_.plan().steps), segments, false);
 }
 
 FramePtr LivePanel::next(const SceneRun::GoOn& go_on) {
@@ -81,6 +81,7 @@ bool LivePanel::finish(const SceneRun::GoOn& go_on) {
 void LivePanel::close(RunStatus status, int exit_status, FirstFailure& failure) {
     if (!folder_) return;
     run_.conclude(record_);
+    for (std::string& line : run_.news()) record_.warnings.push_back(std::move(line));
     record_.status = failed_.any()                 ? RunStatus::failed
                      : status == RunStatus::failed ? RunStatus::interrupted
                                                    : status;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/period_multiple.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "engine/scene/purposes.hpp"
 #include "engine/scene/reader.hpp"
@@ -103,6 +104,7 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
     frame_what_is_reached();
     if (needs_touches(scene_.film.shows)) read_contacts();
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
+    find_periods();
     if (needs_displacement(scene_.film.shows)) look_for_earlier_frames();
 }
 
@@ -253,23 +255,39 @@ Frame FinishedRun::grains(std::size_t index) const {
     return trajectory_.read(places_.at(index));
 }
 
-std::optional<std::size_t> FinishedRun::a_period_before(std::size_t index) const {
-    const double period = 1 / scene_.drive.frequency, wanted = moments_[index].time - period;
+std::optional<std::size_t> FinishedRun::before_these_periods(std::size_t index) const {
+    const double period = 1 / scene_.drive.frequency, wanted = moments_[index].time - periods_ * period;
     const std::size_t before = nearest(wanted);
     if (std::abs(moments_[before].time - wanted) > 1e-3 * period) return std::nullopt;
     return before;
 }
 
 void FinishedRun::look_for_earlier_frames() {
-    const double first = moments_.front().time + (1 - 1e-3) / scene_.drive.frequency;
+    const double first = moments_.front().time + (periods_ - 1e-3) / scene_.drive.frequency;
     std::size_t lack = 0;
     for (std::size_t i = 0; i < moments_.size(); ++i)
-        lack += moments_[i].time >= first && !a_period_before(i);
+        lack += moments_[i].time >= first && !before_these_periods(i);
     if (lack > 0)
         warnings_.push_back(fmt::format(
             "{}: {} of its {} frames have none a period before them, and are drawn without displacements; "
             "run the scene with an output.trajectory_interval that divides the period",
             (folder_ / "trajectory.nc").string(), lack, moments_.size()));
+}
+
+void FinishedRun::find_periods() {
+    if (scene_.film.periods > 0) {
+        periods_ = scene_.film.periods;
+        return;
+    }
+    const auto table = measures_ ? measures_ : read_measures(measures());
+    if (!table || table->rows() == 0) return;
+    const std::vector<std::string>& columns = table->columns();
+    const auto column = std::find(columns.begin(), columns.end(), "bed_periods");
+    if (column == columns.end()) return;  // of a run before there was one
+    const std::size_t last = table->rows() - 1;
+    const double found =
+        table->values(static_cast<std::size_t>(column - columns.begin()), last, last + 1).front();
+    if (found >= 1 && found <= PeriodMultiple::kMost) periods_ = static_cast<int>(found);
 }
 
 Frame FinishedRun::frame(std::size_t index) const {
@@ -282,10 +300,10 @@ Frame FinishedRun::frame(std::size_t index) const {
     }
     if (contacts_) frame.touches = contacts_->touches(places_.at(index));
     if (!needs_displacement(scene_.film.shows)) return frame;
-    const std::optional<std::size_t> before = a_period_before(index);
+    const std::optional<std::size_t> before = before_these_periods(index);
     if (!before) return frame;
     const bool periodic = scene_.container.periodic_depth;
-    set_displacement(frame, grains(*before).position, periodic ? scene_.container.depth : 0);
+    set_displacement(frame, grains(*before).position, periods_, periodic ? scene_.container.depth : 0);
     return frame;
 }
 

@@ -36,11 +36,14 @@ class FinishedRun {
     // The frame as it was kept. Throws UserError when it is damaged.
     Frame grains(std::size_t index) const;
     Frame first_whole() const;  // the first that is not damaged
-    // With what the film wants beside the grains: measures until then, contacts, and the displacements over a
-    // period when the trajectory has that moment.
+    // With what the film wants beside the grains: measures until then, contacts, and the displacements a
+    // period over the last periods() when the trajectory has that moment.
     Frame frame(std::size_t index) const;
     // What the film wants and the run's files lack, a line each.
     const std::vector<std::string>& warnings() const { return warnings_; }
+    // Periods of the drive that displacements and locked frames go by: the film's, or those after which the
+    // bed repeated itself at the run's end.
+    int periods() const { return periods_; }
     // The frame nearest in time.
     std::size_t nearest(double time) const;
 
@@ -52,7 +55,8 @@ class FinishedRun {
     void frame_what_is_reached();
     void read_contacts();
     void read_measures_of_run();
-    std::optional<std::size_t> a_period_before(std::size_t index) const;
+    void find_periods();
+    std::optional<std::size_t> before_these_periods(std::size_t index) const;
     void look_for_earlier_frames();
 
     std::filesystem::path folder_;
@@ -61,6 +65,7 @@ class FinishedRun {
     std::optional<ContactsReader> contacts_;        // of a film that wants them
     std::vector<std::size_t> places_;               // in the trajectory, of the frames that are drawn
     std::vector<Frame> moments_;                    // theirs
+    int periods_ = 1;                               // after which the bed repeats itself
     std::shared_ptr<const MeasureTable> measures_;  // null unless the film plots some
     std::vector<double> measured_;                  // s, their times
     std::vector<std::string> warnings_;

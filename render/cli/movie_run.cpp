@@ -42,9 +42,11 @@ bool MovieRun::work() {
     vibrating_.emplace();
     const auto go_on = [this] {
         show_progress();
+        tell_news();
         return stop_signal() == 0;
     };
     while (const std::optional<SceneRun::Taken> shot = run_.next(go_on)) take(*shot);
+    tell_news();
     return stop_signal() == 0;
 }
 
@@ -94,7 +96,15 @@ void MovieRun::take(const SceneRun::Taken& shot) {
     const auto timer = times_.during("waiting for the film");
     for (const int segment : shot.segments) {
         const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(segment));
-        film_->take(shot.frame, playback_caption(rule, scene.drive, scene.film.rate));
+        film_->take(shot.frame, playback_caption(spanning(rule, shot.periods), scene.drive, scene.film.rate));
+    }
+}
+
+void MovieRun::tell_news() {
+    const std::vector<std::string> news = run_.news();
+    for (; told_ < news.size(); ++told_) {
+        reporter_.warning(news[told_]);
+        record_.warnings.push_back(news[told_]);
     }
 }
 

@@ -28,12 +28,14 @@ class MovieRun final : public FilmRun {
     void describe();
     bool pack();  // false when the run was asked to stop
     void take(const SceneRun::Taken& shot);
+    void tell_news();
     void show_progress();
     void report_segregation() const;
 
     std::vector<Shot> shots_;
     SceneRun run_;
     std::optional<Stopwatch> vibrating_;
+    std::size_t told_ = 0;  // lines of the run's news
 };
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 #include "render/cli/redraw_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -34,6 +35,22 @@ std::vector<std::size_t> choose(const RenderRequest& request, const std::vector<
     return chosen;
 }
 
+// Of frames at one phase of the drive, those that lie whole multiples of `periods` behind the first: the bed
+// looks alike there.
+std::vector<std::size_t> alike(std::vector<std::size_t> chosen, const std::vector<Frame>& moments,
+                               int periods) {
+    constexpr double room = 1e-6;  // periods
+    const auto after_first = [&](std::size_t i) {
+        return moments[i].cycles - moments[chosen.front()].cycles;
+    };
+    for (const std::size_t i : chosen)
+        if (std::abs(after_first(i) - std::round(after_first(i))) > room) return chosen;
+    std::vector<std::size_t> kept;
+    for (const std::size_t i : chosen)
+        if (std::llround(after_first(i)) % periods == 0) kept.push_back(i);
+    return kept;
+}
+
 std::vector<Frame> moments_at(const std::vector<std::size_t>& chosen, const std::vector<Frame>& all) {
     std::vector<Frame> moments;
     for (const std::size_t i : chosen) moments.push_back(all[i]);
@@ -61,7 +78,7 @@ ThreadPlan drawing_threads(int wanted) {
 RedrawRun::RedrawRun(const Options& options, Reporter& reporter, const FinishedRun& run)
     : FilmRun(options, reporter),
       run_(run),
-      chosen_(choose(options.render, run.moments())),
+      chosen_(alike(choose(options.render, run.moments()), run.moments(), run.periods())),
       moments_(moments_at(chosen_, run.moments())),
       scene_(run.scene()) {
     check_out(options, run);
@@ -74,6 +91,11 @@ bool RedrawRun::work() {
     begun_ = true;
     const std::optional<FilmSegment> segment = pacing_of(moments_, scene_.drive, scene_.film.rate);
     std::vector<std::string> warnings = run_.warnings();
+    if (run_.periods() > 1 && scene_.film.periods == 0)
+        warnings.push_back(
+            fmt::format("the bed repeats itself only every {0} periods of the drive: frames at one phase and "
+                        "displacements go by {0} periods; film.periods = 1 lets them go by one",
+                        run_.periods()));
     if (auto warning = pacing_warning(moments_, scene_.drive)) warnings.push_back(std::move(*warning));
     for (std::string& line : film_warnings(scene_, static_cast<std::int64_t>(chosen_.size())))
         warnings.push_back(std::move(line));

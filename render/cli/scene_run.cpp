@@ -45,29 +45,50 @@ std::optional<std::string> SceneRun::packing_warning() const {
         scene_.where("start.settle_limit"), packing_.settle_time, packing_.kinetic_per_grain);
 }
 
-void SceneRun::start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments) {
+void SceneRun::start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments, bool may_leave_out) {
+    bed_periods_.emplace(scene_, plan_.clock, shots);
+    segments_ = segments;
+    may_leave_out_ = may_leave_out;
+    const std::vector<int> multiples = bed_periods_->possible();
     files_.emplace(folder_->folder(), scene_, plan_, simulation_.grains());
     const double depth = scene_.container.periodic_depth ? scene_.container.depth : 0;
     if (needs_displacement(scene_.film.shows))
-        earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, first_step_, depth);
-    exposed_ = ExposedMoments(shots, segments, plan_.clock, first_step_);
-    means_ = PeriodMeans(shots, segments, plan_.clock, first_step_, depth);
+        earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, multiples, first_step_, depth);
+    exposed_ = ExposedMoments(shots, segments, plan_.clock, multiples, first_step_);
+    means_ = PeriodMeans(shots, segments, plan_.clock, multiples, first_step_, depth);
     std::set<std::int64_t> moments;
     for (const auto* steps : {&earlier_.steps(), &exposed_.steps(), &means_.steps()})
         moments.insert(steps->begin(), steps->end());
     agenda_.emplace(std::move(shots), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
-                    std::move(moments));
+                    std::move(moments), bed_periods_->every());
     shots_ = agenda_->shots();
     save_checkpoint();  // of a packing that may have taken hours
 }
 
 std::optional<SceneRun::Taken> SceneRun::next(const GoOn& go_on) {
-    while (const std::optional<Stop> stop = agenda_->next()) {
+    while (std::optional<Stop> stop = agenda_->next()) {
         if (!advance_to(stop->step, go_on)) return std::nullopt;
+        if (stop->strobe) bed_periods_->note(stop->step, simulation_.centre_height());
+        if (may_leave_out_) leave_out_pictures(*stop);
         FramePtr frame = serve(*stop);
-        if (!stop->segments.empty()) return Taken{std::move(frame), stop->segments};
+        if (!stop->segments.empty()) return Taken{std::move(frame), stop->segments, bed_periods_->shown()};
     }
     return std::nullopt;
+}
+
+std::vector<std::string> SceneRun::news() const {
+    return bed_periods_ ? bed_periods_->news() : std::vector<std::string>{};
+}
+
+void SceneRun::leave_out_pictures(Stop& stop) {
+    if (stop.segments.empty()) return;
+    std::erase_if(stop.segments, [&](int segment) {
+        return !bed_periods_->shows(segments_.at(static_cast<std::size_t>(segment)), {stop.step, segment});
+    });
+    if (!stop.segments.empty()) return;
+    earlier_.leave_out(stop.step);
+    exposed_.leave_out(stop.step);
+    means_.leave_out(stop.step);
 }
 
 bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
@@ -94,7 +115,7 @@ bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
 FramePtr SceneRun::serve(const Stop& stop) {
     if (stop.measures) {
         const auto timer = times_.during("measuring");
-        files_->add_measures(simulation_.measures());
+        add_measures();
     }
     if (!stop.trajectory && !stop.moment && stop.segments.empty()) return nullptr;
     const auto frame = std::make_shared<Frame>(simulation_.frame());
@@ -111,11 +132,18 @@ FramePtr SceneRun::serve(const Stop& stop) {
     return frame;
 }
 
+void SceneRun::add_measures() {
+    Measures measures = simulation_.measures();
+    measures.bed_periods = bed_periods_->found();
+    files_->add_measures(measures);
+}
+
 void SceneRun::add_what_the_film_needs(Frame& frame) {
     const FilmShows& look = scene_.film.shows;
-    earlier_.fill(frame);
-    exposed_.fill(frame);
-    means_.fill(frame);
+    const int periods = bed_periods_->shown();
+    earlier_.fill(frame, periods);
+    exposed_.fill(frame, periods);
+    means_.fill(frame, periods);
     if (needs_touches(look))
         for (const Simulation::ContactRecord& contact : simulation_.contacts())
             frame.touches.push_back({contact.first, contact.second, contact.normal});
@@ -135,7 +163,7 @@ void SceneRun::close(FirstFailure& failure) {
     if (!packed_) return;
     failure.attempt([&] {
         if (files_ && files_->last_measures() && files_->last_measures()->step != simulation_.step())
-            files_->add_measures(simulation_.measures());
+            add_measures();
     });
     failure.attempt([&] { write_grain_table(path_of("final.csv"), simulation_.frame()); });
     failure.attempt([&] { save_checkpoint(); });

@@ -14,6 +14,7 @@
 #include "engine/scene/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/cli/agenda.hpp"
+#include "render/cli/bed_periods.hpp"
 #include "render/cli/checkpoint_pace.hpp"
 #include "render/cli/earlier_positions.hpp"
 #include "render/cli/exposed_moments.hpp"
@@ -32,6 +33,7 @@ class SceneRun {
     struct Taken {
         FramePtr frame;
         std::vector<int> segments;  // of the film, one a picture
+        int periods;                // after which the bed repeats itself, as the film has it
     };
 
     // Throws UserError for what scene or plan get wrong; nothing is on disk then.
@@ -44,8 +46,10 @@ class SceneRun {
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
     // After packing: opens the files. shots: what next() is to stop for; segments: of the film that they
-    // make.
-    void start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments);
+    // make. may_leave_out: locked ones that a bed lacks which repeats itself only every so many periods.
+    void start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments, bool may_leave_out = true);
+    // What was found of the bed's periods so far, a line each.
+    std::vector<std::string> news() const;
     // To the next shot, keeping on the way what is to be kept. None at the end, or when told to stop.
     std::optional<Taken> next(const GoOn& go_on);
     // Of a run that was packed, in whatever state: last row of measures, end state, checkpoint.
@@ -71,7 +75,9 @@ class SceneRun {
 
   private:
     bool advance_to(std::int64_t target, const GoOn& go_on);
+    void leave_out_pictures(Stop& stop);
     FramePtr serve(const Stop& stop);
+    void add_measures();
     void add_what_the_film_needs(Frame& frame);
     void save_checkpoint();
     std::filesystem::path path_of(const char* file) const { return folder_->folder() / file; }
@@ -85,6 +91,9 @@ class SceneRun {
     std::int64_t first_step_ = 0, shots_ = 0;
     std::optional<RunFiles> files_;
     std::optional<Agenda> agenda_;
+    std::optional<BedPeriods> bed_periods_;
+    std::vector<FilmSegment> segments_;  // of the film
+    bool may_leave_out_ = true;
     EarlierPositions earlier_;
     ExposedMoments exposed_;
     PeriodMeans means_;

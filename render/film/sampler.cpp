@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/error.hpp"
 
@@ -124,12 +125,19 @@ std::vector<Shot> film_schedule(const Film& film, const Clock& clock, std::int64
     return schedule.take();
 }
 
-std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock) {
+FilmSegment spanning(FilmSegment segment, int periods) {
+    segment.every = std::lcm(segment.every, periods);
+    segment.average = (segment.average + periods - 1) / periods * periods;
+    return segment;
+}
+
+std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+                                        int periods) {
     std::vector<std::int64_t> steps;
     if (segment.exposure <= 0) return steps;
     // Locked pictures stay in phase: the shutter opens once a period at most.
-    const std::int64_t unit =
-        segment.kind == FilmSegment::Kind::locked ? std::max<std::int64_t>(1, clock.steps_per_period) : 1;
+    const bool locked = segment.kind == FilmSegment::Kind::locked && clock.steps_per_period > 0;
+    const std::int64_t unit = locked ? periods * clock.steps_per_period : 1;
     const std::int64_t span = std::llround(segment.exposure / (clock.step * static_cast<double>(unit)));
     const std::int64_t count = std::min<std::int64_t>(segment.exposures, span);
     for (std::int64_t k = count - 1; k > 0; --k) {
@@ -139,12 +147,14 @@ std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& seg
     return steps;
 }
 
-std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock) {
+std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+                                         int periods) {
     constexpr std::int64_t a_period = 16;
     std::vector<std::int64_t> steps;
     const std::int64_t count = a_period * segment.average;
     if (count == 0 || clock.steps_per_period == 0) return steps;
-    const double spacing = static_cast<double>(clock.steps_per_period) / a_period;
+    const std::int64_t span = spanning(segment, periods).average * clock.steps_per_period;
+    const double spacing = static_cast<double>(span) / static_cast<double>(count);
     for (std::int64_t k = count; k >= 0; --k)
         steps.push_back(shot.step - std::llround(static_cast<double>(k) * spacing));
     return steps;

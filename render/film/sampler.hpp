@@ -27,14 +27,21 @@ std::string playback_caption(const FilmSegment& segment, const Drive& drive, dou
 // segment is locked but the clock has no periods.
 std::vector<Shot> film_schedule(const Film& film, const Clock& clock, std::int64_t steps);
 
-// The earlier steps that the picture at `shot` is exposed over besides its own, rising; they may lie before
-// the run. In motion evenly over the exposure; locked ones lie whole periods apart. Empty without an
-// exposure.
-std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock);
+// How a segment is shown while the bed repeats itself after that many periods: its locked frames and means
+// span whole multiples of them.
+FilmSegment spanning(FilmSegment segment, int periods);
 
-// The steps that the picture's mean is made of, rising: 16 a period, the last of them the shot's own, and
-// before them the one that closes the periods. They may lie before the run. Empty without a mean.
-std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock);
+// The earlier steps that the picture at `shot` is exposed over besides its own, rising; they may lie before
+// the run. In motion evenly over the exposure; locked ones lie whole periods apart, and where the bed repeats
+// itself after `periods`, whole multiples of those. Empty without an exposure.
+std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+                                        int periods = 1);
+
+// The steps that the picture's mean is made of, rising: 16 for each period of `average`, the last of them the
+// shot's own, and before them the one that closes the periods. They are spread over the next multiple of
+// `periods`, after which the bed repeats itself. They may lie before the run. Empty without a mean.
+std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+                                         int periods = 1);
 
 // s of simulated time from the start of the film to the frame that stands for all of it: the end of the last
 // locked segment, since there the result shows at a known phase; without one, 0.8 of the film.

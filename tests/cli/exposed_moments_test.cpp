@@ -24,20 +24,20 @@ TEST(ExposedMoments, AreKeptUntilTheirPicture) {
     film.segments[0].exposure = 0.04;
     film.segments[0].exposures = 4;
     const Clock clock{1e-3, 0, 0};
-    ExposedMoments exposed({{5, 0}, {40, 0}, {50, 0}, {60, 1}}, film.segments, clock, 2);
+    ExposedMoments exposed({{5, 0}, {40, 0}, {50, 0}, {60, 1}}, film.segments, clock, {1}, 2);
     // Of the first picture only what the run has; the second and the third share two moments.
     EXPECT_THAT(exposed.steps(), testing::ElementsAre(10, 20, 30, 40));
     for (const std::int64_t step : {10, 15, 20, 30}) exposed.keep(frame_at(step));
     Frame first = frame_at(5), second = frame_at(40), third = frame_at(50), fourth = frame_at(60);
-    exposed.fill(first);
+    exposed.fill(first, 1);
     EXPECT_TRUE(first.exposed.empty());
     exposed.keep(second);
-    exposed.fill(second);
+    exposed.fill(second, 1);
     EXPECT_THAT(steps_of(second.exposed), testing::ElementsAre(10, 20, 30));
-    exposed.fill(third);
+    exposed.fill(third, 1);
     EXPECT_THAT(steps_of(third.exposed), testing::ElementsAre(20, 30, 40));
     EXPECT_TRUE(third.exposed.back()->exposed.empty()) << "frames would hang on frames";
-    exposed.fill(fourth);
+    exposed.fill(fourth, 1);
     EXPECT_TRUE(fourth.exposed.empty());
 }
 

@@ -58,6 +58,7 @@ inline Measures made_measures(int number) {
     m.contact_number = number + 0.3;
     m.largest_overlap = 1e-4 / (number + 3);
     m.floor_position = -0.3;
+    m.bed_periods = number + 2;
     return m;
 }
 

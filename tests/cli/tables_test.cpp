@@ -138,7 +138,8 @@ TEST(MeasuresCsv, HasAColumnForEveryNumber) {
         {"lacey", m.lacey},
         {"contact_number", m.contact_number},
         {"largest_overlap", m.largest_overlap},
-        {"floor_position_m", m.floor_position}};
+        {"floor_position_m", m.floor_position},
+        {"bed_periods", 4}};
     const std::vector<std::string> names = split(lines[0], ','), values = split(lines[2], ',');
     ASSERT_EQ(names.size(), expected.size());
     ASSERT_EQ(values.size(), expected.size());

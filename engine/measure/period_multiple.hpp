@@ -1,0 +1,43 @@
+// After how many periods of the drive does the bed repeat itself? A bed that is thrown so high that it lands
+// only in every second period does so after two: an inelastic block on a plate at more than sqrt(pi^2 + 4) g.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+namespace grainreel {
+
+// Sees the height of the bed's centre of mass at the same phases of every period, and compares each period
+// with the one before it, with the one before that, and so on.
+class PeriodMultiple {
+  public:
+    static constexpr int kPhases = 8;   // looked at in a period, evenly
+    static constexpr int kMost = 4;     // periods after which a bed is seen to repeat itself
+    static constexpr int kWindow = 4;   // periods over which differences are taken
+    static constexpr int kConfirm = 3;  // periods for which another multiple must have held
+
+    // diameter: m, of a grain; periods that differ by a tenth of it are equal.
+    explicit PeriodMultiple(double diameter) : least_(0.1 * diameter) {}
+
+    // m above the floor, at phase number `number`, which counts on from period to period and starts anywhere.
+    // After a gap all begins anew.
+    void add(std::int64_t number, double height);
+
+    // Periods; 1 until another multiple is known.
+    int value() const { return value_; }
+    // m: root mean square difference between a period and the one before it.
+    double difference() const { return difference_; }
+
+  private:
+    void end_period();
+    double difference_to(int periods_before) const;
+    int multiple_now() const;
+
+    const double least_;          // m
+    std::deque<double> heights_;  // m, of whole periods
+    std::int64_t next_ = -1;      // number that is expected
+    int value_ = 1, other_ = 1, confirmed_ = 0;
+    double difference_ = 0;
+};
+
+}  // namespace grainreel
