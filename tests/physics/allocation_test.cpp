@@ -57,7 +57,7 @@ namespace {
 TEST(Allocations, AreNoneInTheStepLoop) {
     for (const BenchCase& bench : bench_cases()) {
         if (bench.name != "wedge") continue;
-        BenchBed bed = bench.bed(bench.particles);
+        BenchBed bed = bench.bed(400);
         for (const int threads : {1, 2}) {
             Team team(threads);
             StepLoop loop(bed.plan, bed.around, bed.grains, team);

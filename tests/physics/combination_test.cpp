@@ -29,7 +29,7 @@ const std::vector<std::string> containers = {
     "shape = \"cylinder\"\ndiameter = 0.02\nheight = 0.04\n",
     "shape = \"none\"\n[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 0.2, 1]\n"};
 
-// A small, fast crowd: it hits itself and the walls within its 6 ms.
+// A small, fast crowd: its grains all but touch, and hit each other and the floor within its 2 ms.
 std::string crowd(const std::string& law, const std::string& friction, bool rolls,
                   const std::string& container) {
     std::string text = fmt::format(
@@ -40,9 +40,9 @@ std::string crowd(const std::string& law, const std::string& friction, bool roll
     for (int k = 0; k < 8; ++k)
         text +=
             fmt::format("[[grain]]\nposition = [{}, {}, {}]\nvelocity = [{}, {}, -0.5]\nspin = [{}, 30, 0]\n",
-                        0.0032 * (k % 2) - 0.0016, 0.0032 * (k / 2 % 2) - 0.0014, 0.0032 * (k / 4) + 0.004,
-                        0.3 - 0.7 * (k % 2), 0.1 * (k % 3), 20 * k);
-    return text + "[run]\nduration = 0.006\n";
+                        0.00301 * (k % 2) - 0.0015, 0.00301 * (k / 2 % 2) - 0.0014,
+                        0.00301 * (k / 4) + 0.0019, 0.3 - 0.7 * (k % 2), 0.1 * (k % 3), 20 * k);
+    return text + "[run]\nduration = 0.002\n";
 }
 
 double energy(const Measures& m) {
@@ -74,6 +74,13 @@ bool go_together(const std::string& law, const std::string& friction) {
     return friction == "none" || hertz == (friction == "mindlin");
 }
 
+// The plan of repelling Hertz integrates hundreds of impacts to find its dashpot. The rest of it is as with
+// attraction, so it takes every integrator in one container, and every container with one integrator.
+bool left_out(const std::string& law, const std::string& container, const std::string& integrator) {
+    return law == "law = \"hertz\"" && container != containers[0] &&
+           integrator != all_of(integrator_words).front();
+}
+
 TEST(Combinations, RunOrAreRefusedWithAReason) {
     int ran = 0, refused = 0;
     for (const std::string& law : normal_laws) {
@@ -82,6 +89,7 @@ TEST(Combinations, RunOrAreRefusedWithAReason) {
                 for (const std::string& container : containers) {
                     const std::string text = crowd(law, friction, rolls, container);
                     for (const std::string& integrator : all_of(integrator_words)) {
+                        if (left_out(law, container, integrator)) continue;
                         for (const std::string& precision : all_of(precision_words)) {
                             SCOPED_TRACE(fmt::format("{} / {} / rolls {} / {} / {} / {}", law, friction,
                                                      rolls, container.substr(0, 16), integrator, precision));
@@ -97,9 +105,10 @@ TEST(Combinations, RunOrAreRefusedWithAReason) {
             }
         }
     }
-    // Of 7 laws, 5 go with 2 frictions that rub and 2 with one, rolling or not, and each with none.
-    EXPECT_EQ(ran, ((5 * 2 + 2 * 1) * 2 + 7) * 5 * 5 * 2);
-    EXPECT_EQ(ran + refused, 7 * 4 * 2 * 5 * 5 * 2);
+    // Of 7 laws, 5 go with 2 frictions that rub and 2 with one, rolling or not, and each with none; in 5
+    // containers with 5 integrators in 2 precisions; but for the 4 x 4 that repelling Hertz leaves out.
+    EXPECT_EQ(ran, ((5 * 2 + 2 * 1) * 2 + 7) * 5 * 5 * 2 - (2 + 1) * 4 * 4 * 2);
+    EXPECT_EQ(ran + refused, 7 * 4 * 2 * 5 * 5 * 2 - 4 * 2 * 4 * 4 * 2);
 }
 
 }  // namespace
