@@ -63,7 +63,7 @@ Program::~Program() {
 }
 
 void Program::send(int signal) const {
-    ::kill(process_, signal);
+    if (process_ > 0) ::kill(process_, signal);  // -1, when it has ended, would be every process there is
 }
 
 bool Program::running() {
