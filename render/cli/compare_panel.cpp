@@ -39,6 +39,21 @@ bool LivePanel::pack(const SceneRun::GoOn& go_on) {
     return packed && go_on();
 }
 
+std::vector<Frame> LivePanel::moments(const std::vector<Instant>& instants,
+                                      const std::vector<FilmSegment>& segments) const {
+    const Clock& clock = run_.plan().clock;
+    std::vector<Frame> moments;
+    for (const Shot& shot : shots_at(instants, segments, clock, run_.plan().steps)) {
+        Frame moment;
+        moment.step = shot.step;
+        moment.time = clock.time(shot.step);
+        moment.cycles = clock.cycles(shot.step);
+        moment.phase = clock.phase(shot.step);
+        moments.push_back(std::move(moment));
+    }
+    return moments;
+}
+
 void LivePanel::start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) {
     done_ = 0;
     run_.start(shots_at(instants, segments, run_.plan().clock, run_.plan().steps), segments);
@@ -75,6 +90,13 @@ void LivePanel::close(RunStatus status, int exit_status, FirstFailure& failure) 
     if (failed_.any()) failure.note(failed_.what());
 }
 
+std::vector<Frame> RecordedPanel::moments(const std::vector<Instant>& instants,
+                                          const std::vector<FilmSegment>&) const {
+    std::vector<Frame> moments;
+    for (const Instant& instant : instants) moments.push_back(run_.moments()[run_.nearest(instant.time)]);
+    return moments;
+}
+
 void RecordedPanel::start(const std::vector<Instant>& instants, const std::vector<FilmSegment>&) {
     for (const Instant& instant : instants) frames_.push_back(run_.nearest(instant.time));
 }
@@ -82,7 +104,7 @@ void RecordedPanel::start(const std::vector<Instant>& instants, const std::vecto
 FramePtr RecordedPanel::next(const SceneRun::GoOn& go_on) {
     if (!go_on()) return nullptr;
     done_ = static_cast<double>(next_ + 1) / static_cast<double>(frames_.size());
-    return std::make_shared<const Frame>(run_.trajectory().read(frames_.at(next_++)));
+    return std::make_shared<const Frame>(run_.frame(frames_.at(next_++)));
 }
 
 }  // namespace grainreel

@@ -24,6 +24,9 @@ class ComparePanel {
     // and finish() return false and next() nothing.
     virtual void begin(const std::filesystem::path& folder, const std::string& command) = 0;
     virtual bool pack(const SceneRun::GoOn& go_on) = 0;
+    // Of each instant the moment that this panel shows, without its grains.
+    virtual std::vector<Frame> moments(const std::vector<Instant>& instants,
+                                       const std::vector<FilmSegment>& segments) const = 0;
     virtual void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) = 0;
     virtual FramePtr next(const SceneRun::GoOn& go_on) = 0;  // of the next instant
     virtual bool finish(const SceneRun::GoOn& go_on) = 0;    // what remains of the run after the last
@@ -48,6 +51,8 @@ class LivePanel final : public ComparePanel {
     std::string place() const override { return run_.scene().name; }
     void begin(const std::filesystem::path& folder, const std::string& command) override;
     bool pack(const SceneRun::GoOn& go_on) override;
+    std::vector<Frame> moments(const std::vector<Instant>& instants,
+                               const std::vector<FilmSegment>& segments) const override;
     void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;
     FramePtr next(const SceneRun::GoOn& go_on) override;
     bool finish(const SceneRun::GoOn& go_on) override;
@@ -71,6 +76,8 @@ class RecordedPanel final : public ComparePanel {
     std::string place() const override { return std::filesystem::absolute(run_.folder()).string(); }
     void begin(const std::filesystem::path&, const std::string&) override {}
     bool pack(const SceneRun::GoOn&) override { return true; }
+    std::vector<Frame> moments(const std::vector<Instant>& instants,
+                               const std::vector<FilmSegment>& segments) const override;
     void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;
     FramePtr next(const SceneRun::GoOn& go_on) override;
     bool finish(const SceneRun::GoOn&) override { return true; }

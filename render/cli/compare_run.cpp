@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "render/cli/comparison_words.hpp"
 #include "render/cli/stop_signal.hpp"
 #include "render/cli/together.hpp"
 #include "render/draw/camera_path.hpp"
@@ -49,19 +50,20 @@ bool CompareRun::work() {
     pictures_planned_ = static_cast<std::int64_t>(all_.instants.size());
     for (Panel& panel : all_.panels)
         settle_orbit(panel.scene.film.camera, static_cast<double>(pictures_planned_) / all_.film.film.rate);
-    open_film(all_.film,
-              side_by_side_drawer(all_.panels, all_.film.film, threads_.raster, options_.gl, all_.reference));
+    std::vector<std::size_t> segment_of;
+    for (const Instant& instant : all_.instants)
+        segment_of.push_back(static_cast<std::size_t>(instant.segment));
+    open_film(all_.film, side_by_side_drawer(all_.panels, all_.film.film, threads_.raster, options_.gl,
+                                             all_.reference, segment_of));
     stage_ = Stopwatch();
-    const Drive& drive = all_.panels[all_.reference].scene.drive;
-    for (const Instant& instant : all_.instants) {
+    for (const std::size_t segment : segment_of) {
         const auto next = [](ComparePanel& panel, FramePtr& frame) {
             frame = panel.next(go_on);
             return frame != nullptr;
         };
         if (!for_all(Progress::Stage::vibrating, frames, next)) return false;
         const auto timer = times_.during("waiting for the film");
-        film_->take(frames, playback_caption(segments.at(static_cast<std::size_t>(instant.segment)), drive,
-                                             all_.film.film.rate));
+        film_->take(frames, playback_of_all(all_.panels, segment));
     }
     return for_all(Progress::Stage::vibrating, frames,
                    [](ComparePanel& panel, FramePtr&) { return panel.finish(go_on); });

@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 #include "engine/scene/reader.hpp"
+#include "render/cli/comparison_words.hpp"
 #include "render/draw/side_by_side.hpp"
 #include "render/film/pacing.hpp"
 
@@ -79,7 +80,10 @@ void make_sources(const Options& options, Comparison& all) {
     std::size_t next = 0;
     for (const fs::path& input : options.compare.inputs) {
         if (is_run(input)) {
-            all.sources.push_back(std::make_unique<RecordedPanel>(input, options.sets));
+            auto recorded = std::make_unique<RecordedPanel>(input, options.sets);
+            const std::vector<std::string>& warnings = recorded->run().warnings();
+            all.warnings.insert(all.warnings.end(), warnings.begin(), warnings.end());
+            all.sources.push_back(std::move(recorded));
             continue;
         }
         const Scene& scene = scenes[next++];
@@ -142,7 +146,6 @@ void take_moments_of(const RecordedPanel& run, Comparison& all) {
     for (const Frame& moment : moments) all.instants.push_back({moment.time, 0});
     const Drive& drive = run.scene().drive;
     all.film.film.segments = {pacing_of(moments, drive, all.film.film.rate).value_or(FilmSegment())};
-    if (auto warning = pacing_warning(moments, drive)) all.warnings.push_back(std::move(*warning));
 }
 
 void take_moments_of_schedule(Comparison& all) {
@@ -185,15 +188,22 @@ void make_panels(const Options& options, Comparison& all) {
             fmt::format("--captions: has {} parts between its bars for {} panels; write one for each, "
                         "as in \"Γ = 1|Γ = 3\"",
                         captions.size(), scenes.size()));
-    for (std::size_t i = 0; i < scenes.size(); ++i) all.panels.push_back({scenes[i], captions[i]});
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        all.panels.push_back({scenes[i], captions[i], playback_of(*all.sources[i], all)});
+        // All plots and clocks are of the time that is shown.
+        if (all.instants.back().time > 0) all.panels[i].scene.run.duration = all.instants.back().time;
+    }
     share_colours(all.panels);
     if (!common_of(all.panels).exaggerated)  // then each panel has to say so
         for (Panel& panel : all.panels)
             if (panel.scene.film.exaggerate != 1)
                 panel.caption += fmt::format(", wall motion drawn {:.3g}×", panel.scene.film.exaggerate);
-    if (layout_of(all.panels, all.film.film).places.empty())
+    const PanelLayout layout = layout_of(all.panels, all.film.film);
+    if (layout.places.empty())
         throw UserError(fmt::format("--size: {}x{} is too small for {} panels; make it larger",
                                     all.film.film.width, all.film.film.height, scenes.size()));
+    warn_of_pace(all);
+    warn_of_what_is_left_out(layout, all);
 }
 
 // Name, title and film of the whole: those of the first, a title only when all have it.

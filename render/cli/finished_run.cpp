@@ -99,6 +99,7 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
                         name));
     if (needs_touches(scene_.film.shows)) read_contacts();
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
+    if (needs_displacement(scene_.film.shows)) look_for_earlier_frames();
 }
 
 // As many as the scene grows, and of its sizes: another run's trajectory may have as many species.
@@ -161,6 +162,25 @@ void FinishedRun::read_measures_of_run() {
                         measures().string(), last, end));
 }
 
+std::optional<std::size_t> FinishedRun::a_period_before(std::size_t index) const {
+    const double period = 1 / scene_.drive.frequency, wanted = moments_[index].time - period;
+    const std::size_t before = nearest(wanted);
+    if (std::abs(moments_[before].time - wanted) > 1e-3 * period) return std::nullopt;
+    return before;
+}
+
+void FinishedRun::look_for_earlier_frames() {
+    const double first = moments_.front().time + (1 - 1e-3) / scene_.drive.frequency;
+    std::size_t lack = 0;
+    for (std::size_t i = 0; i < moments_.size(); ++i)
+        lack += moments_[i].time >= first && !a_period_before(i);
+    if (lack > 0)
+        warnings_.push_back(fmt::format(
+            "{}: {} of its {} frames have none a period before them, and are drawn without displacements; "
+            "run the scene with an output.trajectory_interval that divides the period",
+            (folder_ / "trajectory.nc").string(), lack, moments_.size()));
+}
+
 Frame FinishedRun::frame(std::size_t index) const {
     Frame frame = trajectory_.read(index);
     if (measures_) {
@@ -171,19 +191,21 @@ Frame FinishedRun::frame(std::size_t index) const {
     }
     if (contacts_) frame.touches = contacts_->touches(index);
     if (!needs_displacement(scene_.film.shows)) return frame;
-    const double period = 1 / scene_.drive.frequency, wanted = frame.time - period;
-    const std::size_t before = nearest(wanted);
-    if (std::abs(moments_[before].time - wanted) > 1e-3 * period) return frame;
+    const std::optional<std::size_t> before = a_period_before(index);
+    if (!before) return frame;
     const bool periodic = scene_.container.periodic_depth;
-    set_displacement(frame, trajectory_.read(before).position, periodic ? scene_.container.depth : 0);
+    set_displacement(frame, trajectory_.read(*before).position, periodic ? scene_.container.depth : 0);
     return frame;
 }
 
 std::size_t FinishedRun::nearest(double time) const {
-    const auto nearer = std::min_element(
-        moments_.begin(), moments_.end(),
-        [&](const Frame& a, const Frame& b) { return std::abs(a.time - time) < std::abs(b.time - time); });
-    return static_cast<std::size_t>(nearer - moments_.begin());
+    const auto after =
+        std::lower_bound(moments_.begin(), moments_.end(), time,
+                         [](const Frame& moment, double wanted) { return moment.time < wanted; });
+    const auto index = static_cast<std::size_t>(after - moments_.begin());
+    if (index == 0) return 0;
+    if (index == moments_.size()) return index - 1;
+    return time - moments_[index - 1].time <= moments_[index].time - time ? index - 1 : index;
 }
 
 }  // namespace grainreel

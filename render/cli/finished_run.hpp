@@ -40,6 +40,8 @@ class FinishedRun {
     void check_grains() const;
     void read_contacts();
     void read_measures_of_run();
+    std::optional<std::size_t> a_period_before(std::size_t index) const;
+    void look_for_earlier_frames();
 
     std::filesystem::path folder_;
     Scene scene_;

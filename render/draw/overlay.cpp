@@ -6,7 +6,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/scene/measure_columns.hpp"
 #include "render/draw/captions.hpp"
 #include "render/draw/first_gutter.hpp"
 #include "render/draw/halo.hpp"
@@ -99,18 +98,8 @@ void Overlay::draw_still_numbers(const View& view) {
 }
 
 void Overlay::make_plots() {
-    std::vector<std::string> species;
-    for (const Species& s : scene_.species) species.push_back(s.name);
-    const std::vector<MeasureColumn> columns = measure_columns(species);
     for (std::size_t k = 0; k < plan_.plots.size(); ++k) {
-        const FilmPlot& wanted = scene_.film.shows.plots[k];
-        PlotFrame frame;
-        frame.column = wanted.column;
-        frame.label = wanted.label;
-        for (const MeasureColumn& column : columns)
-            if (column.name == wanted.column) frame.dimension = column.dimension;
-        frame.time = {0, scene_.run.duration};
-        frame.range = wanted.range;
+        PlotFrame frame = plot_frame(scene_, scene_.film.shows.plots[k]);
         frame.width = plan_.plots[k].width;
         frame.height = plan_.plots[k].height;
         plots_.emplace_back(frame, type_, palette_);

@@ -9,6 +9,7 @@
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/grain_values.hpp"
+#include "engine/scene/measure_columns.hpp"
 #include "render/draw/text.hpp"
 #include "render/draw/ticks.hpp"
 
@@ -40,6 +41,19 @@ void Plot::Slice::add(double value) {
     high = std::max(high, value);
 }
 
+PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot) {
+    std::vector<std::string> species;
+    for (const Species& s : scene.species) species.push_back(s.name);
+    PlotFrame frame;
+    frame.column = plot.column;
+    frame.label = plot.label;
+    for (const MeasureColumn& column : measure_columns(species))
+        if (column.name == plot.column) frame.dimension = column.dimension;
+    frame.time = {0, scene.run.duration};
+    frame.range = plot.range;
+    return frame;
+}
+
 Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette)
     : frame_(frame),
       type_(type),
@@ -68,7 +82,6 @@ void Plot::forget() {
     rows_ = 0;
     any_ = false;
     gap_ = true;
-    axes_fresh_ = false;
     limits_ = frame_.range.value_or(std::array<double, 2>{0, 1});
     slices_.assign(static_cast<std::size_t>(std::max(1.0, right_ - left_)) + 1, {});
 }
@@ -78,7 +91,8 @@ double Plot::x_of(double time) const {
 }
 
 double Plot::y_of(double value) const {
-    const double share = (value - limits_[0]) / (limits_[1] - limits_[0]);
+    const auto& [low, high] = span();
+    const double share = (value - low) / (high - low);
     return bottom_ - std::clamp(share, 0.0, 1.0) * (bottom_ - top_);
 }
 
@@ -122,7 +136,6 @@ void Plot::widen(double value) {
     const std::array<double, 2> wide = round_limits(low - room, high + room, most_ticks + 1);
     limits_ = {any_ ? std::min(limits_[0], wide[0]) : wide[0],
                any_ ? std::max(limits_[1], wide[1]) : wide[1]};
-    axes_fresh_ = false;
 }
 
 void Plot::draw_axes() {
@@ -130,7 +143,8 @@ void Plot::draw_axes() {
     fill_surface(on.get(), palette_.background, 0);
     const TextStyle minor{type_.minor, false};
     const double pen = std::max(1.0, type_.main / 20), tick = 0.3 * type_.minor;
-    const double largest = std::max(std::abs(limits_[0]), std::abs(limits_[1]));
+    const auto& [low, high] = span();
+    const double largest = std::max(std::abs(low), std::abs(high));
     const std::string unit = fitting_unit(largest, frame_.dimension);
     const double size = unit_size(unit, frame_.dimension);
     const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
@@ -138,7 +152,7 @@ void Plot::draw_axes() {
 
     // As many as stand above each other.
     const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);
-    const std::vector<double> values = round_ticks(limits_[0] / size, limits_[1] / size, fit);
+    const std::vector<double> values = round_ticks(low / size, high / size, fit);
     for (const double value : values) {
         const double y = y_of(value * size);
         cairo_set_line_width(on.get(), 0.7 * pen);
@@ -166,7 +180,7 @@ void Plot::draw_axes() {
     const std::string name = short_run() ? "time (ms)" : "time (s)";
     draw_text(on.get(), right_ - measure_text(name, minor).width, bottom_ + tick + below, name, minor,
               palette_.faint_ink);
-    axes_fresh_ = true;
+    drawn_ = span();
 }
 
 void Plot::draw_curve(cairo_t* on) const {
@@ -186,7 +200,7 @@ void Plot::draw_curve(cairo_t* on) const {
 }
 
 void Plot::draw(cairo_t* on, int x, int y) {
-    if (!axes_fresh_) draw_axes();
+    if (drawn_ != span()) draw_axes();
     cairo_save(on);
     cairo_translate(on, x, y);
     cairo_set_source_surface(on, axes_.get(), 0, 0);

@@ -11,6 +11,7 @@
 
 #include "engine/frame.hpp"
 #include "engine/scene/film_shows.hpp"
+#include "engine/scene/scene.hpp"
 #include "engine/scene/units.hpp"
 #include "render/draw/cairo_surface.hpp"
 #include "render/draw/layout.hpp"
@@ -26,6 +27,8 @@ struct PlotFrame {
     std::optional<std::array<double, 2>> range;  // SI
     int width = 0, height = 0;                   // pixels
 };
+// Of a plot that the scene's film shows, without its size.
+PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot);
 
 class Plot {
   public:
@@ -34,6 +37,12 @@ class Plot {
     // The rows up to the frame's. Limits only grow, and depend on the rows alone. A row without a value (NaN)
     // leaves a gap. False when nothing changed.
     bool take(const Frame& frame);
+    // What the values' axis spans, SI, none before there is a value; and another span for it, of plots that
+    // stand together.
+    std::optional<std::array<double, 2>> limits() const {
+        return any_ ? std::optional(limits_) : frame_.range;
+    }
+    void show(const std::array<double, 2>& limits) { shown_ = limits; }
     // Top left corner at (x, y).
     void draw(cairo_t* on, int x, int y);
 
@@ -55,6 +64,7 @@ class Plot {
     };
     std::vector<TimeTick> time_ticks() const;
     bool short_run() const { return frame_.time[1] < 0.1; }  // told in ms
+    const std::array<double, 2>& span() const { return shown_ ? *shown_ : limits_; }
     void forget();
     void add(double time, double value);
     void widen(double value);
@@ -66,13 +76,14 @@ class Plot {
     const Palette palette_;
     double left_, right_, top_, bottom_;  // of the box, pixels
     CairoSurface axes_;
-    bool axes_fresh_ = false;
+    std::optional<std::array<double, 2>> drawn_;  // limits of the axes as they are drawn
     std::shared_ptr<const MeasureTable> table_;
     std::size_t rows_ = 0;
     bool any_ = false;
-    bool gap_ = true;                     // the last row has no value
-    std::array<double, 2> limits_{0, 1};  // SI
-    std::array<double, 2> last_{0, 0};    // time and value
+    bool gap_ = true;                             // the last row has no value
+    std::array<double, 2> limits_{0, 1};          // SI, of the rows
+    std::optional<std::array<double, 2>> shown_;  // in their place
+    std::array<double, 2> last_{0, 0};            // time and value
     std::vector<Slice> slices_;
 };
 

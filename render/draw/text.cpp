@@ -73,6 +73,7 @@ Layout layout_in(PangoContext* context, const std::string& text, const TextStyle
     pango_layout_set_font_description(layout.get(), font);
     pango_font_description_free(font);
     pango_layout_set_text(layout.get(), text.c_str(), static_cast<int>(text.size()));
+    if (style.centred) pango_layout_set_alignment(layout.get(), PANGO_ALIGN_CENTER);
     if (wrap > 0) {
         pango_layout_set_width(layout.get(), static_cast<int>(wrap * PANGO_SCALE));
         pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);

@@ -17,6 +17,7 @@ struct TextSize {
 struct TextStyle {
     double size = 12;  // pixels, of the letters' body
     bool bold = false;
+    bool centred = false;  // lines in the middle of the wrap
 };
 
 // wrap: pixels, where lines break between words (0: nowhere); at most `lines` lines, the last cut short by an

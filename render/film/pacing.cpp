@@ -70,6 +70,20 @@ std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Dr
     return segment;
 }
 
+std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive, double rate) {
+    if (moments.size() < 2) return {};
+    if (const auto segment = pacing_of(moments, drive, rate)) return playback_caption(*segment, drive, rate);
+    const double interval = mean_interval(moments);
+    if (interval <= 0) return {};
+    if (drive.present && same_phase(moments))
+        return fmt::format("on average 1 frame every {:.3g} periods, at phase {:.3g} (plays {:.3g}×)",
+                           interval * drive.frequency, moments.front().phase, interval * rate);
+    FilmSegment segment;
+    segment.playback = std::round(interval * rate * 100) / 100 > 0 ? std::round(interval * rate * 100) / 100
+                                                                   : interval * rate;
+    return "on average " + playback_caption(segment, drive, rate);
+}
+
 std::optional<std::string> pacing_warning(const std::vector<Frame>& moments, const Drive& drive) {
     if (moments.size() < 2 || !drive.present || same_phase(moments)) return std::nullopt;
     const double frames = 1 / mean_interval(moments), f = drive.frequency;  // a simulated second

@@ -16,6 +16,10 @@ namespace grainreel {
 // do not come evenly. Of the frames only time, cycles and phase are looked at.
 std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Drive& drive, double rate);
 
+// What the caption says of the time of these frames; where they do not come evenly, as it is on average.
+// Empty for fewer than two.
+std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive, double rate);
+
 // What to say when frames are too few for the drive: it seems to move at another frequency. None when it does
 // not, and for locked frames.
 std::optional<std::string> pacing_warning(const std::vector<Frame>& moments, const Drive& drive);

@@ -8,8 +8,9 @@
 
 namespace grainreel {
 
-// film: size, title and background of the whole. clock: the panel whose time is shown.
+// film: size, title and background of the whole. clock: the panel whose time is shown. segments: of the film,
+// one a picture.
 DrawerMaker side_by_side_drawer(const std::vector<Panel>& panels, const Film& film, int raster_threads,
-                                gl::Provider provider, std::size_t clock);
+                                gl::Provider provider, std::size_t clock, std::vector<std::size_t> segments);
 
 }  // namespace grainreel

@@ -103,6 +103,80 @@ TEST_F(CompareProgram, TakesFinishedRunsToo) {
     }
 }
 
+// All that a film can show of a finished run is as it was in the run: plots, live words, displacements over a
+// period, forces, trails.
+TEST_F(CompareProgram, FinishedRunsLackNothing) {
+    for (const std::string name : {"weak", "strong"}) {
+        std::string text = text_of(here / (name + ".toml"));
+        text.replace(text.find("[film]"), 6,
+                     "[output]\ncontacts = true\n[film]\ntext = \"mixing {lacey}\"\nforce_chains = true\n");
+        text.replace(
+            text.find("[[film.segment]]"), std::string::npos,
+            "[film.colour]\nby = \"displacement\"\n[film.trails]\nspecies = [\"big\"]\nduration = 0.1\n"
+            "[film.arrows]\ngrid = 4\n[[film.plot]]\ny = \"kinetic\"\n"
+            "[[film.segment]]\nkind = \"locked\"\n");
+        write_text(here / (name + ".toml"), text);
+        ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);
+    }
+    const std::vector<std::string> options = {"--frames", "--no-film", "--set", "film.size=640x480"};
+    const auto compare = [&](const std::string& first, const std::string& second, const std::string& out) {
+        std::vector<std::string> words = {"compare", first, second, "--out", out};
+        words.insert(words.end(), options.begin(), options.end());
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return ended.err;
+    };
+    compare("weak.toml", "strong.toml", "live");
+    EXPECT_THAT(compare("weak", "strong", "finished"), Not(HasSubstr("warning")));
+    // (The last frame's arrows are those of a trajectory in single precision.)
+    for (const char* frame : {"frames/000000.png", "frames/000001.png", "frames/000003.png"}) {
+        const auto pixels = [&](const char* folder) {
+            const std::string text = text_of(here / folder / frame);
+            return text.substr(text.find("IDAT"));
+        };
+        EXPECT_TRUE(pixels("live") == pixels("finished")) << frame;
+    }
+}
+
+TEST_F(CompareProgram, WhatHasNoRoomOrCannotBeShownIsNamed) {
+    ASSERT_EQ(program({"movie", "weak.toml", "--no-film", "--out", "run", "--set",
+                       "film.plot=[{y=\"lacey\"}]", "--set", "film.segment=[{average=1,kind=\"locked\"}]"})
+                  .status,
+              0);
+    const Ended ended = program({"compare", "run", "run", "--size", "320x240", "--set", "film.axes=true"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("--size: 320x240 has no room for plots under 2 panels"));
+    EXPECT_THAT(ended.err, HasSubstr("film.axes: films side by side have no axes"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("run: its frames are single moments; the film has no means over periods"));
+}
+
+// A run that kept no frame a period before the others cannot show displacements over one.
+TEST_F(CompareProgram, DisplacementsThatCannotBeKnownAreNamed) {
+    const std::vector<std::string> movie = {"movie", "weak.toml", "--no-film", "--out", "run"};
+    std::vector<std::string> sparse = movie;
+    sparse.insert(sparse.end(), {"--set", "output.trajectory_interval=80 ms"});
+    ASSERT_EQ(program(sparse).status, 0);
+    const Ended ended = program({"compare", "run", "run", "--set", "film.colour.by=displacement"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("run/trajectory.nc: 2 of its 3 frames have none a period before them"));
+}
+
+// Two drives in a locked film: each panel says of time what holds for it.
+TEST_F(CompareProgram, UnlikeDrivesHaveACaptionEach) {
+    for (const auto& [name, frequency] : {std::pair{"weak", "20 Hz"}, {"strong", "25 Hz"}}) {
+        std::string text = text_of(here / (std::string(name) + ".toml"));
+        text.replace(text.find("20 Hz"), 5, frequency);
+        text.replace(text.find("playback = 0.5"), 14, "kind = \"locked\"");
+        write_text(here / (std::string(name) + ".toml"), text);
+    }
+    ASSERT_EQ(
+        program({"compare", "weak.toml", "strong.toml", "--frames", "--no-film", "--out", "both"}).status, 0);
+    const std::string png = text_of(here / "both/frames/000001.png");
+    EXPECT_THAT(png, HasSubstr("1 frame a period at phase 0 (plays 1.5×) | "
+                               "on average 1 frame every 1.25 periods, at phase 0 (plays 1.5×)"));
+}
+
 TEST_F(CompareProgram, AllEndWithTheShortest) {
     write("long.toml", "g_level = 2", "0.3 s");
     const Ended ended = program({"compare", "long.toml", "weak.toml", "--out", "both"});

@@ -280,7 +280,7 @@ TEST(GoldenSideBySide, TwoPanels) {
     film.title = "Together";
     SideBySide drawing(panels, film, 1, gl::Provider::automatic);
     const auto frame = std::make_shared<const Frame>(bed());
-    expect_golden("side_by_side", drawing.draw({frame, frame}, ""));
+    expect_golden("side_by_side", drawing.draw({frame, frame}));
 }
 
 }  // namespace

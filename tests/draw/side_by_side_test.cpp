@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/measure_table.hpp"
+#include "render/draw/panel_plots.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel {
@@ -50,15 +51,33 @@ bool apart(const Rectangle& a, const Rectangle& b) {
     return a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y;
 }
 
+// Each with two plots, marks and words of its own.
+std::vector<Panel> full_panels(std::size_t count) {
+    std::vector<Panel> panels = panels_of(std::vector<Scene>(count, scene_with(0.06, 2)));
+    for (std::size_t i = 0; i < count; ++i) {
+        FilmShows& shows = panels[i].scene.film.shows;
+        shows.plots = {{"height_difference", "height difference", {}}, {"lacey", "mixing", {}}};
+        shows.text = "mixing {lacey}";
+        shows.live_words = {{"mixing ", "lacey", "", 1}};
+        shows.arrows = {10, 0.1 * static_cast<double>(i + 1), false};
+        panels[i].playback = {i == 0 ? "1 frame a period at phase 0 (plays 1.5×)" : "time lapse, 1.5× speed"};
+    }
+    return panels;
+}
+
 TEST(SideBySide, PanelsAndWordsNeitherOverlapNorLeaveThePicture) {
     for (const auto& [width, height] : {std::pair{1920, 1080}, {1280, 720}, {1080, 1920}, {800, 800}}) {
-        for (std::size_t count = 2; count <= 6; ++count) {
-            const PanelLayout layout =
-                layout_of(panels_of(std::vector<Scene>(count, scene_with(0.06, 2))), film_of(width, height));
-            ASSERT_EQ(layout.places.size(), count);
+        for (std::size_t count = 2; count <= 12; ++count) {
+            const std::vector<Panel> panels = count <= 6
+                                                  ? panels_of(std::vector<Scene>(count, scene_with(0.06, 2)))
+                                                  : full_panels(count - 5);
+            const PanelLayout layout = layout_of(panels, film_of(width, height));
+            ASSERT_EQ(layout.places.size(), panels.size());
             std::vector<Rectangle> parts = {layout.top, layout.bottom};
-            for (const PanelLayout::Place& place : layout.places)
-                parts.insert(parts.end(), {place.caption, place.port, place.note, place.foot});
+            for (const PanelLayout::Place& place : layout.places) {
+                parts.insert(parts.end(), {place.caption, place.pace, place.port, place.note, place.foot});
+                parts.insert(parts.end(), place.plots.begin(), place.plots.end());
+            }
             for (std::size_t i = 0; i < parts.size(); ++i) {
                 EXPECT_TRUE(inside(parts[i], {0, 0, width, height})) << width << ' ' << count << ' ' << i;
                 for (std::size_t k = 0; k < i; ++k)
@@ -85,13 +104,111 @@ TEST(SideBySide, LiveWordsAreThoseOfTheirPanel) {
         frame.measure_rows = 1;
         return std::make_shared<const Frame>(std::move(frame));
     };
-    const Picture before = drawing.draw({with_mixing(0.25), with_mixing(0.5)}, "");
-    const Picture after = drawing.draw({with_mixing(0.25), with_mixing(0.75)}, "");
+    const Picture before = drawing.draw({with_mixing(0.25), with_mixing(0.5)});
+    const Picture after = drawing.draw({with_mixing(0.25), with_mixing(0.75)});
     const auto& places = drawing.layout().places;
     EXPECT_EQ(changed(before, after, places[0].note, 1).count, 0);
     EXPECT_GT(changed(before, after, places[1].note, 60).count, 10);
     EXPECT_EQ(changed(before, after, {0, 0, 960, 540}, 1).count,
               changed(before, after, places[1].note, 1).count);
+}
+
+FramePtr with_rows(const std::vector<double>& values) {
+    Frame frame = frame_of({{Vec3(0, 0, 0.08), 0.01, 1}});
+    const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey"});
+    for (std::size_t i = 0; i < values.size(); ++i) table->add({0.1 * static_cast<double>(i), values[i]});
+    frame.measures = table;
+    frame.measure_rows = values.size();
+    return std::make_shared<const Frame>(std::move(frame));
+}
+
+std::vector<Panel> plotted_panels() {
+    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    for (Scene& scene : scenes) {
+        scene.run.duration = 1;
+        scene.film.shows.plots = {{"lacey", "mixing", {}}};
+    }
+    return panels_of(scenes);
+}
+
+// A plot follows its own panel's rows, on axes that hold those of all.
+TEST(SideBySide, PlotsAreThoseOfTheirPanelOnOneSpan) {
+    const std::vector<Panel> panels = plotted_panels();
+    SideBySide drawing(panels, film_of(960, 540), 1, gl::Provider::automatic);
+    const auto& places = drawing.layout().places;
+    ASSERT_TRUE(drawing.layout().plots_fit);
+    ASSERT_EQ(places[0].plots.size(), 1u);
+    const Picture before = drawing.draw({with_rows({0, 1, 0.5}), with_rows({0.2, 0.4, 0.5})});
+    const Picture after = drawing.draw({with_rows({0, 1, 0.5}), with_rows({0.2, 0.4, 0.7})});
+    EXPECT_EQ(changed(before, after, places[0].plots[0], 1).count, 0);
+    EXPECT_GT(changed(before, after, places[1].plots[0], 60).count, 10);
+    EXPECT_EQ(changed(before, after, {0, 0, 960, 540}, 1).count,
+              changed(before, after, places[1].plots[0], 1).count);
+    const TypeScale type = panel_type(film_of(960, 540));
+    PanelPlots plots(panels, drawing.layout(), type, make_palette({1, 1, 1}));
+    plots.take({with_rows({0, 1, 0.5}), with_rows({0.2, 0.4, 0.5})});
+    const Plot &first = plots.all()[0].plot, &second = plots.all()[1].plot;
+    for (const double value : {0.0, 0.3, 1.0}) EXPECT_EQ(first.y_of(value), second.y_of(value));
+    EXPECT_GT(second.y_of(0.9), second.y_of(1.0));  // not cut off where its own rows end
+    for (const double time : {0.0, 0.7}) EXPECT_EQ(first.x_of(time), second.x_of(time));
+}
+
+TEST(SideBySide, PlotsWithoutRoomAreLeftOut) {
+    const PanelLayout small = layout_of(plotted_panels(), film_of(320, 240));
+    ASSERT_FALSE(small.places.empty());
+    EXPECT_FALSE(small.plots_fit);
+    EXPECT_TRUE(small.places[0].plots.empty());
+}
+
+// What holds for all is said once; else each panel says its own.
+TEST(SideBySide, TimeIsSaidOverEachPanelWhereItIsUnlike) {
+    std::vector<Panel> panels = panels_of({scene_with(0.06, 1, 20), scene_with(0.06, 1, 25)});
+    for (Panel& panel : panels) panel.playback = {"slow motion, 1/10 speed", "real time"};
+    EXPECT_EQ(layout_of(panels, film_of(960, 540)).places[0].pace.height, 0);
+    SideBySide alike(panels, film_of(960, 540), 1, gl::Provider::automatic);
+    panels[1].playback[1] = "on average 1 frame every 1.25 periods, at phase 0 (plays 1.5×)";
+    SideBySide unlike(panels, film_of(960, 540), 1, gl::Provider::automatic);
+    const std::vector<FramePtr> frames = {one_ball(0.01), one_ball(0.01)};
+    const Picture first = alike.draw(frames, 0), then = alike.draw(frames, 1);
+    EXPECT_EQ(changed(first, then, alike.layout().bottom, 1).count,
+              changed(first, then, {0, 0, 960, 540}, 1).count);
+    EXPECT_GT(changed(first, then, alike.layout().bottom, 60).count, 10);
+    const Picture slow = unlike.draw(frames, 0), plain = unlike.draw(frames, 1);
+    EXPECT_EQ(changed(slow, plain, unlike.layout().bottom, 1).count, 0);
+    for (const PanelLayout::Place& place : unlike.layout().places)
+        EXPECT_GT(changed(slow, plain, place.pace, 60).count, 10);
+}
+
+TEST(SideBySide, MarksAreExplainedOnceOrUnderEach) {
+    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    const int bare = layout_of(panels_of(scenes), film_of(640, 960)).bottom.height;
+    for (Scene& scene : scenes) scene.film.shows.trails = {{0}, {}, 0.1};
+    const PanelLayout once = layout_of(panels_of(scenes), film_of(640, 960));
+    EXPECT_GT(once.bottom.height, bare);
+    EXPECT_EQ(once.places[0].foot.height, 0);
+    scenes[1].film.shows.trails.duration = 0.2;
+    const PanelLayout each = layout_of(panels_of(scenes), film_of(640, 960));
+    EXPECT_EQ(each.bottom.height, bare);
+    EXPECT_GT(each.places[0].foot.height, 10);
+}
+
+TEST(SideBySide, WithoutABackgroundThePaperShowsThrough) {
+    Film film = film_of(640, 360);
+    film.transparent = true;
+    SideBySide drawing(plotted_panels(), film, 1, gl::Provider::automatic);
+    const Picture& picture = drawing.draw({with_rows({0, 1}), with_rows({0, 1})});
+    const auto share_empty = [&](const Rectangle& part) {
+        int empty = 0;
+        for (int y = part.y; y < part.y + part.height; ++y)
+            for (int x = part.x; x < part.x + part.width; ++x) empty += picture.pixel(x, y)[3] == 0;
+        return static_cast<double>(empty) / (part.width * part.height);
+    };
+    const PanelLayout::Place& place = drawing.layout().places[0];
+    for (const Rectangle& part :
+         {drawing.layout().top, drawing.layout().bottom, place.caption, place.port, place.plots[0]}) {
+        EXPECT_GT(share_empty(part), 0.15);
+        EXPECT_LT(share_empty(part), 1);
+    }
 }
 
 TEST(SideBySide, ColourBarsAreSaidOnceOrUnderEach) {
@@ -119,8 +236,8 @@ TEST(SideBySide, OneScaleHoldsInAllPanels) {
     SideBySide picture(panels, film_of(1280, 720), 1, gl::Provider::automatic);
     ASSERT_GT(picture.layout().scale, 0);
     const double radius = 0.012;
-    const Picture without = picture.draw({one_ball(1e-6), one_ball(1e-6)}, "");
-    const Picture with = picture.draw({one_ball(radius), one_ball(radius)}, "");
+    const Picture without = picture.draw({one_ball(1e-6), one_ball(1e-6)});
+    const Picture with = picture.draw({one_ball(radius), one_ball(radius)});
     for (const PanelLayout::Place& place : picture.layout().places) {
         const test::Extent ball = changed(without, with, place.port, 40);
         EXPECT_NEAR(ball.right - ball.left, 2 * radius * picture.layout().scale, 3);
@@ -130,7 +247,7 @@ TEST(SideBySide, OneScaleHoldsInAllPanels) {
 TEST(SideBySide, EqualFramesGiveEqualPanels) {
     const std::vector<Panel> panels = panels_of({scene_with(0.06, 2), scene_with(0.06, 2)});
     SideBySide picture(panels, film_of(640, 360), 1, gl::Provider::automatic);
-    const Picture& drawn = picture.draw({one_ball(0.01), one_ball(0.01)}, "");
+    const Picture& drawn = picture.draw({one_ball(0.01), one_ball(0.01)});
     const Rectangle a = picture.layout().places[0].port, b = picture.layout().places[1].port;
     ASSERT_EQ(a.width, b.width);
     int different = 0, coloured = 0;
@@ -162,8 +279,8 @@ TEST(SideBySide, TheClockIsThatOfItsPanel) {
     Frame later = *one_ball(0.01);
     later.time = 0.5;
     const FramePtr now = one_ball(0.01), then = std::make_shared<const Frame>(later);
-    const Picture first = picture.draw({now, then}, "", 0), same = picture.draw({now, now}, "", 0),
-                  second = picture.draw({now, then}, "", 1);
+    const Picture first = picture.draw({now, then}, 0, 0), same = picture.draw({now, now}, 0, 0),
+                  second = picture.draw({now, then}, 0, 1);
     const Rectangle& words = picture.layout().bottom;
     EXPECT_EQ(changed(first, same, words).count, 0);
     EXPECT_GT(changed(first, second, words).count, 0);
@@ -187,13 +304,17 @@ TEST(Captions, SayWhatTellsTheScenesApart) {
     Scene other = scene_with(0.06, 3);
     other.film.title = "Another";
     EXPECT_THAT(captions_of({scene_with(0.06, 3), other}), ElementsAre("A wedge", "Another"));
+    other.drive.amplitude *= 2;
+    EXPECT_THAT(captions_of({scene_with(0.06, 3), other}), ElementsAre("A wedge\nΓ = 3", "Another\nΓ = 6"));
+    other.film.title = "A wedge at Γ = 6";
+    EXPECT_THAT(captions_of({scene_with(0.06, 3), other}), ElementsAre("A wedge\nΓ = 3", "A wedge at Γ = 6"));
     Scene named = scene_with(0.06, 3);
     named.name = "second";
     EXPECT_THAT(captions_of({scene_with(0.06, 3), named}), ElementsAre("wedge", "second"));
     Scene slow = scene_with(0.06, 3, 15), third = scene_with(0.06, 3, 15);
     third.film.title = "Another";
     EXPECT_THAT(captions_of({scene_with(0.06, 3), slow, third}),
-                ElementsAre("A wedge: f = 20 Hz", "A wedge: f = 15 Hz", "Another: f = 15 Hz"));
+                ElementsAre("A wedge\nf = 20 Hz", "A wedge\nf = 15 Hz", "Another\nf = 15 Hz"));
     EXPECT_THAT(captions_of({slow, slow}), ElementsAre("1, wedge", "2, wedge"));
 }
 

@@ -51,6 +51,25 @@ TEST(Pacing, OtherwiseTheFactorFollowsFromTheInterval) {
     EXPECT_EQ(caption(moments(9, 160, 0), 20, 10), "slow motion, 1/10 speed");
 }
 
+// A panel of 25 Hz whose moments follow those of 20 Hz: it shows every period, but now and then leaves one
+// out.
+TEST(Pacing, WhereFramesComeUnevenlyTheirMeanIsSaid) {
+    std::vector<Frame> frames;
+    const Clock clock{1 / 25.0 / 640, 640, 0};
+    for (const std::int64_t period : {0, 1, 3, 4, 5}) {
+        Frame frame;
+        frame.step = 640 * period;
+        frame.time = clock.time(frame.step);
+        frames.push_back(frame);
+    }
+    EXPECT_EQ(caption(frames, 25), "none");
+    EXPECT_EQ(pacing_caption(frames, drive_of(25), 30),
+              "on average 1 frame every 1.25 periods, at phase 0 (plays 1.5×)");
+    frames[2].phase = 0.5;  // (5/25 s) / 4 frames x 30 frames/s = 1.5
+    EXPECT_EQ(pacing_caption(frames, drive_of(25), 30), "on average time lapse, 1.5× speed");
+    EXPECT_EQ(pacing_caption(moments(5, 800), drive_of(20), 30), caption(moments(5, 800)));
+}
+
 // 1/30 s is not a whole number of steps of 1/16000 s: 533 make 0.99938 of it.
 TEST(Pacing, RoundingToStepsDoesNotHideThePlainFactor) {
     EXPECT_EQ(caption(moments(9, 533), 20), "real time");
