@@ -25,16 +25,11 @@ class ContinuedMovie : public testing::Test {
     }
     Ended run(const std::vector<std::string>& words) const { return run_program(words, {here.path(), {}}); }
     Ended go_on(const std::string& verb, const std::vector<std::string>& more) const {
-        std::vector<std::string> words = {verb,
-                                          "run/scene.toml",
-                                          "--set",
-                                          "start.method=file",
-                                          "--set",
-                                          "start.file=checkpoint.grs",
-                                          "--set",
-                                          "start.keep_clock=true",
-                                          "--duration",
-                                          "0.1 s"};
+        std::vector<std::string> words = {verb,         "run/scene.toml",
+                                          "--set",      "start.method=file",
+                                          "--set",      "start.file=checkpoint.grs",
+                                          "--set",      "start.keep_clock=true",
+                                          "--duration", "0.1 s"};
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     }
@@ -47,7 +42,8 @@ class ContinuedMovie : public testing::Test {
 };
 
 TEST_F(ContinuedMovie, IsTheSameRunAlsoInItsOwnFolder) {
-    const Ended whole = run({"movie", "run/scene.toml", "--no-film", "--out", "whole", "--duration", "0.1 s"});
+    const Ended whole =
+        run({"movie", "run/scene.toml", "--no-film", "--out", "whole", "--duration", "0.1 s"});
     ASSERT_EQ(whole.status, 0) << whole.err;
     EXPECT_EQ(go_on("check", {}).status, 0);
     const Ended on = go_on("movie", {"--no-film", "--out", "run", "--force"});
@@ -60,7 +56,8 @@ TEST_F(ContinuedMovie, CheckRefusesWhatMovieRefuses) {
     const Ended check = go_on("check", change);
     EXPECT_EQ(check.status, 2);
     EXPECT_EQ(check.out, "");
-    EXPECT_THAT(check.err, HasSubstr("error: --set drive.direction: 'drive.direction' is [1.0, 0.0, 0.0], but"));
+    EXPECT_THAT(check.err,
+                HasSubstr("error: --set drive.direction: 'drive.direction' is [1.0, 0.0, 0.0], but"));
     const Ended movie = go_on("movie", {change[0], change[1], "--out", "new"});
     EXPECT_EQ(movie.status, 2);
     EXPECT_EQ(movie.err, check.err);
