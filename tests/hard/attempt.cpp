@@ -18,10 +18,11 @@ using test::Program;
 
 namespace {
 
-constexpr int kSeconds = 10;                      // of processor time
-constexpr std::size_t kMemory = 6'000'000'000;    // bytes
-constexpr auto kAsleep = std::chrono::minutes(3);  // a run that does nothing: of real time, with room for a busy machine
-constexpr std::size_t kLongestMessage = 3000;     // bytes
+constexpr int kSeconds = 10;                    // of processor time
+constexpr std::size_t kMemory = 6'000'000'000;  // bytes
+constexpr auto kAsleep =
+    std::chrono::minutes(3);  // a run that does nothing: of real time, with room for a busy machine
+constexpr std::size_t kLongestMessage = 3000;  // bytes
 
 std::string what_is_wrong(int status, int signal_sent, const std::string& err) {
     if (status == 128 + SIGXCPU || status == 128 + SIGKILL)
@@ -76,7 +77,9 @@ std::string command_text(const std::vector<std::string>& words) {
     constexpr std::size_t kMost = 100;
     std::string text = "`grainreel";
     for (const std::string& word : words)
-        text += " " + (word.size() > kMost ? fmt::format("{}...({} bytes)", word.substr(0, kMost), word.size()) : word);
+        text +=
+            " " +
+            (word.size() > kMost ? fmt::format("{}...({} bytes)", word.substr(0, kMost), word.size()) : word);
     return text + "`";
 }
 

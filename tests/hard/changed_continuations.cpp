@@ -50,8 +50,8 @@ Group changed_continuations(const Ground& ground) {
             [=](int number, Dice&, const fs::path& here) -> Outcome {
                 const Change& change = changes()[number];
                 std::vector<std::string> words = {"check", (ground.run / "scene.toml").string()};
-                for (const char* set : {"start.method=file", "start.file=checkpoint.grs", "start.keep_clock=true",
-                                        "run.duration=0.3 s"})
+                for (const char* set : {"start.method=file", "start.file=checkpoint.grs",
+                                        "start.keep_clock=true", "run.duration=0.3 s"})
                     words.insert(words.end(), {"--set", set});
                 for (const std::string& set : change.sets) words.insert(words.end(), {"--set", set});
                 const Ran check = attempt(words, here);
@@ -60,14 +60,16 @@ Group changed_continuations(const Ground& ground) {
                 const Ran movie = attempt(words, here);
                 for (const Ran* ran : {&check, &movie}) {
                     if (!ran->problem.empty()) return {"", ran->problem};
-                    if (change.key.empty() && ran->status != 0) return {"", "is refused: " + first_line(ran->err)};
+                    if (change.key.empty() && ran->status != 0)
+                        return {"", "is refused: " + first_line(ran->err)};
                     if (change.key.empty()) continue;
                     if (ran->status != 2) return {"", fmt::format("false success with {}", change.sets[0])};
                     if (ran->err.find("'" + change.key + "'") == std::string::npos &&
                         ran->err.find(change.key) == std::string::npos)
                         return {"", fmt::format("does not name {}: {}", change.key, first_line(ran->err))};
                 }
-                if (!change.key.empty() && fs::exists(here / "run")) return {"", "a refused run leaves a folder"};
+                if (!change.key.empty() && fs::exists(here / "run"))
+                    return {"", "a refused run leaves a folder"};
                 return {change.key.empty() ? "gone on" : "refused by key", ""};
             }};
 }

@@ -28,7 +28,9 @@ std::uint64_t bits_of(double value) {
 
 std::string damaged(std::string bytes, Dice& dice) {
     const std::size_t size = bytes.size();
-    const auto word_at = [&](std::size_t bytes_of_word) { return dice.below(size / bytes_of_word) * bytes_of_word; };
+    const auto word_at = [&](std::size_t bytes_of_word) {
+        return dice.below(size / bytes_of_word) * bytes_of_word;
+    };
     switch (dice.below(8)) {
         case 0:
         case 1:

@@ -39,8 +39,8 @@ std::string status_in(const fs::path& run) {
     return record.is_object() && record.contains("status") ? record["status"].get<std::string>() : "no JSON";
 }
 
-// With the folder of a run that cannot have reached its end, and may not even be there; empty: nothing. Needs a
-// folder to draw in.
+// With the folder of a run that cannot have reached its end, and may not even be there; empty: nothing. Needs
+// a folder to draw in.
 std::string what_is_wrong_with(const fs::path& run, const fs::path& here) {
     constexpr std::uintmax_t kBegun = 50'000;  // bytes of film that surely hold a picture
     const std::string status = status_in(run);
@@ -57,8 +57,8 @@ std::string what_is_wrong_with(const fs::path& run, const fs::path& here) {
     }
     for (const char* file : {"checkpoint.grs", "final.csv"}) {
         if (!fs::exists(run / file)) continue;
-        const Ran check = attempt({"check", (run / "scene.toml").string(), "--set", "start.method=file", "--set",
-                                   std::string("start.file=") + file},
+        const Ran check = attempt({"check", (run / "scene.toml").string(), "--set", "start.method=file",
+                                   "--set", std::string("start.file=") + file},
                                   here);
         if (!check.problem.empty()) return check.problem;
         // Of a table nobody knows where its walls were.
@@ -77,7 +77,8 @@ Group killed_runs(const Ground&) {
                 test::Program program(long_run(here, "run"), limits(here));
                 const std::size_t frames = dice.below(60);
                 if (dice.one_in(2) || signal != SIGKILL)
-                    wait_until(program, [&] { return size_of(here / "run/trajectory.nc") > 4000 + 3000 * frames; });
+                    wait_until(program,
+                               [&] { return size_of(here / "run/trajectory.nc") > 4000 + 3000 * frames; });
                 else
                     wait_until(program, [&] { return fs::exists(here / "run/scene.toml"); });
                 std::this_thread::sleep_for(std::chrono::milliseconds(dice.below(300)));
@@ -93,30 +94,31 @@ Group killed_runs(const Ground&) {
 
 // On a file system of its own where the machine lets us make one; else no file may grow beyond a limit.
 Group full_disks(const Ground& ground) {
-    return {"full disks", 10, [=](int number, Dice& dice, const fs::path& here) -> Outcome {
-                const std::size_t room = (number + 1) * 20'000 + dice.below(20'000);
-                const bool mounted = !ground.full.empty() && number % 2 == 0;
-                const fs::path disk = mounted ? ground.full / std::to_string(number) : here;
-                if (mounted) {
-                    fs::create_directories(disk);
-                    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, fmt::format("size={}", room * 2).c_str()) != 0)
-                        return {"", "no tmpfs"};
+    return {
+        "full disks", 10, [=](int number, Dice& dice, const fs::path& here) -> Outcome {
+            const std::size_t room = (number + 1) * 20'000 + dice.below(20'000);
+            const bool mounted = !ground.full.empty() && number % 2 == 0;
+            const fs::path disk = mounted ? ground.full / std::to_string(number) : here;
+            if (mounted) {
+                fs::create_directories(disk);
+                if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, fmt::format("size={}", room * 2).c_str()) != 0)
+                    return {"", "no tmpfs"};
+            }
+            const std::string run = (disk / "run").string();
+            const Ran ran = attempt(long_run(here, run), here, mounted ? 0 : room);
+            std::string problem = ran.problem;
+            if (problem.empty() && ran.status == 0) problem = "false success: an hour on a full disk";
+            if (problem.empty()) problem = what_is_wrong_with(run, here);
+            if (problem.empty() && status_in(run) == "running") problem = "run.json says that it still runs";
+            if (mounted) {
+                if (!problem.empty()) {
+                    std::error_code ignored;
+                    fs::copy(disk, here / "disk", fs::copy_options::recursive, ignored);
                 }
-                const std::string run = (disk / "run").string();
-                const Ran ran = attempt(long_run(here, run), here, mounted ? 0 : room);
-                std::string problem = ran.problem;
-                if (problem.empty() && ran.status == 0) problem = "false success: an hour on a full disk";
-                if (problem.empty()) problem = what_is_wrong_with(run, here);
-                if (problem.empty() && status_in(run) == "running") problem = "run.json says that it still runs";
-                if (mounted) {
-                    if (!problem.empty()) {
-                        std::error_code ignored;
-                        fs::copy(disk, here / "disk", fs::copy_options::recursive, ignored);
-                    }
-                    ::umount(disk.c_str());
-                }
-                return {ran.status == 2 ? "refused" : "failed in good order", problem};
-            }};
+                ::umount(disk.c_str());
+            }
+            return {ran.status == 2 ? "refused" : "failed in good order", problem};
+        }};
 }
 
 }  // namespace grainreel::hard

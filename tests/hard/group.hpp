@@ -1,5 +1,6 @@
-// The hard day in small: groups of cases in which something is wrong with what the program gets. It may refuse, or
-// go on and be right; it may not crash, hang, eat all memory, or say that all is well when it is not.
+// The hard day in small: groups of cases in which something is wrong with what the program gets. It may
+// refuse, or go on and be right; it may not crash, hang, eat all memory, or say that all is well when it is
+// not.
 #pragma once
 
 #include <filesystem>
@@ -50,7 +51,8 @@ struct Ground {
 // Throws std::runtime_error when the program cannot do even that.
 Ground lay_ground(const std::filesystem::path& folder);
 
-// The program's end within 10 s of processor time and 6 GB. `problem`: what no run may do, whatever it is given.
+// The program's end within 10 s of processor time and 6 GB. `problem`: what no run may do, whatever it is
+// given.
 struct Ran {
     int status = 0;
     std::string out, err, problem;

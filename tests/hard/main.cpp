@@ -34,7 +34,8 @@ fs::path kept_folder() {
 
 class Run {
   public:
-    Run(const Group& group, const Wanted& wanted, const fs::path& base) : group_(group), wanted_(wanted), base_(base) {}
+    Run(const Group& group, const Wanted& wanted, const fs::path& base)
+        : group_(group), wanted_(wanted), base_(base) {}
 
     // Whether all went well.
     bool all() {
@@ -81,8 +82,8 @@ class Run {
             fs::remove_all(kept, ignored);
             fs::create_directories(kept.parent_path(), ignored);
             fs::copy(here, kept, fs::copy_options::recursive, ignored);
-            fmt::print("{} {}: {}\n    kept in {}; again: ./test --hard \"{}\" {} --seed {}\n", group_.name, number,
-                       outcome.problem, kept.string(), group_.name, number, wanted_.seed);
+            fmt::print("{} {}: {}\n    kept in {}; again: ./test --hard \"{}\" {} --seed {}\n", group_.name,
+                       number, outcome.problem, kept.string(), group_.name, number, wanted_.seed);
             std::fflush(stdout);
         }
         std::error_code ignored;
@@ -122,8 +123,8 @@ int day(const Wanted& wanted) {
     Ground ground = lay_ground(folder.path());
     if (mounts) ground.full = folder / "full";
     bool well = true, any = false;
-    for (const Group& group : {damaged_trajectories(ground), mutated_scenes(ground), changed_continuations(ground),
-                               killed_runs(ground), full_disks(ground)}) {
+    for (const Group& group : {damaged_trajectories(ground), mutated_scenes(ground),
+                               changed_continuations(ground), killed_runs(ground), full_disks(ground)}) {
         if (!wanted.group.empty() && wanted.group != group.name) continue;
         any = true;
         well = Run(group, wanted, folder.path()).all() && well;

@@ -17,15 +17,47 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> kAbsurd = {
-    "0", "-1", "1", "2", "1e-320", "1e-30", "1e16", "1e308", "-1e308", "inf", "nan", "9223372036854775807",
-    "-9223372036854775808", "1e8", "1000000", "0.5", "true", "\"\"", "\"none\"", "\"1e9 s\"", "\"1e-9 s\"",
-    "\"3 furlongs\"", "\"1e16 m\"", "[]", "[0, 0, 0]", "[1e300, 0, nan]", "[-1, 0, 1]", "[[1, 1]]", "{}",
-    "{ min = 1, max = 0 }", "\"\\u0000\"", "\"/dev/zero\"", "\"/\"", "\"{time\"", "07:32:00", "1979-05-27"};
+const std::vector<std::string> kAbsurd = {"0",
+                                          "-1",
+                                          "1",
+                                          "2",
+                                          "1e-320",
+                                          "1e-30",
+                                          "1e16",
+                                          "1e308",
+                                          "-1e308",
+                                          "inf",
+                                          "nan",
+                                          "9223372036854775807",
+                                          "-9223372036854775808",
+                                          "1e8",
+                                          "1000000",
+                                          "0.5",
+                                          "true",
+                                          "\"\"",
+                                          "\"none\"",
+                                          "\"1e9 s\"",
+                                          "\"1e-9 s\"",
+                                          "\"3 furlongs\"",
+                                          "\"1e16 m\"",
+                                          "[]",
+                                          "[0, 0, 0]",
+                                          "[1e300, 0, nan]",
+                                          "[-1, 0, 1]",
+                                          "[[1, 1]]",
+                                          "{}",
+                                          "{ min = 1, max = 0 }",
+                                          "\"\\u0000\"",
+                                          "\"/dev/zero\"",
+                                          "\"/\"",
+                                          "\"{time\"",
+                                          "07:32:00",
+                                          "1979-05-27"};
 
-const std::vector<std::string> kNumbers = {"0",    "1",    "-1",   "0.5",   "2",      "3",     "10",   "100",
-                                           "1e3",  "1e6",  "1e8",  "1e16",  "1e30",   "1e308", "1e-3", "1e-6",
-                                           "1e-9", "1e-30", "1e-320", "-1e9", "12345.678", "64", "4096", "0.999999"};
+const std::vector<std::string> kNumbers = {"0",      "1",     "-1",        "0.5",  "2",    "3",
+                                           "10",     "100",   "1e3",       "1e6",  "1e8",  "1e16",
+                                           "1e30",   "1e308", "1e-3",      "1e-6", "1e-9", "1e-30",
+                                           "1e-320", "-1e9",  "12345.678", "64",   "4096", "0.999999"};
 
 std::string absurd(Dice& dice) {
     if (dice.one_in(40)) return "\"" + std::string(100'000, 'x') + "\"";
@@ -90,7 +122,8 @@ void change_lines(std::vector<std::string>& lines, Dice& dice) {
             lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(at));
             break;
         case 1:
-            lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(dice.below(lines.size())), std::string(line));
+            lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(dice.below(lines.size())),
+                         std::string(line));
             break;
         case 2:
             if (!line.empty()) line[dice.below(line.size())] = static_cast<char>(dice.word());
