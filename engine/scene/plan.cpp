@@ -79,10 +79,11 @@ void plan_output(const Scene& scene, Plan& plan) {
 // Here and not in the reader: a finished run is drawn again though its start file may be gone.
 void check_start_file(const Scene& scene) {
     std::error_code ignored;
-    if (scene.start.method != Start::Method::file || std::filesystem::exists(scene.start.file, ignored))
-        return;
-    throw UserError(fmt::format("{}: 'file' names {}, which does not exist; give a checkpoint or final.csv",
-                                scene.where("start.file"), scene.start.file));
+    const std::string& file = scene.start.file;
+    if (scene.start.method != Start::Method::file || std::filesystem::is_regular_file(file, ignored)) return;
+    const bool exists = std::filesystem::exists(file, ignored);
+    throw UserError(fmt::format("{}: 'file' names {}, which {}; give a checkpoint or final.csv",
+                                scene.where("start.file"), file, exists ? "is no file" : "does not exist"));
 }
 
 bool any_contact(const Plan& plan, bool (*is)(const PairPlan&)) {

@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kSameSize = 1e-6;  // relative: a diameter written by hand is not exact to the last bit
 constexpr double kTooDeep = 1.0 / 3;
+// A table does not say where the walls were.
+constexpr const char* kOtherContainer =
+    "give the container of the run the file comes from, and the checkpoint of a run that did not end with a "
+    "period";
 
 [[noreturn]] void fail(const Scene& scene, const std::string& what) {
     if (scene.start.method == Start::Method::grains)
@@ -125,10 +129,9 @@ void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const 
             if (scene.start.method == Start::Method::grains)
                 throw UserError(fmt::format("{}: the grain lies beyond the {}; move one of the two",
                                             scene.where(fmt::format("grain[{}]", grains.id[i])), face.name));
-            throw UserError(
-                fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; give the "
-                            "container of the run the file comes from",
-                            scene.where("start.file"), grains.id[i], scene.start.file, face.name));
+            throw UserError(fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; {}",
+                                        scene.where("start.file"), grains.id[i], scene.start.file, face.name,
+                                        kOtherContainer));
         }
     }
 }
@@ -142,8 +145,7 @@ void check_grains_clear(const Scene& scene, const std::vector<Face>& faces, cons
         if (c.second < 0)
             fail(scene, fmt::format("has grain {} overlapping the {} by {:.2f} of its radius; {}",
                                     grains.id[c.first], faces[-1 - c.second].name, share,
-                                    listed ? "move one of the two"
-                                           : "give the container of the run the file comes from"));
+                                    listed ? "move one of the two" : kOtherContainer));
         fail(scene, fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; {}",
                                 std::min(grains.id[c.first], grains.id[c.second]),
                                 std::max(grains.id[c.first], grains.id[c.second]), share,

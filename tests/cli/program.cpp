@@ -27,6 +27,11 @@ int exit_status(int status) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+void limit(int resource, rlim_t most) {
+    const rlimit both{most, most};
+    if (most > 0) ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
+}
+
 // In the child, between fork and exec.
 void become_program(const std::vector<std::string>& words, const Program::Setting& setting, const char* out,
                     const char* err) {
@@ -34,10 +39,9 @@ void become_program(const std::vector<std::string>& words, const Program::Settin
     ::dup2(::open(err, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     if (::chdir(setting.folder.c_str()) != 0) ::_exit(127);
     for (const std::string& variable : setting.environment) ::putenv(const_cast<char*>(variable.c_str()));
-    if (setting.file_size_limit > 0) {
-        const rlimit limit{setting.file_size_limit, setting.file_size_limit};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
+    limit(RLIMIT_FSIZE, setting.file_size_limit);
+    limit(RLIMIT_AS, setting.memory_limit);
+    limit(RLIMIT_CPU, static_cast<rlim_t>(setting.seconds_limit));
     std::vector<char*> arguments{const_cast<char*>(GRAINREEL_BINARY)};
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -63,7 +67,7 @@ Program::~Program() {
 }
 
 void Program::send(int signal) const {
-    ::kill(process_, signal);
+    if (process_ > 0) ::kill(process_, signal);  // -1, when it has ended, would be every process there is
 }
 
 bool Program::running() {

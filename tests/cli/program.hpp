@@ -21,6 +21,8 @@ class Program {
         std::filesystem::path folder = ".";    // to run in
         std::vector<std::string> environment;  // NAME=value, beside the test's own
         std::size_t file_size_limit = 0;       // bytes, of every file it writes; 0: none
+        std::size_t memory_limit = 0;          // bytes, of its addresses; 0: none
+        int seconds_limit = 0;                 // s, of processor time, then SIGXCPU ends it; 0: none
     };
 
     // Starts the program with these words after its name.

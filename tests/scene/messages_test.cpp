@@ -201,6 +201,8 @@ INSTANTIATE_TEST_SUITE_P(
              "leave"},
         Case{"[run]\n", "[start]\nmethod = \"file\"\nfile = \"/nowhere/final.csv\"\n[run]\n",
              "28:1: 'file' names /nowhere/final.csv, which does not exist; give a checkpoint or final.csv"},
+        Case{"[run]\n", "[start]\nmethod = \"file\"\nfile = \"/dev/zero\"\n[run]\n",
+             "28:1: 'file' names /dev/zero, which is no file; give a checkpoint or final.csv"},
         Case{"[run]\n", "[[contact.pair]]\nbetween = [\"big\", \"nut\"]\n[run]\n",
              "27:1: 'between' names \"nut\", which is no species; there are small, big, and wall"}));
 
