@@ -105,6 +105,8 @@ void add_film(Keys& keys) {
         entry("film.size", KeyKind::picture_size, literal("\"1920x1080\""), "Width and height, pixels."));
     keys.push_back(
         quantity("film.rate", Dimension::number, {1, 240, false, false}, literal("30"), "Frames a second."));
+    keys.push_back(integer("film.periods", 1, 4, note("as the bed does"),
+                           "Periods of the drive that locked frames, displacements and means go by."));
     keys.push_back(entry("film.title", KeyKind::text, note("`title`"), "Shown on the frame."));
     keys.push_back(integer("film.quality", 0, 51, note("20; 18 with `max_size`"),
                            "x264's crf: 18 near-lossless, 23 small; other codecs take what looks alike."));
@@ -174,8 +176,6 @@ void add_film(Keys& keys) {
                  "Time up to the picture for which the shutter is open: what moves leaves a streak."));
     keys.push_back(integer("film.segment[].exposures", 2, 1000, literal("16"),
                            "Moments in that time; locked: whole periods apart."));
-    keys.push_back(integer("film.periods", 1, 4, note("as the bed does"),
-                           "Periods of the drive that locked frames, displacements and means go by."));
     add_shows(keys);
 }
 

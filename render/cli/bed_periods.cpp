@@ -19,9 +19,11 @@ double mean_diameter(const std::vector<Species>& species) {
 
 }  // namespace
 
-BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots)
+BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots,
+                       bool may_leave_out)
     : clock_(clock),
       wanted_(scene.film.periods),
+      may_leave_out_(may_leave_out),
       diameter_(mean_diameter(scene.species)),
       multiple_(diameter_) {
     for (const Shot& shot : shots) first_.emplace(shot.segment, shot.step);
@@ -46,7 +48,8 @@ std::vector<int> BedPeriods::possible() const {
 }
 
 bool BedPeriods::shows(const FilmSegment& rule, const Shot& shot) const {
-    if (rule.kind != FilmSegment::Kind::locked || clock_.steps_per_period == 0) return true;
+    if (!may_leave_out_ || rule.kind != FilmSegment::Kind::locked || clock_.steps_per_period == 0)
+        return true;
     const std::int64_t periods = (shot.step - first_.at(shot.segment)) / clock_.steps_per_period;
     return periods % spanning(rule, shown()).every == 0;
 }
@@ -60,6 +63,12 @@ std::string BedPeriods::news_of(std::int64_t step) const {
         "from {:.3g} s on the bed repeats itself only every {} periods of the drive (from one period to the "
         "next its centre of mass differs by {:.2g} grain diameters)",
         time, periods, multiple_.difference() / diameter_);
+    if (wanted_ == 0 && !may_leave_out_)
+        return text +
+               fmt::format(
+                   "; displacements and means go by {} periods, but locked frames jump; with every = 2 "
+                   "or 4 they may not",
+                   periods);
     if (wanted_ == 0)
         return text + fmt::format(
                           "; locked frames, displacements and means go by {} periods; film.periods = 1 "

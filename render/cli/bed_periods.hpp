@@ -15,9 +15,9 @@ namespace grainreel {
 
 class BedPeriods {
   public:
-    // shots: of the whole film; what comes from what was shown first, so that a run that is taken up shows
-    // the same.
-    BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots);
+    // shots: of the whole film; which of them are shown counts from the first of a segment, so that a run
+    // that is taken up shows the same. may_leave_out: some of them; else all are shown.
+    BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots, bool may_leave_out);
 
     // Steps between the moments that note() wants to know of; 0 for none.
     std::int64_t every() const { return clock_.steps_per_period / PeriodMultiple::kPhases; }
@@ -40,6 +40,7 @@ class BedPeriods {
 
     const Clock clock_;
     const int wanted_;
+    const bool may_leave_out_;
     const double diameter_;  // m, mean
     PeriodMultiple multiple_;
     std::map<int, std::int64_t> first_;  // step at which a segment begins

@@ -32,6 +32,7 @@ class ComparePanel {
     virtual void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) = 0;
     virtual FramePtr next(const SceneRun::GoOn& go_on) = 0;  // of the next instant
     virtual bool finish(const SceneRun::GoOn& go_on) = 0;    // what remains of the run after the last
+    virtual std::vector<std::string> news() const = 0;       // what was found while it ran, a line each
     // After all that, whatever happened: the end state; then the record of its run. status: of the whole;
     // where another panel has failed, this one was interrupted. close() may be called twice.
     virtual void keep_state() = 0;
@@ -60,6 +61,7 @@ class LivePanel final : public ComparePanel {
     void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;
     FramePtr next(const SceneRun::GoOn& go_on) override;
     bool finish(const SceneRun::GoOn& go_on) override;
+    std::vector<std::string> news() const override { return run_.news(); }
     void keep_state() override { run_.close(failed_); }
     void close(RunStatus status, int exit_status, FirstFailure& failure) override;
 
@@ -88,6 +90,7 @@ class RecordedPanel final : public ComparePanel {
     void start(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments) override;
     FramePtr next(const SceneRun::GoOn& go_on) override;
     bool finish(const SceneRun::GoOn&) override { return true; }
+    std::vector<std::string> news() const override { return {}; }
     void keep_state() override {}
     void close(RunStatus, int, FirstFailure&) override {}
 

@@ -119,6 +119,9 @@ std::string CompareRun::stopped_text() const {
 }
 
 void CompareRun::report_written() {
+    for (const auto& source : all_.sources)
+        for (const std::string& line : source->news())
+            reporter_.warning(fmt::format("{}: {}", source->place(), line));
     std::vector<std::string> folders;
     for (const auto& source : all_.sources)
         if (dynamic_cast<const LivePanel*>(source.get()) != nullptr) folders.push_back(source->place() + "/");

@@ -46,9 +46,8 @@ std::optional<std::string> SceneRun::packing_warning() const {
 }
 
 void SceneRun::start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments, bool may_leave_out) {
-    bed_periods_.emplace(scene_, plan_.clock, shots);
+    bed_periods_.emplace(scene_, plan_.clock, shots, may_leave_out);
     segments_ = segments;
-    may_leave_out_ = may_leave_out;
     const std::vector<int> multiples = bed_periods_->possible();
     files_.emplace(folder_->folder(), scene_, plan_, simulation_.grains());
     const double depth = scene_.container.periodic_depth ? scene_.container.depth : 0;
@@ -69,7 +68,7 @@ std::optional<SceneRun::Taken> SceneRun::next(const GoOn& go_on) {
     while (std::optional<Stop> stop = agenda_->next()) {
         if (!advance_to(stop->step, go_on)) return std::nullopt;
         if (stop->strobe) bed_periods_->note(stop->step, simulation_.centre_height());
-        if (may_leave_out_) leave_out_pictures(*stop);
+        leave_out_pictures(*stop);
         FramePtr frame = serve(*stop);
         if (!stop->segments.empty()) return Taken{std::move(frame), stop->segments, bed_periods_->shown()};
     }

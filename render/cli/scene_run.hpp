@@ -93,7 +93,6 @@ class SceneRun {
     std::optional<Agenda> agenda_;
     std::optional<BedPeriods> bed_periods_;
     std::vector<FilmSegment> segments_;  // of the film
-    bool may_leave_out_ = true;
     EarlierPositions earlier_;
     ExposedMoments exposed_;
     PeriodMeans means_;

@@ -1,6 +1,7 @@
 // Films of a bed that lands in every second period of the drive.
 #include "render/cli/bed_periods.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ void run(BedPeriods& bed, int periods) {
 TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
     // The segment begins in period 3: what comes counts from there.
     const std::vector<Shot> all{{250, 0}, {330, 0}, {410, 0}, {490, 0}, {570, 0}};
-    BedPeriods bed(scene_with(0), kClock, all);
+    BedPeriods bed(scene_with(0), kClock, all, true);
     EXPECT_THAT(bed.possible(), testing::ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(shown(bed, locked(1), all), testing::ElementsAre(250, 330, 410, 490, 570));
     run(bed, 20);
@@ -63,14 +64,24 @@ TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
     EXPECT_THAT(bed.news()[0], HasSubstr("film.periods = 1"));
     // One frame every second period is in step with the bed already.
     const std::vector<Shot> second{{330, 0}, {490, 0}, {650, 0}};
-    BedPeriods bed_of_two(scene_with(0), kClock, second);
+    BedPeriods bed_of_two(scene_with(0), kClock, second, true);
     run(bed_of_two, 20);
     EXPECT_THAT(shown(bed_of_two, locked(2), second), testing::ElementsAre(330, 490, 650));
 }
 
+// Films side by side, whose other panels may repeat themselves otherwise.
+TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
+    const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
+    BedPeriods bed(scene_with(0), kClock, all, false);
+    run(bed, 20);
+    EXPECT_EQ(bed.shown(), 2);
+    EXPECT_THAT(shown(bed, locked(1), all), testing::SizeIs(3));
+    EXPECT_THAT(bed.news().at(0), HasSubstr("locked frames jump"));
+}
+
 TEST(BedPeriods, AreThoseOfTheSceneWhereItSaysSo) {
     const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}, {240, 0}, {320, 0}};
-    BedPeriods one(scene_with(1), kClock, all), three(scene_with(3), kClock, all);
+    BedPeriods one(scene_with(1), kClock, all, true), three(scene_with(3), kClock, all, true);
     run(one, 20), run(three, 20);
     EXPECT_THAT(shown(one, locked(1), all), testing::SizeIs(5));
     EXPECT_THAT(one.possible(), testing::ElementsAre(1));
