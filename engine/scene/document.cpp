@@ -7,20 +7,35 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/scene/key_path.hpp"
 
 namespace grainreel {
 namespace {
 
+constexpr std::size_t most_of_parser = 200;  // characters of the parser's own message
+
+// toml++ says of such a byte only that it is unknown.
+void check_utf8(std::string_view text, const std::string& file) {
+    const std::optional<std::size_t> bad = first_byte_not_utf8(text);
+    if (!bad) return;
+    const std::string_view before = text.substr(0, *bad);
+    const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
+    throw UserError(fmt::format("{}:{}:{}: the byte 0x{:02x} is not UTF-8; save the file as UTF-8", file,
+                                std::count(before.begin(), before.end(), '\n') + 1, *bad - start + 1,
+                                static_cast<unsigned char>(text[*bad])));
+}
+
 toml::table parse(std::string_view text, const std::string& file) {
+    check_utf8(text, file);
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {
         std::string what(error.description());
         std::replace(what.begin(), what.end(), '\n', ' ');
-        throw UserError(
-            fmt::format("{}:{}:{}: this is not TOML ({}); text and quantities with units want quotes", file,
-                        error.source().begin.line, error.source().begin.column, what));
+        throw UserError(fmt::format(
+            "{}:{}:{}: this is not TOML ({}); text and quantities with units want quotes", file,
+            error.source().begin.line, error.source().begin.column, excerpt(what, most_of_parser)));
     }
 }
 
@@ -62,7 +77,7 @@ bool Document::from_command_line(const std::string& path) const {
 }
 
 void Document::fail(const std::string& path, const std::string& what) const {
-    throw UserError(fmt::format("{}: '{}' {}", place(path), name_of(path), what));
+    throw UserError(fmt::format("{}: '{}' {}", place(path), excerpt(name_of(path)), what));
 }
 
 void Document::fail_missing(const std::string& path) const {
@@ -114,12 +129,12 @@ std::string Document::written_value(const std::string& path) const {
 }
 
 std::string Document::written_value(const toml::node& node) const {
+    if (const auto text = node.value_exact<std::string>()) return "\"" + excerpt(*text) + "\"";
     std::ostringstream text;
     text << toml::node_view<const toml::node>(node);
     std::string value = text.str();
     std::replace(value.begin(), value.end(), '\n', ' ');
-    if (value.size() >= 2 && value.front() == '\'') value.front() = value.back() = '"';
-    return value;
+    return excerpt(value);
 }
 
 // Whoever writes 90 means degrees: a phase without a unit is in turns, where whole ones say nothing.
@@ -196,7 +211,8 @@ std::optional<std::string> Document::text(const std::string& path) {
                                key.example()));
     const auto& known = key.choices;
     if (key.kind == KeyKind::choice && std::find(known.begin(), known.end(), *value) == known.end())
-        fail(path, fmt::format("must be \"{}\", but is \"{}\"", fmt::join(known, "\" or \""), *value));
+        fail(path,
+             fmt::format("must be \"{}\", but is {}", fmt::join(known, "\" or \""), written_value(*node)));
     return value;
 }
 

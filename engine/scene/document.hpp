@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/assignment.hpp"
 #include "engine/scene/keys.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -22,12 +23,13 @@ namespace grainreel {
 
 class Document {
   public:
-    // `file` is the name used in messages. Throws UserError when the text is not TOML.
+    // `file` is the name used in messages. Throws UserError when the text is not UTF-8 or not TOML.
     Document(std::string_view text, std::string file);
 
-    // One assignment of the command line, "drive.frequency=30 Hz". A key that excludes others (g_level and
-    // amplitude) removes them. Throws UserError when the place does not exist.
-    void set(const std::string& assignment);
+    // One assignment of the command line. A key that excludes others (g_level and amplitude), or that others
+    // belong to (the colour's map to what it stands for), removes them; [] and {} remove a list of tables and
+    // a table. Throws UserError when the place does not exist or the text is not UTF-8.
+    void set(const Assignment& assignment);
 
     // Throws at the first key that is not in the list, or is a table and should not be, or the other way
     // round.
@@ -40,7 +42,7 @@ class Document {
     bool is_table(const std::string& path) const;     // an inline table as a value
     bool is_array(const std::string& path) const;
     bool is_text(const std::string& path) const;
-    std::string written_value(const std::string& path) const;  // of a key that is there, as TOML
+    std::string written_value(const std::string& path) const;  // of a key that is there, as TOML, cut short
 
     // The value of a key, in its dimension's unit; none when absent. Throw UserError when it is not of the
     // key's kind or outside its range.
@@ -82,10 +84,11 @@ class Document {
     void check_table(const std::string& path, const toml::table& table) const;
     void check_entry(const std::string& path, const toml::node& node) const;
     void check_read(const std::string& path, const toml::node& node) const;
-    toml::node* step_into(toml::node& node, const std::string& part, const std::string& assignment);
-    std::pair<toml::table*, std::string> table_for(const std::vector<std::string>& parts,
-                                                   const std::string& assignment, const Location& by);
+    toml::node* step_into(toml::node& node, const std::string& part, const std::string& by);
+    std::pair<toml::table*, std::string> table_for(const std::vector<std::string>& parts, const Location& by);
     void remove(toml::table& table, const std::string& table_path, std::string_view key);
+    void take_back(toml::table& table, const std::string& table_path, const std::string& key,
+                   const toml::node& value);
 
     std::string file_;
     toml::table root_;

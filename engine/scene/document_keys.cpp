@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <sstream>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/scene/document.hpp"
 #include "engine/scene/key_path.hpp"
 
@@ -25,6 +27,17 @@ constexpr std::array<std::array<std::string_view, 2>, 9> rivals{{
     {"file", "settle_damping"},
 }};
 
+// What a key gives meaning to: setting it to something else takes these back, beside it in its table, unless
+// the command line has said them as well.
+struct Dependents {
+    std::string_view key;
+    std::array<std::string_view, 4> others;
+};
+constexpr std::array<Dependents, 2> dependents{{
+    {"film.colour.by", {"map", "unit", "range", "layers"}},
+    {"film.segment[].kind", {"playback", "every", "phase"}},
+}};
+
 // "species[1].count" or "species.big.count" -> species, 1 or big, count
 std::vector<std::string> parts_of(const std::string& path) {
     std::vector<std::string> parts;
@@ -40,12 +53,17 @@ std::vector<std::string> parts_of(const std::string& path) {
     return parts;
 }
 
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t");
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+// ".5", "5." and "+.5" are numbers to everybody but TOML.
+std::optional<double> plain_number(std::string_view text) {
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    if (text.empty() || read.ec != std::errc() || read.ptr != end) return std::nullopt;
+    return value;
 }
 
-// `text` as TOML where it is TOML and the key does not want text; otherwise as a string.
+// `text` as TOML where it is TOML and the key does not want text; otherwise as a number or a string.
 toml::table parsed_value(const std::string& text, const Key* key) {
     const bool quoted = !text.empty() && (text.front() == '"' || text.front() == '\'');
     const bool wants_text = key != nullptr && (key->kind == KeyKind::text || key->kind == KeyKind::choice);
@@ -57,12 +75,15 @@ toml::table parsed_value(const std::string& text, const Key* key) {
         } catch (const toml::parse_error&) {
         }
     }
+    const bool wants_number = !quoted && !wants_text && !plain_size;
+    if (const auto number = wants_number ? plain_number(text) : std::nullopt)
+        return toml::table{{"value", *number}};
     return toml::table{{"value", text}};
 }
 
 }  // namespace
 
-toml::node* Document::step_into(toml::node& node, const std::string& part, const std::string& assignment) {
+toml::node* Document::step_into(toml::node& node, const std::string& part, const std::string& by) {
     if (toml::table* table = node.as_table()) {
         if (!table->contains(part)) table->insert(part, toml::table{});
         return table->get(part);
@@ -74,17 +95,17 @@ toml::node* Document::step_into(toml::node& node, const std::string& part, const
     for (toml::node& element : *array)
         if (element.is_table() && element.as_table()->at_path("name").value<std::string>() == part)
             return &element;
-    throw UserError(fmt::format("--set {}: there is no '{}' among the {} entries; they count from 0",
-                                assignment, part, array->size()));
+    throw UserError(fmt::format("{}: there is no '{}' among the {} entries; they count from 0", by,
+                                excerpt(part), array->size()));
 }
 
 // The table that the last of `parts` lies in, made where it is missing, and its path with indices.
 std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::string>& parts,
-                                                         const std::string& assignment, const Location& by) {
+                                                         const Location& by) {
     toml::node* node = &root_;
     std::string path;
     for (std::size_t i = 0; i + 1 < parts.size() && node != nullptr; ++i) {
-        toml::node* inner = step_into(*node, parts[i], assignment);
+        toml::node* inner = step_into(*node, parts[i], by.file);
         if (const toml::array* array = node->as_array()) {
             std::size_t index = 0;
             while (array->get(index) != inner) ++index;
@@ -97,7 +118,7 @@ std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::
     }
     if (node == nullptr || !node->is_table())
         throw UserError(
-            fmt::format("--set {}: '{}' is not a table; name one of its own keys", assignment, path));
+            fmt::format("{}: '{}' is not a table; name one of its own keys", by.file, excerpt(path)));
     return {node->as_table(), path};
 }
 
@@ -111,27 +132,45 @@ void Document::remove(toml::table& table, const std::string& table_path, std::st
     std::erase_if(written_, [&](const auto& entry) { return below(entry.first); });
 }
 
-void Document::set(const std::string& assignment) {
-    const auto equals = assignment.find('=');
-    const std::string name = trimmed(assignment.substr(0, equals));
-    const std::vector<std::string> parts = parts_of(name);
-    if (equals == std::string::npos || parts.empty())
-        throw UserError(
-            fmt::format("--set {}: no assignment; write --set drive.frequency=\"30 Hz\"", assignment));
+// Takes out of the table what belonged to the value that `key` has had.
+void Document::take_back(toml::table& table, const std::string& table_path, const std::string& key,
+                         const toml::node& value) {
+    const Key* known = find_key(join_path(table_path, key));
+    const auto old = table[key].value<std::string>(), now = value.value<std::string>();
+    if (known == nullptr || (old && old == now)) return;
+    for (const auto& [of, others] : dependents) {
+        if (of != known->path) continue;
+        for (const std::string_view other : others)
+            if (!from_command_line(join_path(table_path, other))) remove(table, table_path, other);
+    }
+}
 
-    const Location by{"--set " + name, 0, 0};
-    const auto [table, table_path] = table_for(parts, assignment, by);
+void Document::set(const Assignment& assignment) {
+    const std::string place = assignment.place();
+    if (const std::string wrong = complaint_of_utf8(assignment.text); !wrong.empty())
+        throw UserError(fmt::format("{}: {}; type it in a UTF-8 terminal", place, wrong));
+    const std::vector<std::string> parts = parts_of(assignment.key());
+    if (assignment.text.find('=') == std::string::npos || parts.empty())
+        throw UserError(fmt::format("{}: no assignment; write --set drive.frequency=\"30 Hz\"", place));
+
+    const Location by{place, 0, 0};
+    const auto [table, table_path] = table_for(parts, by);
     const std::string& key = parts.back();
+    const std::string path = join_path(table_path, key);
+    toml::table parsed = parsed_value(assignment.value(), find_key(path));
+    const toml::node& value = *parsed.get("value");
     for (const auto& [one, other] : rivals) {
         if (key == one) remove(*table, table_path, other);
         if (key == other) remove(*table, table_path, one);
     }
+    take_back(*table, table_path, key, value);
     remove(*table, table_path, key);
-    const std::string path = join_path(table_path, key);
-    toml::table parsed = parsed_value(trimmed(assignment.substr(equals + 1)), find_key(path));
-    toml::table& target = *table;
-    parsed.get("value")->visit([&](const auto& value) { target.insert_or_assign(key, value); });
     written_[path] = by;
+    const bool empty_list = is_table_array_path(path) && value.is_array() && value.as_array()->empty();
+    const bool empty_table = value.is_table() && value.as_table()->empty();
+    if (empty_list || empty_table) return;
+    toml::table& target = *table;
+    value.visit([&](const auto& found) { target.insert_or_assign(key, found); });
 }
 
 void Document::check_keys() const {
@@ -159,8 +198,9 @@ void Document::check_entry(const std::string& path, const toml::node& node) cons
         return check_table(path, *node.as_table());
     }
     const std::string table = table_of(path);
-    throw UserError(fmt::format("{}: unknown key '{}' {} {}; {}", place(path), name_of(path),
-                                table.front() == '[' ? "in" : "at", table, advice_for_unknown_key(path)));
+    throw UserError(fmt::format("{}: unknown key '{}' {} {}; {}", place(path), excerpt(name_of(path)),
+                                table.front() == '[' ? "in" : "at", excerpt(table),
+                                advice_for_unknown_key(path)));
 }
 
 void Document::check_all_read() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/scene/grain_values.hpp"
 
 namespace grainreel {
@@ -17,8 +18,8 @@ LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& 
     const std::string name = inside.substr(0, colon);
     const MeasureColumn* column = find_column(columns, name);
     if (column == nullptr)
-        throw UserError(fmt::format("has {{{}}}, which is no column of measures.csv; there are {}", name,
-                                    column_names(columns)));
+        throw UserError(fmt::format("has {{{}}}, which is no column of measures.csv; there are {}",
+                                    excerpt(name), column_names(columns)));
     LiveWords value;
     value.column = column->name;
     if (column->dimension == Dimension::number) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/base/utf8.hpp"
 #include "engine/scene/reader_parts.hpp"
 #include "engine/scene/words.hpp"
 
@@ -171,8 +172,9 @@ std::size_t partner(const Document& document, const Scene& scene, const std::str
     for (std::size_t i = 0; i < scene.species.size(); ++i)
         if (scene.species[i].name == name) return i;
     std::string known;
-    for (const Species& s : scene.species) known += s.name + ", ";
-    document.fail(path, fmt::format("names \"{}\", which is no species; there are {}and wall", name, known));
+    for (const Species& s : scene.species) known += excerpt(s.name) + ", ";
+    document.fail(
+        path, fmt::format("names \"{}\", which is no species; there are {}and wall", excerpt(name), known));
 }
 
 struct ContactText {

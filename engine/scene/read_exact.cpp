@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/base/utf8.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/reader_parts.hpp"
 
@@ -22,7 +23,8 @@ std::size_t species_of(Document& document, const Scene& scene, const std::string
     if (!name) return 0;
     for (std::size_t s = 0; s < scene.species.size(); ++s)
         if (scene.species[s].name == *name) return s;
-    document.fail(path, fmt::format("names \"{}\", which is no species; name one of [[species]]", *name));
+    document.fail(path,
+                  fmt::format("names \"{}\", which is no species; name one of [[species]]", excerpt(*name)));
 }
 
 ListedGrain read_grain(Document& document, const Scene& scene, const std::string& table) {
@@ -73,7 +75,7 @@ void read_exact(Document& document, Scene& scene) {
         if (scene.species[s].count == 0)
             document.fail(fmt::format("species[{}].name", s),
                           fmt::format("\"{}\" has no grain among those listed; add one or remove the species",
-                                      scene.species[s].name));
+                                      excerpt(scene.species[s].name)));
 }
 
 // Empty space has the size of what happens in it.

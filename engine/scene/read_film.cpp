@@ -151,8 +151,8 @@ void read_film(Document& document, Scene& scene) {
         if (!colour)
             document.fail(
                 "film.background",
-                fmt::format("must be a colour, but is \"{}\"; write for example \"white\" or \"#ffffff\"",
-                            *text));
+                fmt::format("must be a colour, but is {}; write for example \"white\" or \"#ffffff\"",
+                            document.written_value("film.background")));
         film.background = *colour;
     }
     read_camera(document, film);

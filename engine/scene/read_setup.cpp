@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/scene/colours.hpp"
 #include "engine/scene/reader_parts.hpp"
 
@@ -63,8 +64,8 @@ Species read_one_species(Document& document, const std::string& path) {
         if (!colour)
             document.fail(
                 path + ".colour",
-                fmt::format("must be a colour, but is \"{}\"; write for example \"orange\" or \"#e69f00\"",
-                            *text));
+                fmt::format("must be a colour, but is {}; write for example \"orange\" or \"#e69f00\"",
+                            document.written_value(path + ".colour")));
         species.colour = *colour;
     }
     return species;
@@ -134,9 +135,9 @@ void read_container(Document& document, Scene& scene) {
     container.height = document.required_quantity("container.height");
     container.lid = chosen<bool>(document, "container.top", {{"lid", true}, {"open", false}}, true);
     if (const auto outlet = document.text("container.outlet"); outlet && *outlet != "closed")
-        document.fail(
-            "container.outlet",
-            fmt::format("is \"{}\", but open outlets are not modelled yet; write \"closed\"", *outlet));
+        document.fail("container.outlet",
+                      fmt::format("is {}, but open outlets are not modelled yet; write \"closed\"",
+                                  document.written_value("container.outlet")));
 }
 
 void read_drive(Document& document, Scene& scene) {
@@ -201,6 +202,8 @@ void read_start(Document& document, Scene& scene) {
     const std::filesystem::path file = document.required_text("start.file");
     const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
     start.file = std::filesystem::absolute(folder / file).lexically_normal().string();
+    if (const std::string wrong = complaint_of_utf8(start.file); !wrong.empty())
+        document.fail("start.file", fmt::format("lies at {}; rename the folder", wrong));
     start.keep_clock = document.flag("start.keep_clock").value_or(start.keep_clock);
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/scene/grain_values.hpp"
 #include "engine/scene/live_text.hpp"
 #include "engine/scene/measure_columns.hpp"
@@ -21,10 +22,10 @@ std::size_t species_at(const Document& document, const Scene& scene, const std::
     std::string known;
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         if (scene.species[i].name == name) return i;
-        known += (i > 0 ? ", \"" : "\"") + scene.species[i].name + "\"";
+        known += (i > 0 ? ", \"" : "\"") + excerpt(scene.species[i].name) + "\"";
     }
-    document.fail(path,
-                  fmt::format("names the species \"{}\", which is not there; there is {}", name, known));
+    document.fail(
+        path, fmt::format("names the species \"{}\", which is not there; there is {}", excerpt(name), known));
 }
 
 std::vector<std::size_t> species_list(Document& document, const Scene& scene, const std::string& path) {
@@ -93,8 +94,8 @@ FilmPlot read_plot(Document& document, const std::vector<MeasureColumn>& columns
     const MeasureColumn* column = find_column(columns, name);
     if (column == nullptr)
         document.fail(table + ".y",
-                      fmt::format("must be a column of measures.csv, but is \"{}\"; there are {}", name,
-                                  column_names(columns)));
+                      fmt::format("must be a column of measures.csv, but is \"{}\"; there are {}",
+                                  excerpt(name), column_names(columns)));
     FilmPlot plot;
     plot.column = column->name;
     plot.label = document.text(table + ".label").value_or(column->label);
@@ -151,16 +152,16 @@ void read_arrows(Document& document, const Scene& scene, FilmArrows& arrows) {
 void read_condition(Document& document, const Scene& scene, GrainCondition& condition) {
     const char* const path = "film.highlight_if";
     const auto text = document.text(path);
-    if (!text) return;
+    if (!text || text->empty()) return;
     const std::size_t sign = text->find_first_of("<>");
     const std::string name = text->substr(0, text->find_last_not_of(' ', sign == 0 ? 0 : sign - 1) + 1);
     const auto known = std::find_if(grain_value_words.begin() + 1, grain_value_words.end(),
                                     [&](const auto& word) { return word.first == name; });
     if (sign == std::string::npos || known == grain_value_words.end())
         document.fail(path,
-                      fmt::format("must be a quantity of film.colour.by, < or >, and a value, but is \"{}\"; "
+                      fmt::format("must be a quantity of film.colour.by, < or >, and a value, but is {}; "
                                   "write for example \"speed > 20 cm/s\"",
-                                  *text));
+                                  document.written_value(path)));
     condition = {known->second, (*text)[sign] == '>', 0, *text};
     const std::size_t at = text->find_first_not_of(' ', sign + 1);
     const std::string value = at == std::string::npos ? "" : text->substr(at);
@@ -169,7 +170,8 @@ void read_condition(Document& document, const Scene& scene, GrainCondition& cond
         const char* const end = value.data() + value.size();
         const auto read = std::from_chars(value.data(), end, condition.limit);
         if (read.ec != std::errc() || read.ptr != end)
-            document.fail(path, fmt::format("wants a plain number after its sign, but has \"{}\"", value));
+            document.fail(path,
+                          fmt::format("wants a plain number after its sign, but has \"{}\"", excerpt(value)));
         return;
     }
     try {
@@ -186,7 +188,8 @@ void read_trails(Document& document, const Scene& scene, FilmTrails& trails) {
     if (!document.is_table("film.trails")) return;
     trails.species = species_list(document, scene, "film.trails.species");
     trails.grains = ids_at(document, scene, "film.trails.grains");
-    if (!trails.wanted())
+    const bool emptied = document.has("film.trails.species") || document.has("film.trails.grains");
+    if (!trails.wanted() && !emptied)
         document.fail("film.trails", "need 'species' or 'grains'; write for example grains = [3, 14]");
     const double usual =
         scene.drive.present ? usual_trail_periods / scene.drive.frequency : 0.1 * scene.run.duration;

@@ -61,7 +61,7 @@ std::string Scene::where(const std::string& key) const {
         const auto cut = path.find_last_of(".[");
         path = cut == std::string::npos ? std::string() : path.substr(0, cut);
     }
-    return file;
+    return file.empty() ? file : file + ":1:1";
 }
 
 bool Camera::framed_by_user() const {

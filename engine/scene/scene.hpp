@@ -282,7 +282,8 @@ struct Scene {
     // reading.
     std::string file;
     std::map<std::string, Location> written;
-    // "file:line:column" of the key, of its nearest written parent, or of the file alone.
+    // "file:line:column" of the key, of its nearest written parent, or of the file's first line; the option
+    // that said it, "--size".
     std::string where(const std::string& key) const;
 
     std::int64_t grains() const;  // sum of the counts

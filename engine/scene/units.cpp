@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 
 namespace grainreel {
 namespace {
@@ -129,19 +130,22 @@ double parse_quantity(std::string_view text, Dimension dimension, const std::str
                                      example.empty() ? wanted.example : example));
     };
     const std::string_view all = trimmed(text);
+    const std::string shown = excerpt(text);
     double value = 0;
     const auto [end, failure] = std::from_chars(all.data(), all.data() + all.size(), value);
     if (failure != std::errc() || !std::isfinite(value))
-        throw fail(fmt::format("\"{}\" does not begin with a number", text));
+        throw fail(fmt::format("\"{}\" does not begin with a number", shown));
     const std::string unit_text(trimmed(all.substr(static_cast<std::size_t>(end - all.data()))));
-    if (unit_text.empty()) throw fail(fmt::format("\"{}\" has no unit", text));
-    if (dimension == Dimension::number) throw fail(fmt::format("\"{}\" has a unit", text));
+    if (dimension == Dimension::number)
+        throw fail(unit_text.empty() ? fmt::format("\"{}\" is text; leave the quotes out", shown)
+                                     : fmt::format("\"{}\" has a unit", shown));
+    if (unit_text.empty()) throw fail(fmt::format("\"{}\" has no unit", shown));
 
     const std::lock_guard guard(units_lock);
     const Unit unit = looks_like_unit(unit_text) ? unit_system().parse(unit_text) : Unit();
-    if (!unit) throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", text, unit_text));
+    if (!unit) throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", shown, excerpt(unit_text)));
     const std::optional<double> scale = UnitSystem::factor(unit, unit_system().parse(wanted.unit));
-    if (!scale) throw fail(fmt::format("\"{}\"{}", text, other_dimension(unit)));
+    if (!scale) throw fail(fmt::format("\"{}\"{}", shown, other_dimension(unit)));
     // 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off.
     const double parts = std::round(1 / *scale);
     return parts > 1 && std::abs(parts * *scale - 1) < 1e-13 ? value / parts : value * *scale;

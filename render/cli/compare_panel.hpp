@@ -76,8 +76,7 @@ class LivePanel final : public ComparePanel {
 
 class RecordedPanel final : public ComparePanel {
   public:
-    RecordedPanel(const std::filesystem::path& folder, const std::vector<std::string>& sets)
-        : run_(folder, sets) {
+    RecordedPanel(const std::filesystem::path& folder, const Assignments& sets) : run_(folder, sets) {
         run_.leave_out_damaged();
     }
     const Scene& scene() const override { return run_.scene(); }

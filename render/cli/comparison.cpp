@@ -38,7 +38,7 @@ std::vector<Scene> read_scenes(const Options& options, std::vector<std::string>&
     warnings.push_back(fmt::format("{} lasts {:.6g} s, {} {:.6g} s: all are run and shown for {:.6g} s",
                                    shortest->file, shortest->run.duration, longest->file,
                                    longest->run.duration, shortest->run.duration));
-    std::vector<std::string> sets = options.sets;
+    Assignments sets = options.sets;
     sets.push_back(fmt::format("run.duration={}", shortest->run.duration));
     for (Scene& scene : scenes) scene = read_scene(scene.file, sets);
     return scenes;

@@ -52,17 +52,7 @@ void warn_of_pace(Comparison& all) {
 
 void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all) {
     bool axes = false;
-    for (const auto& source : all.sources) {
-        axes = axes || source->scene().film.axes;
-        if (dynamic_cast<const RecordedPanel*>(source.get()) == nullptr) continue;
-        for (const FilmSegment& segment : source->scene().film.segments)
-            if (segment.average > 0 || segment.exposure > 0) {
-                all.warnings.push_back(fmt::format("{}: its frames are single moments; the film has no {}",
-                                                   source->place(),
-                                                   segment.average > 0 ? "means over periods" : "exposures"));
-                break;
-            }
-    }
+    for (const auto& source : all.sources) axes = axes || source->scene().film.axes;
     if (axes) all.warnings.emplace_back("film.axes: films side by side have no axes");
     if (!layout.plots_fit)
         all.warnings.push_back(

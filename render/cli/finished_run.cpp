@@ -43,33 +43,33 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 // The run is over: what would have made it another run must not look as if it had.
-void check_sets(const std::vector<std::string>& sets) {
-    for (const std::string& set : sets) {
-        std::string key = set.substr(0, set.find('='));
-        key.erase(std::remove(key.begin(), key.end(), ' '), key.end());
+void check_sets(const Assignments& sets) {
+    for (const Assignment& set : sets) {
+        const std::string key = set.key();
         const bool of_species = key.rfind("species", 0) == 0 && (ends_with(key, ".colour"));
         if (key.rfind("film.", 0) == 0 || of_species || key == "run.threads") continue;
         if (key == "title") throw UserError("--set title: a film drawn again has its title in film.title");
         throw UserError(
-            fmt::format("--set {}: the run is over; only keys of [film] and the colours of species "
+            fmt::format("{}: the run is over; only keys of [film] and the colours of species "
                         "can be changed, or run the scene again with `movie`",
-                        key));
+                        set.place()));
     }
 }
 
 // The scene of a run names all its values, so that defaults of a purpose would change nothing: they are set.
-std::vector<std::string> with_purpose(const std::vector<std::string>& sets) {
-    const std::string key = "film.for=";
-    std::vector<std::string> all;
-    for (const std::string& set : sets) {
-        const Purpose* purpose = set.rfind(key, 0) == 0 ? find_purpose(set.substr(key.size())) : nullptr;
-        if (purpose != nullptr) all = assignments_of(*purpose);
+Assignments with_purpose(const Assignments& sets) {
+    Assignments all;
+    for (const Assignment& set : sets) {
+        const Purpose* purpose = set.key() == "film.for" ? find_purpose(set.value()) : nullptr;
+        if (purpose == nullptr) continue;
+        all.clear();
+        for (std::string& text : assignments_of(*purpose)) all.push_back({std::move(text), set.place()});
     }
     all.insert(all.end(), sets.begin(), sets.end());
     return all;
 }
 
-Scene scene_of(const fs::path& folder, const std::vector<std::string>& sets) {
+Scene scene_of(const fs::path& folder, const Assignments& sets) {
     check_sets(sets);
     Scene scene =
         read_scene(file_in(folder, "scene.toml", "give the folder of a run of `movie`"), with_purpose(sets));
@@ -82,7 +82,7 @@ constexpr const char* without_trajectory =
 
 }  // namespace
 
-FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>& sets)
+FinishedRun::FinishedRun(const fs::path& folder, const Assignments& sets)
     : folder_(plain(folder)),
       scene_(scene_of(folder_, sets)),
       trajectory_(file_in(folder_, "trajectory.nc", without_trajectory)) {
@@ -96,6 +96,7 @@ FinishedRun::FinishedRun(const fs::path& folder, const std::vector<std::string>&
                         species.size(), scene_.species.size()));
     read_moments();
     check_grains();
+    tell_what_is_left_out();
     if (scene_.film.look.rotation && !trajectory_.info().orientation)
         throw UserError(
             fmt::format("{}: has no orientations, and the film shows rotation; run it with "
@@ -205,6 +206,19 @@ void FinishedRun::frame_what_is_reached() {
     Camera& camera = scene_.film.camera;
     if (camera.frame == CameraFrame::reach && !camera.reach && !camera.position)
         camera.reach = known_reach(trajectory_);
+}
+
+// The trajectory holds single moments alone, and of those its own.
+void FinishedRun::tell_what_is_left_out() {
+    const std::vector<FilmSegment>& segments = scene_.film.segments;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        if (segments[i].average == 0 && segments[i].exposure == 0) continue;
+        const char* const what = segments[i].average > 0 ? "average" : "exposure";
+        warnings_.push_back(
+            fmt::format("{}: '{}' is left out: frames of a finished run are single moments; run the scene "
+                        "again with `movie`",
+                        scene_.where(fmt::format("film.segment[{}].{}", i, what)), what));
+    }
 }
 
 void FinishedRun::read_contacts() {

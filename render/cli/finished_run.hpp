@@ -11,6 +11,7 @@
 #include "engine/measure/measure_table.hpp"
 #include "engine/output/contacts_file.hpp"
 #include "engine/output/trajectory.hpp"
+#include "engine/scene/assignment.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -20,7 +21,7 @@ class FinishedRun {
     // sets: changes to the scene, of what is drawn only: keys of [film], colours of species, run.threads.
     // Throws UserError for another key, and when the folder has no scene.toml or no trajectory.nc that goes
     // with it and holds a frame. A run that was stopped or killed will do.
-    FinishedRun(const std::filesystem::path& folder, const std::vector<std::string>& sets);
+    FinishedRun(const std::filesystem::path& folder, const Assignments& sets);
 
     const std::filesystem::path& folder() const { return folder_; }
     const Scene& scene() const { return scene_; }                                // named after the folder
@@ -53,6 +54,7 @@ class FinishedRun {
     void keep_those(const std::function<void(std::size_t)>& read);
     void check_grains() const;
     void frame_what_is_reached();
+    void tell_what_is_left_out();
     void read_contacts();
     void read_measures_of_run();
     void find_periods();

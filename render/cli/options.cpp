@@ -11,6 +11,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/chart/chart.hpp"
 #include "engine/scene/purposes.hpp"
 #include "engine/scene/units.hpp"
@@ -21,6 +22,8 @@
 namespace grainreel {
 
 namespace {
+
+constexpr std::size_t most_of_a_mistake = 300;  // characters of what CLI11 says
 
 // A word as the shell would need it typed.
 std::string quoted(const std::string& word) {
@@ -35,7 +38,7 @@ gl::Provider provider_of(const std::string& word, const std::string& said_by) {
     if (word == "osmesa") return gl::Provider::osmesa;
     if (word == "egl") return gl::Provider::egl;
     throw UserError(
-        fmt::format("{}={}: no such maker of OpenGL contexts; choose osmesa or egl", said_by, word));
+        fmt::format("{}={}: no such maker of OpenGL contexts; choose osmesa or egl", said_by, excerpt(word)));
 }
 
 void add_gl(CLI::App& verb, Options& options) {
@@ -51,8 +54,8 @@ void add_key(CLI::App& verb, Options& options, const char* flag, const char* key
              const std::string& about) {
     verb.add_option_function<std::string>(
             flag,
-            [&options, key](const std::string& value) {
-                options.sets.push_back(fmt::format("{}={}", key, value));
+            [&options, flag, key](const std::string& value) {
+                options.sets.push_back({fmt::format("{}={}", key, value), flag});
             },
             about)
         ->type_name(type);
@@ -82,11 +85,14 @@ void add_file_keys(CLI::App& verb, Options& options) {
     add_key(verb, options, "--format", "film.format", "FORMAT",
             joined(all_of(film_format_words)) + " (docs/films.md) [mp4]");
     add_key(verb, options, "--max-size", "film.max_size", "SIZE",
-            "Largest file, as in 10MB; of mp4 and webm, in two passes when it needs them");
+            "Largest file, as in 10MB; of mp4, webm and gif");
     add_key(verb, options, "--sheet", "film.sheet", "CxR",
             "A contact sheet of so many columns and rows too, sheet.png");
     verb.add_flag_callback(
-        "--transparent", [&options] { options.sets.emplace_back("film.transparent=true"); },
+        "--transparent",
+        [&options] {
+            options.sets.push_back({"film.transparent=true", "--transparent"});
+        },
         "Alpha in place of the background; of png and ffv1");
 }
 
@@ -207,7 +213,12 @@ void add_compare(CLI::App& app, Options& options) {
         ->type_name("FILE|DIR");
     compare
         .add_option_function<std::string>(
-            "--captions", [&options](const std::string& text) { options.compare.captions = text; },
+            "--captions",
+            [&options](const std::string& text) {
+                if (const std::string wrong = complaint_of_utf8(text); !wrong.empty())
+                    throw UserError(fmt::format("--captions: {}; type it in a UTF-8 terminal", wrong));
+                options.compare.captions = text;
+            },
             "One a panel, bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the drives, else the "
             "titles]")
         ->type_name("TEXT");
@@ -260,9 +271,10 @@ void check_verb(CLI::App& app, const std::string& word) {
     for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
         verbs.push_back(verb->get_name());
     if (word[0] == '-' || std::find(verbs.begin(), verbs.end(), word) != verbs.end()) return;
-    throw UserError(fmt::format("{}; there are {}; see grainreel --help",
-                                word.empty() ? "no command" : fmt::format("unknown command '{}'", word),
-                                fmt::join(verbs, ", ")));
+    throw UserError(
+        fmt::format("{}; there are {}; see grainreel --help",
+                    word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
+                    fmt::join(verbs, ", ")));
 }
 
 }  // namespace
@@ -295,7 +307,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
         return std::nullopt;
     } catch (const CLI::ParseError& mistake) {
         check_verb(app, argc > 1 ? argv[1] : "");
-        throw UserError(fmt::format("{}; see grainreel --help", mistake.what()));
+        throw UserError(fmt::format("{}; see grainreel --help", excerpt(mistake.what(), most_of_a_mistake)));
     }
     return options;
 }

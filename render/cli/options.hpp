@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/bench/bench_run.hpp"
+#include "engine/scene/assignment.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/cli/reporter.hpp"
 #include "render/gl/provider.hpp"
@@ -36,9 +37,8 @@ struct Options {
     enum class Verb { movie, render, compare, check, chart, bench };
     Verb verb = Verb::movie;
     std::filesystem::path scene;
-    // What --set, then --size, --fps, --duration, --threads and --seed say, as assignments for the scene's
-    // reader; of two for one key the later wins.
-    std::vector<std::string> sets;
+    // What --set and the options that stand for a key say, --size and the like, for the scene's reader.
+    Assignments sets;
 
     std::optional<std::filesystem::path> out;
     std::filesystem::path base = "output";  // of runs without --out; $GRAINREEL_OUTPUT when that is set

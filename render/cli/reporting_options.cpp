@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "render/cli/option_groups.hpp"
 
 namespace grainreel {
@@ -15,7 +16,7 @@ Form progress_form(const std::string& word) {
         {"auto", Form::automatic}, {"json", Form::json}, {"none", Form::none}};
     const auto found = forms.find(word);
     if (found == forms.end()) {
-        throw UserError(fmt::format("--progress {}: no such form; choose auto, json or none", word));
+        throw UserError(fmt::format("--progress {}: no such form; choose auto, json or none", excerpt(word)));
     }
     return found->second;
 }

@@ -132,8 +132,7 @@ TEST_F(FilmFormats, StdoutTakesY4mAlone) {
 TEST_F(FilmFormats, ACapThatIsNoFilmAtAllIsRefusedBeforeTheRun) {
     const Ended ended = movie({"--out", "run", "--max-size", "10 B"});
     EXPECT_EQ(ended.status, 2);
-    EXPECT_THAT(ended.err,
-                HasSubstr("--set film.max_size: 10 B for 13 frames of 160x120 are 0.0003 bits a pixel"));
+    EXPECT_THAT(ended.err, HasSubstr("--max-size: 10 B for 13 frames of 160x120 are 0.0003 bits a pixel"));
     EXPECT_FALSE(fs::exists(here / "run"));
 }
 

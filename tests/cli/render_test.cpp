@@ -139,6 +139,19 @@ TEST_F(RenderProgram, AnotherSizeAnotherCameraAnotherColour) {
     EXPECT_EQ(text_of(here / "one.png").substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x64", 8));
 }
 
+TEST_F(RenderProgram, TakesBackColoursAndListsOfTheRunAndSaysWhatItLeavesOut) {
+    run("[film.colour]\nby = \"speed\"\nmap = \"cividis\"\nunit = \"cm/s\"\n[[film.plot]]\ny = \"lacey\"\n"
+        "[[film.segment]]\nkind = \"locked\"\naverage = 2\n",
+        {"--no-film"});
+    const Ended ended = program(
+        {"render", "run", "--at", "0.1", "--set", "film.colour.by=start-height", "--set", "film.plot=[]"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr(": 'average' is left out: frames of a finished run are single moments"));
+    const Ended wrong = program({"render", "run", "--at", "0.1", "--fps", "500"});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("error: --fps: 'rate' must be from 1 to 240"));
+}
+
 TEST_F(RenderProgram, AtDrawsTheNearestFrame) {
     short_run();
     const Ended ended = program({"render", "run", "--at", "0.17 s"});

@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-std::string complaint(const std::string& text, const std::vector<std::string>& sets = {}) {
+std::string complaint(const std::string& text, const Assignments& sets = {}) {
     try {
         make_plan(read_text(text, sets));
     } catch (const UserError& error) {
@@ -37,9 +37,9 @@ TEST(Messages, NotToml) {
               "test.toml:2:14: this is not TOML (Error while parsing key-value pair: expected a comment or "
               "whitespace, saw "
               "'m'); text and quantities with units want quotes");
-    EXPECT_EQ(
-        complaint(""),
-        "test.toml: there are no grains; write [[species]] and below it name, count, diameter and density");
+    EXPECT_EQ(complaint(""),
+              "test.toml:1:1: there are no grains; write [[species]] and below it name, count, diameter and "
+              "density");
 }
 
 struct Case {
@@ -289,6 +289,67 @@ TEST(Messages, LawsThatDoNotGoTogether) {
               "[ 1, 2 ]; write for example [[\"0.1 m/s\", 0.95], [\"2 m/s\", 0.8]]");
 }
 
+TEST(Messages, AlwaysHaveALine) {
+    const std::string species = "[[species]]\nname = \"a\"\ncount = 3\ndiameter = 0.005\ndensity = 2500\n";
+    EXPECT_EQ(complaint(species),
+              "test.toml:1:1: [container] lacks 'shape'; write for example shape = \"wedge\"");
+    EXPECT_EQ(complaint(species + "[container]\n"),
+              "test.toml:6:2: [container] lacks 'shape'; write for example shape = \"wedge\"");
+}
+
+TEST(Messages, EchoNoMoreThanSixtyCharacters) {
+    const std::string x(160'000, 'x'), shown = std::string(60, 'x') + "...";
+    EXPECT_EQ(complaint(wedge_text, {Assignment("drive.frequency=" + x)}),
+              "--set drive.frequency: 'frequency' must be a frequency, but \"" + shown +
+                  "\" does not begin with a number; write for example \"25 Hz\"");
+    const std::vector<std::string> sets = {"drive.frequency=3 " + x,
+                                           "container.shape=" + x,
+                                           "film.size=" + x,
+                                           "film.background=" + x,
+                                           "species.big.colour=" + x,
+                                           "film.max_size=" + x,
+                                           "film.highlight_if=" + x,
+                                           "film.text={" + x + "}",
+                                           "film.plot=[{y=\"" + x + "\"}]",
+                                           "film.hide=[\"" + x + "\"]",
+                                           "film." + x + "=3",
+                                           x + ".a.b=3",
+                                           "run.duration." + x + "=3",
+                                           "species." + x + ".count=3",
+                                           x,
+                                           "contact.restitution=[" + x,
+                                           "run.seed=[\"" + x + "\"]",
+                                           "container.outlet=" + x,
+                                           "contact.pair=[{between=[\"small\", \"" + x + "\"]}]",
+                                           "film.colour.by=speed\x01" + x};
+    for (const std::string& set : sets) {
+        const std::string said = complaint(wedge_text, {Assignment(set)});
+        EXPECT_NE(said, "none") << set.substr(0, 40);
+        EXPECT_LT(said.size(), 1000u) << said.substr(0, 200);
+    }
+    EXPECT_LT(complaint("title = " + x).size(), 1000u);
+    EXPECT_LT(complaint("a = 1\n" + x + " = 1\n" + x + " = 2\n").size(), 1000u);
+    EXPECT_LT(complaint(with(wedge_text, "\"small\"", "\"" + x + "\"") +
+                        "[[contact.pair]]\nbetween = [\"y\", \"wall\"]\n")
+                  .size(),
+              1000u);
+}
+
+TEST(Messages, NameTheOptionThatWasTyped) {
+    const auto of = [](const char* option, const char* set) {
+        return complaint(wedge_text, {{set, option}});
+    };
+    EXPECT_EQ(of("--size", "film.size=1x1"),
+              "--size: 'size' must be width x height, each from 64 to 8192 pixels, but is \"1x1\"; write for "
+              "example \"1920x1080\"");
+    EXPECT_EQ(of("--duration", "run.duration=3 m"),
+              "--duration: 'duration' must be a time, but \"3 m\" is a length; write for example \"10 s\"");
+    EXPECT_EQ(
+        of("--max-size", "film.max_size=10"),
+        "--max-size: 'max_size' must be a size in kB, MB, GB, KiB, MiB or GiB, but is \"10\"; write for "
+        "example \"10 MB\"");
+}
+
 TEST(Messages, CommandLine) {
     EXPECT_EQ(complaint(wedge_text, {"drive.frequenzy=3"}),
               "--set drive.frequenzy: unknown key 'frequenzy' in [drive]; did you mean 'frequency'?");
@@ -299,11 +360,11 @@ TEST(Messages, CommandLine) {
     EXPECT_EQ(complaint(wedge_text, {"drive.frequency"}),
               "--set drive.frequency: no assignment; write --set drive.frequency=\"30 Hz\"");
     EXPECT_EQ(complaint(wedge_text, {"species[2].count=3"}),
-              "--set species[2].count=3: there is no '2' among the 2 entries; they count from 0");
+              "--set species[2].count: there is no '2' among the 2 entries; they count from 0");
     EXPECT_EQ(complaint(wedge_text, {"species.huge.count=3"}),
-              "--set species.huge.count=3: there is no 'huge' among the 2 entries; they count from 0");
+              "--set species.huge.count: there is no 'huge' among the 2 entries; they count from 0");
     EXPECT_EQ(complaint(wedge_text, {"run.duration.more=3"}),
-              "--set run.duration.more=3: 'run.duration' is not a table; name one of its own keys");
+              "--set run.duration.more: 'run.duration' is not a table; name one of its own keys");
     const std::string size =
         "--set film.size: 'size' must be width x height, each from 64 to 8192 pixels, but is ";
     for (const char* wrong : {"641", "0x0", "640x", "1920x1080p", "99999999999999999999x100"})

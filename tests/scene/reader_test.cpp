@@ -99,13 +99,67 @@ TEST(Reader, ASetTakesItsRivalOutOfTheFile) {
     EXPECT_NO_THROW(read_text(wedge_text, {"species.big.mass=1 g"}));
 }
 
+TEST(Reader, NumbersOfTheCommandLineNeedNoZeroBeforeTheirPoint) {
+    EXPECT_EQ(read_text(wedge_text, {"contact.restitution=.5"}).contact.grain[0].restitution, 0.5);
+    EXPECT_EQ(read_text(wedge_text, {"drive.g_level=2."}).drive.amplitude,
+              read_text(wedge_text, {"drive.g_level=2"}).drive.amplitude);
+    EXPECT_EQ(read_text(wedge_text, {"contact.friction=+.25"}).contact.grain[0].friction, 0.25);
+    EXPECT_EQ(read_text(wedge_text, {"species.small.diameter=.5 cm"}).species[0].diameter.mean, 0.005);
+    EXPECT_EQ(read_text(wedge_text, {"film.title=.5"}).film.title, ".5");
+}
+
+const std::string coloured = R"([film.colour]
+by = "speed"
+map = "cividis"
+range = [0, 2]
+unit = "cm/s"
+[[film.plot]]
+y = "lacey"
+[[film.segment]]
+kind = "locked"
+every = 2
+[film.trails]
+grains = [3]
+)";
+
+TEST(Reader, AnotherColouringTakesBackWhatBelongedToTheOldOne) {
+    const std::string text = wedge_text + coloured;
+    const auto of = [&](const Assignments& sets) { return read_text(text, sets).film.shows.colour; };
+    for (const char* by : {"coordination", "species", "displacement", "start-height"}) {
+        const std::string set = std::string("film.colour.by=") + by;
+        EXPECT_EQ(of({Assignment(set)}), read_text(wedge_text, {Assignment(set)}).film.shows.colour) << by;
+    }
+    EXPECT_EQ(of({"film.colour.by=speed"}), of({}));  // the same again
+    const GrainColouring both = of({"film.colour.range=[0, 3]", "film.colour.by=vertical-velocity"});
+    EXPECT_EQ(both.range[1], 3);
+    EXPECT_EQ(both.map, ColourMap::vik);
+    EXPECT_EQ(read_text(text, {"film.segment[0].kind=motion"}).film.segments[0].every, 1);
+}
+
+TEST(Reader, ListsAndTablesCanBeEmptiedFromTheCommandLine) {
+    const Film film = read_text(wedge_text + coloured,
+                                {"film.plot=[]", "film.segment=[]", "film.trails={}", "film.colour={}"})
+                          .film;
+    EXPECT_EQ(film, read_text(wedge_text).film);
+    EXPECT_FALSE(read_text(wedge_text + coloured, {"film.trails.grains=[]"}).film.shows.trails.wanted());
+    EXPECT_FALSE(read_text(wedge_text + "[film]\nhighlight_if = \"speed > 1 m/s\"\n", {"film.highlight_if="})
+                     .film.shows.highlight_if.wanted());
+    EXPECT_FALSE(read_text(wedge_text, {"drive={}"}).drive.present);
+    try {
+        read_text(wedge_text, {"species=[]"});
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        EXPECT_EQ(std::string(error.what()).substr(0, 36), "--set species: there are no grains; ");
+    }
+}
+
 TEST(Reader, KnowsWhereEveryValueStands) {
     const Scene scene = read_text(wedge_text, {"run.duration=1"});
     EXPECT_EQ(scene.where("species[1].count"), "test.toml:10:1");
     EXPECT_EQ(scene.where("drive.frequency"), "test.toml:24:1");
     EXPECT_EQ(scene.where("run.duration"), "--set run.duration");
     EXPECT_EQ(scene.where("drive.phase"), "test.toml:23:2");  // not written: its table
-    EXPECT_EQ(scene.where("start.method"), "test.toml");
+    EXPECT_EQ(scene.where("start.method"), "test.toml:1:1");
 }
 
 // n more species, without colours.

@@ -70,7 +70,7 @@ inline std::string with(std::string text, const std::string& from, const std::st
                                    : text.replace(at, from.size(), to);
 }
 
-inline Scene read_text(const std::string& text, const std::vector<std::string>& sets = {}) {
+inline Scene read_text(const std::string& text, const Assignments& sets = {}) {
     return read_scene_text(text, "test.toml", sets);
 }
 

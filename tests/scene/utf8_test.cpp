@@ -1,0 +1,76 @@
+// Text from outside: what is UTF-8, and that a scene with any text in it can be read again.
+#include "engine/base/utf8.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/writer.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const std::string& text, const Assignments& sets, const char* file = "test.toml") {
+    try {
+        read_scene_text(text, file, sets);
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+// RFC 3629, section 4: what is allowed, and its neighbours that are not.
+TEST(Utf8, KnowsWhatItIs) {
+    for (const char* good : {"", "plain", "Γ = 3", "\x7f", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80",
+                             "\xed\x9f\xbf", "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
+        EXPECT_EQ(first_byte_not_utf8(good), std::nullopt) << good;
+    for (const char* bad : {"\x80", "\xc1\xbf", "\xc2", "\xc2 ", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xe2\x82",
+                            "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff"})
+        EXPECT_EQ(first_byte_not_utf8("Γ" + std::string(bad) + "x"), std::size_t{2}) << excerpt(bad);
+}
+
+TEST(Utf8, AnExcerptIsShortAndPrintable) {
+    EXPECT_EQ(excerpt("Γ = 3"), "Γ = 3");
+    EXPECT_EQ(excerpt("a\nb\xff\x1b"), "a\\x0ab\\xff\\x1b");
+    std::string greek;
+    for (std::size_t i = 0; i < kExcerpt; ++i) greek += "Γ";
+    EXPECT_EQ(excerpt(greek), greek);
+    EXPECT_EQ(excerpt(greek + "Γ"), greek + "...");
+}
+
+TEST(Utf8, TextThatIsNotIsRefusedAtTheStartAndTheByteNamed) {
+    EXPECT_EQ(complaint("title = \"x\"\n# Gr\xf6\xdf"
+                        "e\n" +
+                            wedge_text,
+                        {}),
+              "test.toml:2:5: the byte 0xf6 is not UTF-8; save the file as UTF-8");
+    EXPECT_EQ(
+        complaint(wedge_text, {{"film.title=Gr\xf6sse", "--title"}}),
+        "--title: \"film.title=Gr\\xf6sse\" is not UTF-8 at byte 14, 0xf6; type it in a UTF-8 terminal");
+    EXPECT_THAT(complaint(wedge_text, {"species.big.name=\xed\xa0\x80"}), HasSubstr("at byte 18, 0xed"));
+    EXPECT_EQ(complaint(wedge_text, {}, "a/Gr\xf6sse.toml"),
+              "\"Gr\\xf6sse.toml\" is not UTF-8 at byte 3, 0xf6; rename the file");
+    EXPECT_THAT(complaint(wedge_text + "[start]\nmethod = \"file\"\nfile = \"final.csv\"\n", {},
+                          "/nowhere/Gr\xf6sse/test.toml"),
+                HasSubstr("'file' lies at \"/nowhere/Gr\\xf6sse/final.csv\" is not UTF-8"));
+}
+
+// The run's own scene.toml is what `render` reads.
+TEST(Utf8, AnyTextThatIsTakenCanBeReadAgain) {
+    std::string all = "Γ \"'\\ ";
+    for (char c = 1; c < 0x20; ++c) all += c;
+    all += "\x7f\u0080\u2028\U0001F4A5";
+    Scene scene =
+        read_text(wedge_text, {Assignment("film.title=" + all), Assignment("species.big.name=x" + all)});
+    scene.film.shows.text = all;
+    const Scene back = read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml");
+    EXPECT_EQ(back.film.title, scene.film.title);
+    EXPECT_EQ(back.species[1].name, scene.species[1].name);
+    EXPECT_EQ(back.film.shows.text, all);
+}
+
+}  // namespace
+}  // namespace grainreel
