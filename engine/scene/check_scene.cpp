@@ -8,9 +8,11 @@
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/key_path.hpp"
+#include "engine/scene/measure_columns.hpp"
 #include "engine/scene/reader_parts.hpp"
 
 namespace grainreel {
@@ -24,17 +26,37 @@ constexpr double most_solid = 0.55;
     throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
 }
 
+// As one reads it: "big " and "big" look alike.
+std::string trimmed(const std::string& name) {
+    const auto first = name.find_first_not_of(' ');
+    return first == std::string::npos ? "" : name.substr(first, name.find_last_not_of(' ') - first + 1);
+}
+
+// Names that differ in commas or quotes alone would share their columns of measures.csv.
+void check_columns(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Species& species : scene.species) names.push_back(species.name);
+    std::set<std::string> columns;
+    for (const MeasureColumn& column : measure_columns(names))
+        if (!columns.insert(column.name).second)
+            throw UserError(
+                fmt::format("{}: the names of the species give measures.csv the column \"{}\" twice; choose "
+                            "names that differ in letters",
+                            scene.where("species"), excerpt(column.name)));
+}
+
 void check_names(const Scene& scene) {
     std::set<std::string> names;
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         const std::string key = fmt::format("species[{}].name", i);
         const std::string& name = scene.species[i].name;
-        if (name.empty()) fail(scene, key, "must not be empty; write for example \"small\"");
+        if (trimmed(name).empty()) fail(scene, key, "must not be empty; write for example \"small\"");
         if (name == "wall")
             fail(scene, key, "must not be \"wall\", which stands for the container; choose another");
-        if (!names.insert(name).second)
-            fail(scene, key, fmt::format("\"{}\" is taken; choose another", name));
+        if (!names.insert(trimmed(name)).second)
+            fail(scene, key, fmt::format("\"{}\" is taken; choose another", excerpt(name)));
     }
+    check_columns(scene);
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
     if (scene.grains() > most)
         throw UserError(fmt::format("{}: {} grains are more than the {} that can be numbered; use fewer",
@@ -113,6 +135,17 @@ void check_room(const Scene& scene) {
                         scene.walls.empty() ? "container" : "room", room, 100 * most_solid));
 }
 
+// Layers are to lie on something.
+void check_gravity(const Scene& scene) {
+    const bool held = scene.container.lid || !scene.walls.empty();
+    if (scene.start.method != Start::Method::layers || held || scene.gravity.z() <= 0) return;
+    fail(scene, "gravity",
+         fmt::format(
+             "points up, with {0:.6g} m/s2 along z, and the container is open above, so that the grains "
+             "fall out of it; write gravity = {0:.6g}, which is downwards, or top = \"lid\"",
+             scene.gravity.z()));
+}
+
 void check_drive(const Scene& scene) {
     const Drive& drive = scene.drive;
     if (!drive.present || drive.moves == Drive::Moves::container) return;
@@ -154,6 +187,7 @@ void check_scene(const Scene& scene) {
     check_wedge(scene);
     check_grain_sizes(scene);
     check_room(scene);
+    check_gravity(scene);
     check_drive(scene);
     check_film(scene);
 }

@@ -127,8 +127,8 @@ Plan make_plan(const Scene& scene) {
             count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");
     plan_output(scene, plan);
     plan.warnings = scene.notes;
-    const std::vector<std::string> found = plan_warnings(scene, plan, bed, step);
-    plan.warnings.insert(plan.warnings.end(), found.begin(), found.end());
+    for (const std::vector<std::string>& found : {likely_slips(scene), plan_warnings(scene, plan, bed, step)})
+        plan.warnings.insert(plan.warnings.end(), found.begin(), found.end());
     return plan;
 }
 

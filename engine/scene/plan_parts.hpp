@@ -69,7 +69,9 @@ struct StepChoice {
 };
 StepChoice plan_step(const Scene& scene, const Plan& plan);
 
-// Lines for the user: what will run, but not as one may wish.
+// Lines for the user: values that are hardly meant, such as a density of 7.8 kg/m3.
+std::vector<std::string> likely_slips(const Scene& scene);
+// Likewise: what will run, but not as one may wish.
 std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
                                        const StepChoice& step);
 

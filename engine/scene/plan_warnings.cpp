@@ -8,6 +8,7 @@
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/plan_parts.hpp"
+#include "engine/scene/warnings.hpp"
 
 namespace grainreel {
 namespace {
@@ -20,19 +21,6 @@ constexpr double alarming_turn = 0.05;      // of a period that a contact with a
 constexpr double alarming_flight = 0.2;     // of a diameter that a grain flies while a contact lasts
 constexpr double fewest_last_places = 100;  // of a position, in the overlap of a grain at rest
 
-class Warnings {
-  public:
-    explicit Warnings(const Scene& scene) : scene_(scene) {}
-    void add(const char* key, const std::string& what) {
-        lines_.push_back(fmt::format("{}: {}", scene_.where(key), what));
-    }
-    std::vector<std::string> take() { return std::move(lines_); }
-
-  private:
-    const Scene& scene_;
-    std::vector<std::string> lines_;
-};
-
 void warn_of_drive(const Scene& scene, const BedPlan& bed, Warnings& warnings) {
     const Drive& drive = scene.drive;
     if (!drive.present) return;
@@ -43,7 +31,9 @@ void warn_of_drive(const Scene& scene, const BedPlan& bed, Warnings& warnings) {
             fmt::format("gamma is {:.3g}, below 1: the bed stays on the floor and nothing will move; raise "
                         "g_level or amplitude",
                         bed.g_level));
-    if (drive.ramp / drive.frequency > scene.run.duration)
+    const bool reaches_a_period =
+        drive.frequency * scene.run.duration >= 1;  // else likely_slips() has said it
+    if (reaches_a_period && drive.ramp / drive.frequency > scene.run.duration)
         warnings.add("drive.ramp",
                      fmt::format("the drive grows over {:.4g} s, longer than the run of {:.4g} s, and never "
                                  "reaches its amplitude; lengthen the run or shorten the ramp",
@@ -218,7 +208,7 @@ void warn_of_colours(const Scene& scene, Warnings& warnings) {
         if (scene.written.count(fmt::format("species[{}].colour", i)) > 0) continue;
         for (std::size_t j = 0; j < species.size(); ++j) {
             if (i == j || species[j].colour != species[i].colour) continue;
-            warnings.add(fmt::format("species[{}]", i).c_str(),
+            warnings.add(fmt::format("species[{}]", i),
                          fmt::format("\"{}\" and \"{}\" look alike: there are more species than default "
                                      "colours; give one a colour of its own, such as colour = \"#8b4513\"",
                                      species[std::min(i, j)].name, species[std::max(i, j)].name));

@@ -1,0 +1,28 @@
+// Lines for the user, each with its place: what will run, but perhaps not as one wishes. Internal to
+// make_plan.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+class Warnings {
+  public:
+    explicit Warnings(const Scene& scene) : scene_(scene) {}
+    void add(const std::string& key, const std::string& what) {
+        lines_.push_back(fmt::format("{}: {}", scene_.where(key), what));
+    }
+    std::vector<std::string> take() { return std::move(lines_); }
+
+  private:
+    const Scene& scene_;
+    std::vector<std::string> lines_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,129 @@
+// Values that nobody means: a warning with the figure and the likely slip, or a refusal.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/plan.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string warnings(const Assignments& sets, const std::string& text = wedge_text) {
+    std::string all;
+    for (const std::string& line : make_plan(read_text(text, sets)).warnings) all += line + "\n";
+    return all;
+}
+
+std::string first_warning(const Assignments& sets) {
+    const std::string all = warnings(sets);
+    return all.substr(0, all.find('\n'));
+}
+
+std::string complaint(const Assignments& sets, const std::string& text = wedge_text) {
+    try {
+        make_plan(read_text(text, sets));
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(Slips, OfUnits) {
+    EXPECT_EQ(first_warning({"species.small.density=7.8"}),
+              "--set species.small.density: a density of 7.8 kg/m3 is less than foam has; a number without a "
+              "unit is in kg/m3: did you mean \"7.8 g/cm3\"?");
+    EXPECT_THAT(warnings({"species.small.density=7800000"}),
+                HasSubstr("a density of 7.8e+06 kg/m3 is more than "
+                          "any solid has; a number without a unit "
+                          "is in kg/m3\n"));
+    EXPECT_THAT(warnings({"species.small.density=2.5e6"}), HasSubstr("is more than any solid has"));
+    EXPECT_THAT(warnings({"species.small.mass=0.16 kg"}), HasSubstr("this mass makes a density of"));
+    EXPECT_THAT(warnings({"species.small.diameter=5 µm"}),
+                HasSubstr("grains of 5e-06 m stick to each other"));
+    const Assignments in_mm{"species.small.diameter=5",  "species.big.diameter=10",
+                            "container.slant_height=70", "container.half_width=55",
+                            "container.depth=45",        "container.height=180"};
+    EXPECT_THAT(warnings(in_mm),
+                AllOf(HasSubstr("did you mean \"5 mm\"?"), HasSubstr("did you mean \"10 mm\"?"),
+                      HasSubstr("did you mean \"180 mm\"?")));
+    EXPECT_THAT(warnings({"gravity=981"}),
+                HasSubstr("--set gravity: a gravity of 981 m/s2 is 100 times that of "
+                          "the Earth; a number without a unit is in m/s2: did you "
+                          "mean \"981 cm/s2\"?"));
+}
+
+TEST(Slips, OfTheDrive) {
+    EXPECT_EQ(
+        warnings({"drive.amplitude=3"}).substr(0, 145),
+        "--set drive.amplitude: an amplitude of 3 m is more than the height of the container, 0.18 m; a "
+        "number without a unit is in m: did you mean \"3 mm\"?");
+    const double omega = 2 * std::numbers::pi * 0.1;
+    EXPECT_THAT(
+        warnings({"drive.frequency=0.1"}),
+        AllOf(HasSubstr(fmt::format("an amplitude of {:.4g} m is more than the height of the container",
+                                    3 * 10 / (omega * omega))),
+              HasSubstr("one period of 10 s is longer than the run of 2 s; raise the frequency")));
+    EXPECT_THAT(warnings({"drive.frequency=20 kHz"}), HasSubstr("did you mean \"20 Hz\"?"));
+    const double shaken = 2 * std::numbers::pi * 20;
+    EXPECT_THAT(warnings({"drive.amplitude=10 cm"}),
+                HasSubstr(fmt::format("gamma is {:.4g}, with 20 Hz and an amplitude of 0.1 m",
+                                      0.1 * shaken * shaken / 10)));
+}
+
+TEST(Slips, OfFriction) {
+    EXPECT_EQ(
+        warnings({"contact.friction=50"}),
+        "--set contact.friction: a friction of 50 is more than materials have (glass 0.2 to 0.5, rubber "
+        "about 1); did you mean 0.5? inf is for grains that never slip\n");
+    EXPECT_EQ(warnings({"contact.friction=inf"}), "");
+    EXPECT_THAT(warnings({"contact.rolling_friction=10"}),
+                HasSubstr("a rolling friction of 10 is more than"));
+}
+
+TEST(Slips, OfGravityAndTheFloor) {
+    EXPECT_EQ(
+        warnings({"gravity=[0, 0, 9.81]"}),
+        "--set gravity: gravity points up, with 9.81 m/s2 along z: the bed will lie under the lid; a number "
+        "alone is downwards\n");
+    EXPECT_EQ(
+        complaint({"gravity=[0, 0, 9.81]", "container.top=open"}),
+        "--set gravity: 'gravity' points up, with 9.81 m/s2 along z, and the container is open above, so "
+        "that the grains fall out of it; write gravity = 9.81, which is downwards, or top = \"lid\"");
+    // The slants take 70 tan 20 deg = 25.478 mm on either side.
+    const double floor = 2 * (0.027 - 0.07 * std::tan(20 * std::numbers::pi / 180));
+    EXPECT_EQ(
+        warnings({"container.half_width=27 mm"}),
+        fmt::format("--set container.half_width: the floor is {:.4g} m wide, less than the smallest grain, "
+                    "0.005 m: grains hang between the slanted walls and none lies on it; raise half_width, "
+                    "or lower half_angle or slant_height, unless you mean a V\n",
+                    floor));
+}
+
+TEST(Slips, OfNames) {
+    EXPECT_EQ(complaint({"species[1].name=\"small \""}),
+              "--set species[1].name: 'name' \"small \" is taken; choose another");
+    EXPECT_EQ(
+        complaint({"species[0].name=1,5 mm", "species[1].name=1\"5 mm"}),
+        "test.toml:3:3: the names of the species give measures.csv the column \"1_5 mm_centre_x_m\" twice; "
+        "choose names that differ in letters");
+}
+
+TEST(Slips, PlausibleScenesHaveNone) {
+    for (const char* set : {"species.small.density=30", "species.small.density=\"19.3 g/cm3\"",
+                            "gravity=1.62", "species.small.diameter=4 mm", "drive.frequency=400",
+                            "container.half_width=30 mm", "contact.friction=1.2"})
+        EXPECT_EQ(complaint({set}), "none") << set;
+    EXPECT_EQ(warnings({"species.small.count=1000", "contact.friction=1.2", "species.small.density=2000"}),
+              "");
+}
+
+}  // namespace
+}  // namespace grainreel
