@@ -120,8 +120,9 @@ void add_film(Keys& keys) {
                           "mp4 is H.264, webm VP9, ffv1 lossless; docs/films.md compares them."));
     keys.push_back(entry("film.transparent", KeyKind::flag, literal("false"),
                          "png and ffv1 only: alpha in place of the background."));
-    keys.push_back(entry("film.max_size", KeyKind::text, literal("\"none\""),
-                         "mp4 and webm only: largest file, as in \"10 MB\" (kB, MB, GB, KiB, MiB, GiB)."));
+    keys.push_back(
+        entry("film.max_size", KeyKind::text, literal("\"none\""),
+              "mp4, webm and gif only: largest file, as in \"10 MB\" (kB, MB, GB, KiB, MiB, GiB)."));
     keys.push_back(entry("film.sheet", KeyKind::picture_size, note("none"),
                          "Columns x rows of sheet.png, frames spread evenly over the film."));
     keys.push_back(entry("film.background", KeyKind::colour, note("\"#ffffff\"; \"#12151b\" with dark"),

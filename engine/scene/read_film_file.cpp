@@ -36,6 +36,10 @@ void fit_gif_rate(Scene& scene) {
     film.rate = rate;
 }
 
+bool can_be_capped(FilmFormat format) {
+    return format == FilmFormat::mp4 || format == FilmFormat::webm || format == FilmFormat::gif;
+}
+
 void read_max_size(Document& document, Film& film) {
     const char* path = "film.max_size";
     const auto text = document.text(path);
@@ -43,12 +47,14 @@ void read_max_size(Document& document, Film& film) {
     const bool none = *text == "none";
     film.max_size = none ? std::nullopt : parse_data_size(*text);
     if (!none && !film.max_size)
-        document.fail(path, fmt::format("must be a size in kB, MB, GB, KiB, MiB or GiB, but is \"{}\"; write "
+        document.fail(path, fmt::format("must be a size in kB, MB, GB, KiB, MiB or GiB, but is {}; write "
                                         "for example \"10 MB\"",
-                                        *text));
-    if (film.max_size && film.format != FilmFormat::mp4 && film.format != FilmFormat::webm)
-        document.fail(path, fmt::format("goes with the formats mp4 and webm, but the film is {}; remove it",
-                                        word_of(film.format, film_format_words)));
+                                        document.written_value(path)));
+    if (film.max_size && !can_be_capped(film.format))
+        document.fail(
+            path, fmt::format("goes with the formats mp4, webm and gif, but the film is {}; remove it, or "
+                              "write \"none\"",
+                              word_of(film.format, film_format_words)));
 }
 
 void read_transparent(Document& document, Film& film) {
@@ -100,7 +106,7 @@ void take_purpose(Document& document, Film& film) {
 void read_film_file(Document& document, Scene& scene) {
     Film& film = scene.film;
     film.format = chosen<FilmFormat>(document, "film.format", film_format_words, film.format);
-    if (film.format != FilmFormat::mp4 && film.format != FilmFormat::webm) film.max_size.reset();
+    if (!can_be_capped(film.format)) film.max_size.reset();
     read_max_size(document, film);
     if (film.max_size) film.quality = capped_quality;
     film.quality = static_cast<int>(document.integer("film.quality").value_or(film.quality));

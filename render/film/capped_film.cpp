@@ -8,15 +8,14 @@
 #include "engine/scene/data_size.hpp"
 #include "render/film/film_reader.hpp"
 #include "render/film/remux.hpp"
+#include "render/film/smaller_film.hpp"
 
 namespace grainreel {
 namespace {
 
 constexpr double aim = 0.96, least = 0.9;  // of the cap
 constexpr int most_passes = 4;             // the first of them hits nearly always
-// Of its size at crf 18 a film keeps its look down to a twentieth, crf 44; below, grains melt into each
-// other.
-constexpr double least_of_full_size = 1.0 / 20;
+constexpr const char* fitted = "fitted";   // in the work folder: the film encoded anew
 
 EncoderSettings first_settings(EncoderSettings settings, const WorkFolder& work) {
     if (!settings.codec->film_is_first_pass) return settings;
@@ -65,42 +64,61 @@ void CappedFilm::finish() {
     work_.remove();
 }
 
-// Encodes anew, with the rate corrected by what came out, until the size is within its bounds.
+// Brings the film under its cap, if it can be legible there.
 void CappedFilm::fit(std::int64_t size) {
-    const auto cap = static_cast<double>(cap_);
     const auto overhead = static_cast<double>(size - film_->payload());  // of the container
-    const double wanted = aim * cap - overhead;
-    if (wanted < least_of_full_size * static_cast<double>(film_->payload()))
-        throw RunError(fmt::format(
-            "{}: a cap of {} is too small for this film, which has {} at its quality: below {} grains melt "
-            "into each "
-            "other; raise --max-size, or make the film smaller with --size, --fps or --duration (the whole "
-            "film is kept)",
-            settings_.path.string(), data_size_text(cap), data_size_text(static_cast<double>(size)),
-            data_size_text((least_of_full_size * static_cast<double>(film_->payload()) + overhead) / aim)));
     film_.reset();  // x264 writes the last of its log when it is closed
+    const std::int64_t floor = settings_.quality < least_legible ? encode_legible() : size;
+    if (floor > cap_) refuse(size, floor, overhead);
+    if (static_cast<double>(floor) >= least * static_cast<double>(cap_)) {
+        result_ =
+            fmt::format("{} at quality {}, under the cap of {}", data_size_text(static_cast<double>(floor)),
+                        least_legible, data_size_text(static_cast<double>(cap_)));
+        return take_fitted();
+    }
+    fill(overhead);
+}
+
+void CappedFilm::refuse(std::int64_t size, std::int64_t floor, double overhead) const {
+    const auto cap = static_cast<double>(cap_);
+    const auto frames = spool_->frames();
+    const double share = std::max(0.0, cap - overhead) / (static_cast<double>(floor) - overhead);
+    throw RunError(
+        fmt::format("{}: a cap of {} is too small for this film: below {} small digits on its frames read "
+                    "wrong. What fits: {}; "
+                    "or raise --max-size (the whole film is kept, {})",
+                    settings_.path.string(), data_size_text(cap), data_size_text(static_cast<double>(floor)),
+                    smaller_film(settings_.width, settings_.height, frames, share),
+                    data_size_text(static_cast<double>(size))));
+}
+
+// Encodes anew, with the rate corrected by what came out, until the size is within its bounds.
+void CappedFilm::fill(double overhead) {
+    const auto cap = static_cast<double>(cap_);
+    const double wanted = aim * cap - overhead;
     const std::string log = first_pass();
     const double seconds = static_cast<double>(spool_->frames()) / settings_.rate;
     double rate = 8 * wanted / seconds;
-    const std::filesystem::path fitted = work_.file("fitted");
     for (int pass = 1; pass <= most_passes; ++pass) {
-        const std::int64_t got = encode(std::llround(rate), log);
+        const std::int64_t got = encode_at(std::llround(rate), log);
         result_ = fmt::format("{} in two passes of {:.0f} kbit/s, under the cap of {}",
                               data_size_text(static_cast<double>(got)), rate / 1000, data_size_text(cap));
         const bool fits = got <= cap_ && static_cast<double>(got) >= least * cap;
-        if (fits || (pass == most_passes && got <= cap_)) {
-            const int code = replace_synced(fitted, settings_.path);
-            if (code < 0)
-                throw RunError(
-                    fmt::format("{}: cannot be replaced: {}", settings_.path.string(), ffmpeg_error(code)));
-            return;
-        }
+        if (fits || (pass == most_passes && got <= cap_)) return take_fitted();
         rate *= wanted / std::max(1.0, static_cast<double>(got) - overhead);
     }
     throw RunError(
         fmt::format("{}: {} could not be brought under the cap of {}; raise --max-size (the whole film "
                     "is kept)",
                     settings_.path.string(), settings_.codec->words, data_size_text(cap)));
+}
+
+// Puts the film that was encoded anew in place of the one at its quality.
+void CappedFilm::take_fitted() const {
+    const int code = replace_synced(work_.file(fitted), settings_.path);
+    if (code < 0)
+        throw RunError(
+            fmt::format("{}: cannot be replaced: {}", settings_.path.string(), ffmpeg_error(code)));
 }
 
 // What the first pass found, for the second one: the name of x264's file, or libvpx's text.
@@ -125,18 +143,27 @@ std::string CappedFilm::first_pass() const {
     return codec.context->stats_out ? codec.context->stats_out : "";
 }
 
-// The film at that rate, bits/s; its size in bytes.
-std::int64_t CappedFilm::encode(std::int64_t bit_rate, const std::string& log) const {
-    EncoderSettings settings = settings_;
-    settings.path = work_.file("fitted");
-    settings.pass = 2;
-    settings.bit_rate = bit_rate;
-    settings.log = log;
+std::int64_t CappedFilm::encode(EncoderSettings settings) const {
+    settings.path = work_.file(fitted);
     Encoder encoder(settings);
     FilmReader spool(work_.file("spool.mkv"));
     while (AVFrame* frame = spool.next()) encoder.add(*frame);
     encoder.finish();
     return size_of(settings.path);
+}
+
+std::int64_t CappedFilm::encode_legible() const {
+    EncoderSettings settings = settings_;
+    settings.quality = least_legible;
+    return encode(settings);
+}
+
+std::int64_t CappedFilm::encode_at(std::int64_t bit_rate, const std::string& log) const {
+    EncoderSettings settings = settings_;
+    settings.pass = 2;
+    settings.bit_rate = bit_rate;
+    settings.log = log;
+    return encode(settings);
 }
 
 std::string CappedFilm::description() const {

@@ -11,6 +11,12 @@
 
 namespace grainreel {
 
+// The highest film.quality (crf of x264) at which every small digit on a frame reads right: of 251 frames of
+// the wedge in motion at 640x360, in windows of a digit each, none looked more like another digit than like
+// its own at 24, 0.05 % did at 26, 0.2 % at 28 and 15 % at 34; at 1280x720 none, 0.01 %, 0.05 % and 2 % (at
+// 32).
+constexpr int least_legible = 24;
+
 struct CodecSettings {
     int width = 0, height = 0;  // pixels; even where the chroma is halved
     AVRational rate{30, 1};     // frames a second

@@ -164,7 +164,7 @@ std::string set_up_ffv1(AVCodecContext& codec, AvOptions& options, const CodecSe
 
 std::string set_up_gif(AVCodecContext& codec, AvOptions&, const CodecSettings&) {
     codec.flags &= ~AV_CODEC_FLAG_GLOBAL_HEADER;
-    return "one palette, Bayer dither";
+    return "one palette";
 }
 
 std::string set_up_raw(AVCodecContext&, AvOptions&, const CodecSettings&) {

@@ -8,11 +8,15 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/data_size.hpp"
 #include "render/draw/layout.hpp"
+#include "render/film/codec.hpp"
+#include "render/film/smaller_film.hpp"
 
 namespace grainreel {
 namespace {
 
-constexpr double least_bits_a_pixel = 0.0005;  // a hundredth of what a film of grains has at crf 20
+// A third of what the emptiest film needs at the least legible quality: two balls at 640x360 take 0.013, and
+// four times the pixels 2.8 times the bytes.
+constexpr double least_bits_a_pixel = 0.002;
 
 // Bits a pixel of the default film, a wedge of which grains fill a quarter, at quality 20. MP4: of all its
 // 352 frames; the others over MP4 as in its 29 frames from 0 to 2.4 s, one a period.
@@ -44,27 +48,46 @@ double pixels_of(const Film& film, std::int64_t frames) {
     return static_cast<double>(film.width) * film.height * static_cast<double>(frames);
 }
 
+// Bytes, by pixels, format and quality: 6 of crf halve the rate.
+double size_at(const Film& film, std::int64_t frames, int quality) {
+    const double halvings = has_quality(film.format) ? (20 - quality) / 6.0 : 0;
+    return bits_a_pixel(film.format) * std::exp2(halvings) * pixels_of(film, frames) / 8;
+}
+
+// Where small digits may read wrong, and where the film may not fit under its cap because they must not.
+void warn_of_digits(const Scene& scene, std::int64_t frames, std::vector<std::string>& warnings) {
+    const Film& film = scene.film;
+    if (!has_quality(film.format)) return;
+    if (film.quality > least_legible && film.words != WordPlace::none)
+        warnings.push_back(fmt::format("{}: above a quality of {} small digits on the frames may read wrong",
+                                       scene.where("film.quality"), least_legible));
+    const double needed = size_at(film, frames, std::max(film.quality, least_legible));
+    if (film.max_size && needed > static_cast<double>(*film.max_size))
+        warnings.push_back(
+            fmt::format("{}: the film needs about {} for its digits to read right, and may not fit "
+                        "under {}",
+                        scene.where("film.max_size"), data_size_text(needed),
+                        data_size_text(static_cast<double>(*film.max_size))));
+}
+
 }  // namespace
 
 double estimated_film_size(const Film& film, std::int64_t frames) {
-    // 6 of crf halve the rate.
-    const double quality = has_quality(film.format) ? std::exp2((20 - film.quality) / 6.0) : 1;
-    const double bytes = bits_a_pixel(film.format) * quality * pixels_of(film, frames) / 8;
+    const double bytes = size_at(film, frames, film.quality);
     return film.max_size ? std::min(bytes, static_cast<double>(*film.max_size)) : bytes;
 }
 
 void check_max_size(const Scene& scene, std::int64_t frames) {
     const Film& film = scene.film;
     if (!film.max_size || frames == 0) return;
-    const double pixels = pixels_of(film, frames);
-    if (8 * static_cast<double>(*film.max_size) >= least_bits_a_pixel * pixels) return;
-    throw UserError(
-        fmt::format("{}: {} for {} frames of {}x{} are {:.1g} bits a pixel, and grains need {:.1g} to be "
-                    "seen; allow {} or make the "
-                    "film smaller with size, rate or duration",
-                    scene.where("film.max_size"), data_size_text(static_cast<double>(*film.max_size)), frames,
-                    film.width, film.height, 8 * static_cast<double>(*film.max_size) / pixels,
-                    10 * least_bits_a_pixel, data_size_text(10 * least_bits_a_pixel * pixels / 8)));
+    const double pixels = pixels_of(film, frames), cap = static_cast<double>(*film.max_size);
+    if (8 * cap >= least_bits_a_pixel * pixels) return;
+    const double needed = size_at(film, frames, least_legible);
+    throw UserError(fmt::format(
+        "{}: {} for {} frames of {}x{} are {:.1g} bits a pixel, too few for digits to be read; a bed "
+        "of grains needs about {}. What fits: {}; or raise it",
+        scene.where("film.max_size"), data_size_text(cap), frames, film.width, film.height, 8 * cap / pixels,
+        data_size_text(needed), smaller_film(film.width, film.height, frames, cap / needed)));
 }
 
 std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames) {
@@ -74,6 +97,7 @@ std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames) 
         warnings.push_back(fmt::format("{}: {}x{} has no room for {}, left out; make it wider or show less",
                                        scene.where("film.size"), film.width, film.height,
                                        fmt::join(names, ", ")));
+    warn_of_digits(scene, frames, warnings);
     if (film.purpose != "journal") return warnings;
     constexpr int most_lines = 720, least_rate = 15, most_seconds = 300;
     if (film.height > most_lines)

@@ -13,7 +13,7 @@ namespace grainreel {
 // more than its cap.
 double estimated_film_size(const Film& film, std::int64_t frames);
 
-// Throws UserError when film.max_size leaves so few bits for a pixel that no codec could show grains.
+// Throws UserError when film.max_size leaves so few bits for a pixel that no film could be read.
 void check_max_size(const Scene& scene, std::int64_t frames);
 
 // Words that the picture has no room for; where a film for a journal is not what the journals take.

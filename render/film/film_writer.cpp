@@ -34,7 +34,7 @@ std::string film_file_name(FilmFormat format) {
 std::unique_ptr<FilmWriter> make_film_writer(const Scene& scene, const FilmWriterOptions& options) {
     if (scene.film.format == FilmFormat::png) return nullptr;
     const EncoderSettings settings = encoder_settings(scene, options);
-    if (scene.film.format == FilmFormat::gif) return std::make_unique<GifFilm>(settings);
+    if (scene.film.format == FilmFormat::gif) return std::make_unique<GifFilm>(settings, scene.film.max_size);
     if (scene.film.max_size) return std::make_unique<CappedFilm>(settings, *scene.film.max_size);
     return std::make_unique<Encoder>(settings);
 }

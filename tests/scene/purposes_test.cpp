@@ -108,9 +108,11 @@ TEST(FilmFile, WhatDoesNotGoTogetherIsRefused) {
         complaint(wedge_text, {"film.max_size=10"}),
         "--set film.max_size: 'max_size' must be a size in kB, MB, GB, KiB, MiB or GiB, but is \"10\"; write "
         "for example \"10 MB\"");
-    EXPECT_EQ(
-        complaint(wedge_text, {"film.max_size=10 MB", "film.format=gif"}),
-        "--set film.max_size: 'max_size' goes with the formats mp4 and webm, but the film is gif; remove it");
+    EXPECT_EQ(complaint(wedge_text, {"film.max_size=10 MB", "film.format=ffv1"}),
+              "--set film.max_size: 'max_size' goes with the formats mp4, webm and gif, but the film is "
+              "ffv1; remove it, "
+              "or write \"none\"");
+    EXPECT_EQ(read_text(wedge_text, {"film.max_size=3 MB", "film.format=gif"}).film.max_size, 3'000'000);
     EXPECT_EQ(complaint(wedge_text, {"film.transparent=true"}),
               "--set film.transparent: 'transparent' goes with the formats png and ffv1, but a film in mp4 "
               "keeps no "
