@@ -36,8 +36,8 @@ std::vector<MeasureColumn> measure_columns(const std::vector<std::string>& speci
     }
     columns.push_back({"height_difference", "height of big − small"});
     columns.push_back({"big_above_small", "P(big above small)"});
-    columns.push_back({"big_in_top_quarter", "share of big grains in the top quarter"});
-    columns.push_back({"unlike_neighbours", "unlike neighbours / chance"});
+    columns.push_back({"big_in_top_quarter", "big grains in top quarter"});
+    columns.push_back({"unlike_neighbours", "unlike pairs / chance"});
     columns.push_back({"lacey", "Lacey mixing index"});
     columns.push_back({"contact_number", "contacts per grain"});
     columns.push_back({"largest_overlap", "largest overlap / radius"});

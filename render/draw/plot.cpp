@@ -17,6 +17,7 @@ namespace grainreel {
 namespace {
 
 constexpr int most_ticks = 4;
+constexpr double least_room = 1e-12;  // above and below values that are all alike
 
 void set_colour(cairo_t* on, const Colour& colour) {
     cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
@@ -139,7 +140,7 @@ void Plot::widen(double value) {
     const double low = any_ ? std::min(limits_[0], value) : value;
     const double high = any_ ? std::max(limits_[1], value) : value;
     // The first value alone: room for a change by a tenth.
-    const double room = any_ ? 0 : std::max(0.1 * std::abs(value), 1e-12);
+    const double room = any_ ? 0 : std::max(0.1 * std::abs(value), least_room);
     const std::array<double, 2> wide = round_limits(low - room, high + room, most_ticks + 1);
     limits_ = {any_ ? std::min(limits_[0], wide[0]) : wide[0],
                any_ ? std::max(limits_[1], wide[1]) : wide[1]};
@@ -160,14 +161,18 @@ void Plot::draw_axes() {
 
     // As many as stand above each other.
     const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);
-    const std::vector<double> values = round_ticks(low / size, high / size, fit);
+    // Zeros alone span nothing that has a unit.
+    const bool zeros = high - low < 10 * least_room && low <= 0 && high >= 0;
+    const std::vector<double> values =
+        zeros ? std::vector<double>{0} : round_ticks(low / size, high / size, fit);
     for (const double value : values) {
         const double y = y_of(value * size);
         cairo_set_line_width(on.get(), 0.7 * pen);
         cairo_set_source_rgba(on.get(), palette_.ink.red, palette_.ink.green, palette_.ink.blue, 0.15);
         line(on.get(), left_, y, right_, y);
         const std::string text =
-            tick_text(value, values.size() > 1 ? values[1] - values[0] : std::abs(value) + 1e-30);
+            zeros ? "0"
+                  : tick_text(value, values.size() > 1 ? values[1] - values[0] : std::abs(value) + 1e-30);
         const TextSize words = measure_text(text, minor);
         draw_text(on.get(), left_ - tick - words.width, y - 0.5 * words.height, text, minor,
                   palette_.faint_ink);

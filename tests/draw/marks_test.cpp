@@ -119,6 +119,21 @@ TEST(Plots, LimitsOnlyGrowAndDependOnTheRowsAlone) {
     EXPECT_EQ(early.y_of(3.05), step_by_step.y_of(3.05));
 }
 
+// They have no scale yet: their axis says 0 and nothing else, and no label runs out of the plot.
+TEST(Plots, ZerosAloneAreCalledZero) {
+    const Scene scene = wedge(1280, 720);
+    const TypeScale type = type_scale(scene.film);
+    Plot plot(any_plot(), type, make_palette(scene.film.background));
+    plot.take(frame_with_rows({{0, 0}, {1, 0}, {2, 0}}));
+    const CairoSurface surface = blank_surface({0, 0, 300, 160}, {1, 1, 1});
+    plot.draw(CairoContext(cairo_create(surface.get())).get(), 0, 0);
+    Picture picture(300, 160);
+    copy_surface(surface.get(), {0, 0, 300, 160}, picture);
+    int at_the_edge = 0;  // below the title
+    for (int y = 40; y < 160; ++y) at_the_edge += picture.pixel(0, y)[0] < 200;
+    EXPECT_EQ(at_the_edge, 0);
+}
+
 TEST(Plots, ThePictureDependsOnTheRowsAlone) {
     const Scene scene = with_plot(960, 540);
     std::vector<std::array<double, 2>> rows;
