@@ -107,7 +107,7 @@ void ContactsWriter::write(std::int64_t frame, const std::vector<Simulation::Con
 struct ContactsReader::Impl {
     explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
         checksums = file.has_variable("checksum");
-        const std::size_t counted = file.length("row"), on_disk = file.records_on_disk();
+        const std::size_t counted = file.length("row"), on_disk = file.records_on_disk(counted);
         const std::size_t rows = std::min(counted, on_disk);
         cut_off = rows < counted;
         uncounted = on_disk - rows;

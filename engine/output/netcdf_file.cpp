@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -135,7 +137,18 @@ std::string NetcdfFile::text_attribute(int variable, const std::string& name) co
     return text;
 }
 
-std::size_t NetcdfFile::records_on_disk() const {
+std::size_t NetcdfFile::records_on_disk(std::size_t counted) const {
+    constexpr auto patience = std::chrono::milliseconds(500), nap = std::chrono::milliseconds(10);
+    constexpr auto lately = std::chrono::seconds(10);
+    std::error_code error;
+    const auto written = std::filesystem::last_write_time(path_, error);
+    const bool goes_on = !error && std::filesystem::file_time_type::clock::now() - written < lately;
+    for (auto waited = nap; goes_on && whole_records() < counted && waited < patience; waited += nap)
+        std::this_thread::sleep_for(nap);
+    return whole_records();
+}
+
+std::size_t NetcdfFile::whole_records() const {
     std::error_code error;
     const std::uint64_t length = std::filesystem::file_size(path_, error);
     if (header_.record == 0 || error) return 0;

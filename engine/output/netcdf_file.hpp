@@ -39,8 +39,9 @@ class NetcdfFile {
     std::size_t length(const std::string& dimension) const;                   // UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
     // How many whole records lie in the file that is read, whatever its header counts: fewer when it was cut
-    // off, more when the count is damaged.
-    std::size_t records_on_disk() const;
+    // off, more when the count is damaged. Waits a little where fewer than `counted` lie there and the file was
+    // written a moment ago: the library counts a record shortly before it writes it.
+    std::size_t records_on_disk(std::size_t counted) const;
 
     void put(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
              const int* values);
@@ -64,6 +65,7 @@ class NetcdfFile {
   private:
     NetcdfFile(const std::filesystem::path& path, int id, bool writing)
         : path_(path), id_(id), writing_(writing) {}
+    std::size_t whole_records() const;
     // Notes a failed write and throws RunError.
     void wrote(int status);
     template <class Function, class Value>

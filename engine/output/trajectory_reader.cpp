@@ -52,7 +52,7 @@ struct TrajectoryReader::Impl {
     explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
         check_complete(file, source);
         frames = file.length("frame");
-        const std::size_t on_disk = file.records_on_disk();
+        const std::size_t on_disk = file.records_on_disk(frames);
         check_whole(frames, on_disk, source);
         uncounted = on_disk - frames;
         info.title = file.text_attribute(NC_GLOBAL, "title");

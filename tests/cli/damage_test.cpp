@@ -97,7 +97,7 @@ TEST(Damage, NoFrameIsReadThatWasNotWritten) {
     std::mt19937 random(33);
     int refused = 0, left_out = 0;
     for (int trial = 0; trial < 300; ++trial) {
-        write_text(here / "d.nc", damaged(whole, random));
+        write_old_text(here / "d.nc", damaged(whole, random));
         try {
             const TrajectoryReader reader(here / "d.nc");
             EXPECT_EQ(reader.frames() + reader.uncounted(), std::size_t{frames}) << trial;
@@ -130,7 +130,7 @@ TEST(Damage, AnEarlierVersionsFramesHoldOnlyWhatARunCanHave) {
     std::mt19937 random(34);
     int left_out = 0;
     for (int trial = 0; trial < 300; ++trial) {
-        write_text(here / "d.nc", damaged(whole, random));
+        write_old_text(here / "d.nc", damaged(whole, random));
         try {
             const TrajectoryReader reader(here / "d.nc");
             EXPECT_FALSE(reader.info().checksums);
@@ -160,7 +160,7 @@ TEST(Damage, NoContactIsReadThatWasNotWritten) {
     std::mt19937 random(35);
     int refused = 0;
     for (int trial = 0; trial < 300; ++trial) {
-        write_text(here / "d.nc", damaged(whole, random));
+        write_old_text(here / "d.nc", damaged(whole, random));
         try {
             const ContactsReader reader(here / "d.nc");
             if (reader.cut_off() || reader.uncounted() > 0 || !reader.has_checksums())
@@ -188,7 +188,7 @@ TEST(Damage, ACountIsHeldAgainstTheFile) {
     for (std::size_t at = 4; at + 4 < whole.find("wall_offset"); at += 4) {
         std::string bytes = whole;
         bytes.replace(at, 4, "\x7f\xff\xff\xff");
-        write_text(here / "d.nc", bytes);
+        write_old_text(here / "d.nc", bytes);
         try {
             const TrajectoryReader reader(here / "d.nc");
             for (std::size_t i = 0; i < reader.frames(); ++i) reader.read(i);

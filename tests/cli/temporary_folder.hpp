@@ -1,6 +1,7 @@
 // An empty folder for one test, gone afterwards.
 #pragma once
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -37,6 +38,12 @@ inline std::string text_of(const std::filesystem::path& path) {
 
 inline void write_text(const std::filesystem::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
+}
+
+// As if it had been there for an hour: nobody waits for the rest of it.
+inline void write_old_text(const std::filesystem::path& path, const std::string& text) {
+    write_text(path, text);
+    std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
 }
 
 }  // namespace grainreel::test

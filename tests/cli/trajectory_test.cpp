@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <netcdf.h>
 
+#include <thread>
+
 #include "engine/base/error.hpp"
 #include "engine/output/contacts_file.hpp"
 #include "engine/output/netcdf_header.hpp"
@@ -222,11 +224,28 @@ TEST(Trajectory, AFileThatWasCutOffIsAUserError) {
     const std::size_t record = (whole.size() - 1) / 3;  // and part of the header
     const std::vector<std::pair<std::size_t, int>> cuts = {{1, 2}, {600, 2}, {record, 1}};
     for (const auto& [cut, left] : cuts) {
-        test::write_text(here / "cut.nc", whole.substr(0, whole.size() - cut));
+        test::write_old_text(here / "cut.nc", whole.substr(0, whole.size() - cut));
         EXPECT_THAT(mistake_in(here / "cut.nc"),
                     testing::HasSubstr("cut.nc: was cut off: of its 3 frames " + std::to_string(left)));
     }
     EXPECT_EQ(mistake_in(here / "t.nc"), "none");
+}
+
+// The library counts a frame shortly before it writes it.
+TEST(Trajectory, AFrameThatIsOnItsWayIsWaitedFor) {
+    const TemporaryFolder here;
+    {
+        TrajectoryWriter writer(here / "t.nc", made_info(20));
+        for (int i = 0; i < 3; ++i) writer.write(made_frame(20, i));
+    }
+    const std::string whole = test::text_of(here / "t.nc");
+    test::write_text(here / "half.nc", whole.substr(0, whole.size() - 600));
+    std::thread writer([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        std::ofstream(here / "half.nc", std::ios::app | std::ios::binary) << whole.substr(whole.size() - 600);
+    });
+    EXPECT_EQ(mistake_in(here / "half.nc"), "none");
+    writer.join();
 }
 
 TEST(Trajectory, AMomentIsAFrameWithoutGrains) {
