@@ -39,8 +39,8 @@ class NetcdfFile {
     std::size_t length(const std::string& dimension) const;                   // UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
     // How many whole records lie in the file that is read, whatever its header counts: fewer when it was cut
-    // off, more when the count is damaged. Waits a little where fewer than `counted` lie there and the file was
-    // written a moment ago: the library counts a record shortly before it writes it.
+    // off, more when the count is damaged. Waits a little where fewer than `counted` lie there and the file
+    // was written a moment ago: the library counts a record shortly before it writes it.
     std::size_t records_on_disk(std::size_t counted) const;
 
     void put(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,

@@ -147,8 +147,7 @@ TEST_F(CompareProgram, WhatHasNoRoomOrCannotBeShownIsNamed) {
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("--size: 320x240 has no room for plots under 2 panels"));
     EXPECT_THAT(ended.err, HasSubstr("film.axes: films side by side have no axes"));
-    EXPECT_THAT(ended.err,
-                HasSubstr("'average' is left out: frames of a finished run are single moments"));
+    EXPECT_THAT(ended.err, HasSubstr("'average' is left out: frames of a finished run are single moments"));
 }
 
 // A run that kept no frame a period before the others cannot show displacements over one.

@@ -43,7 +43,8 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
 // As if it had been there for an hour: nobody waits for the rest of it.
 inline void write_old_text(const std::filesystem::path& path, const std::string& text) {
     write_text(path, text);
-    std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    std::filesystem::last_write_time(path,
+                                     std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
 }
 
 }  // namespace grainreel::test
