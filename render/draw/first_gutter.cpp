@@ -27,6 +27,7 @@ class Column {
             return;
         }
         block(writer, box_.x, y);
+        part_.blocks.push_back({name, {box_.x, y, size.width, size.height}});
         box_.width = std::max(box_.width, size.width);
         y_ = y + size.height;
     }

@@ -10,6 +10,11 @@
 namespace grainreel {
 
 struct FirstPart {
+    struct Block {
+        std::string name;
+        WordBox box;
+    };
+    std::vector<Block> blocks;
     double height = 0;                  // that it takes, margins left out
     std::vector<WordBox> boxes;         // around what stands together
     std::vector<std::string> left_out;  // what there was no room for

@@ -222,6 +222,11 @@ NumbersPlan Planner::row() {
 
 NumbersPlan plan_numbers(const Writer& measure, const Scene& scene, double width, double height,
                          bool stacked) {
+    if (width <= 0) {  // there is no gutter
+        NumbersPlan none;
+        none.has_dial = none.has_arrows = false;
+        return none;
+    }
     const auto planner = [&](Wanted wanted) {
         return Planner(measure, scene, width, height, stacked, wanted);
     };
