@@ -13,7 +13,9 @@
 namespace grainreel {
 namespace {
 
-constexpr double most_steps = 9.2e18;                                         // of a signed 64-bit count
+constexpr double most_steps = 9e15;  // up to there a double counts exactly, and so are times
+constexpr double most_records =
+    1e9;  // of a file: 400 GB of measures, and NetCDF numbers no more than twice that
 constexpr double frames_without_drive = 1.0 / 30, rows_without_drive = 0.01;  // s
 
 void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
@@ -38,10 +40,10 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
 std::int64_t count_steps(const Scene& scene, double seconds, double step, const char* key) {
     const double steps = seconds / step;
     if (steps > most_steps)
-        throw UserError(fmt::format(
-            "{}: {:.4g} s in steps of {:.4g} s make {:.3g} steps, more than a 64-bit count holds; "
-            "shorten it or lengthen run.step",
-            scene.where(key), seconds, step, steps));
+        throw UserError(
+            fmt::format("{}: {:.4g} s in steps of {:.4g} s make {:.3g} steps, and the most are {:.2g}; "
+                        "shorten it or lengthen run.step",
+                        scene.where(key), seconds, step, steps, most_steps));
     return std::llround(steps);
 }
 
@@ -53,10 +55,20 @@ Clock plan_clock(const Scene& scene, double step) {
     if (!scene.drive.present) return clock;
     // A step that was so rounded before comes back as it was, hence the hair of tolerance.
     const double eighths = std::max(1.0, std::ceil(1 / (8 * scene.drive.frequency * step) * (1 - 1e-12)));
-    clock.steps_per_period = 8 * count_steps(scene, eighths, 1, "drive.frequency");
+    clock.steps_per_period = count_steps(scene, 8 * eighths, 1, "drive.frequency");
     clock.step = 1 / (scene.drive.frequency * static_cast<double>(clock.steps_per_period));
     clock.initial_phase = scene.drive.phase;
     return clock;
+}
+
+// What a file would hold one of every so many steps.
+void check_records(const Scene& scene, const Plan& plan, double every, const char* what, const char* key) {
+    const double records = static_cast<double>(plan.steps) / every;
+    if (records <= most_records) return;
+    throw UserError(fmt::format(
+        "{}: the run's {} steps make {:.4g} {}, and the most are {:.2g}; lengthen '{}' or shorten "
+        "'run.duration'",
+        scene.where(key), plan.steps, records, what, most_records, key));
 }
 
 void plan_output(const Scene& scene, Plan& plan) {
@@ -74,6 +86,10 @@ void plan_output(const Scene& scene, Plan& plan) {
             every(output.trajectory_interval, period, frames_without_drive, "output.trajectory_interval");
     plan.measures_every =
         every(output.measures_interval, period / 8, rows_without_drive, "output.measures_interval");
+    if (output.trajectory)
+        check_records(scene, plan, plan.trajectory_every, "frames of the trajectory",
+                      "output.trajectory_interval");
+    check_records(scene, plan, plan.measures_every, "rows of measures", "output.measures_interval");
 }
 
 // Here and not in the reader: a finished run is drawn again though its start file may be gone.

@@ -3,33 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/reader_parts.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/scene/words.hpp"
 
 namespace grainreel {
 namespace {
-
-constexpr std::size_t most_of_a_path = 400;  // characters, in a message
-
-std::string load(const std::filesystem::path& file) {
-    const std::string name = excerpt(file.string(), most_of_a_path);
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored))
-        throw UserError(fmt::format("{}: this is a folder; give the path of a scene file (.toml)", name));
-    if (!std::filesystem::exists(file, ignored))
-        throw UserError(
-            fmt::format("{}: there is no such file; give the path of a scene file (.toml)", name));
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw UserError(fmt::format("{}: cannot be read; check its permissions", name));
-    return text.str();
-}
 
 // It is the film's title and its folder's name when the scene has no other.
 void check_name(const std::filesystem::path& file) {
@@ -98,7 +80,7 @@ void read_output(Document& document, Scene& scene) {
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const Assignments& sets) {
-    return read_scene_text(load(file), file, sets);
+    return read_scene_text(load_scene_file(file), file, sets);
 }
 
 Scene read_scene_text(std::string_view text, const std::filesystem::path& file, const Assignments& sets) {

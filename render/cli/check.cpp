@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "engine/base/team.hpp"
-#include "engine/chart/single_contact.hpp"
+#include "engine/chart/promised_error.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/data_size.hpp"
 #include "render/cli/thread_plan.hpp"
@@ -184,33 +184,23 @@ std::string stiffness_text(const PairPlan& pair) {
                             : fmt::format("{:.3g} N/m", pair.loading_stiffness);
 }
 
-// How far the restitution of a free impact is off at worst, found by making the impact.
-std::string restitution_error(const Plan& plan, const PairPlan& pair) {
-    NormalForce law = pair.model.normal;
-    if (law == NormalForce::walton_braun_speed || law == NormalForce::walton_braun_table)
-        law = NormalForce::walton_braun;
-    const Method method{"", plan.integrator, law, TangentialLaw::none, pair.model.precision};
-    const double steps = pair.contact_time / plan.clock.step;
-    if (steps < 2) return "-";
-    return fmt::format("{:.1g}", normal_errors(method, pair.restitution, steps, 50).restitution);
-}
-
 void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
     std::size_t widest = 8;
     for (const Species& s : scene.species) widest = std::max(widest, 2 * s.name.size() + 3);
     fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6}{:>8}{:>10}{:>12}{:>9}\n", "contacts", "", widest,
                "stiffness", "chosen for", "e", "error", "friction", "duration", "steps");
-    const auto row = [&](const std::string& name, const PairPlan& pair) {
+    const auto row = [&](const std::string& name, const PairPlan& pair, const Species& a, const Species* b) {
         fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6.3g}{:>8}{:>10.3g}{:>12}{:>9.1f}\n", "", name, widest,
                    stiffness_text(pair), pair.stiffness_reason, pair.restitution,
-                   restitution_error(plan, pair), pair.friction, span(pair.contact_time),
-                   pair.contact_time / plan.clock.step);
+                   promised_error_text(promised_restitution_error(plan, pair, a, b)), pair.friction,
+                   span(pair.contact_time), pair.contact_time / plan.clock.step);
     };
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         for (std::size_t b = a; b < scene.species.size(); ++b)
             if (a != b || scene.species[a].count > 1)  // a single grain never meets its like
-                row(scene.species[a].name + " - " + scene.species[b].name, plan.between(a, b));
-        row(scene.species[a].name + " - wall", plan.wall[a]);
+                row(scene.species[a].name + " - " + scene.species[b].name, plan.between(a, b),
+                    scene.species[a], &scene.species[b]);
+        row(scene.species[a].name + " - wall", plan.wall[a], scene.species[a], nullptr);
     }
 }
 
@@ -241,7 +231,7 @@ struct FilmCost {
 FilmCost film_cost(const Scene& scene, const Plan& plan) {
     FilmCost cost;
     const Film& film = scene.film;
-    cost.frames = film_schedule(film, plan.clock, plan.steps).size();
+    cost.frames = film_schedule(scene, plan.clock, plan.steps).size();
     cost.playing = static_cast<double>(cost.frames) / film.rate;
     cost.pixels = static_cast<double>(film.width) * film.height / full_hd;
     cost.seconds = static_cast<double>(cost.frames) * seconds_a_frame * cost.pixels;

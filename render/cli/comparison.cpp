@@ -152,7 +152,7 @@ void take_moments_of_schedule(Comparison& all) {
     const std::vector<Scene> scenes = scenes_of(all);
     all.reference = reference_of(scenes);
     const auto& run = dynamic_cast<const LivePanel&>(*all.sources[all.reference]).run();
-    all.instants = instants_of(all.film.film, run.plan().clock, run.plan().steps);
+    all.instants = instants_of(all.film, run.plan().clock, run.plan().steps);
     std::set<double> frequencies;
     for (const Scene& scene : scenes) {
         if (!scene.drive.present || !frequencies.insert(scene.drive.frequency).second) continue;

@@ -59,10 +59,11 @@ int run(const grainreel::Options& options, grainreel::Reporter& reporter) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    grainreel::install_signal_handlers();
+    grainreel::ignore_write_signals();
     try {
         const std::optional<grainreel::Options> options = grainreel::parse_options(argc, argv);
         if (!options) return 0;
+        if (options->verb != grainreel::Options::Verb::check) grainreel::install_stop_handlers();
         grainreel::Reporter reporter(options->report);
         return run(*options, reporter);
     } catch (const grainreel::UserError& mistake) {

@@ -12,7 +12,7 @@ namespace grainreel {
 namespace {
 
 std::vector<Shot> schedule(const Scene& scene, const Plan& plan, bool wanted) {
-    return wanted ? film_schedule(scene.film, plan.clock, plan.steps) : std::vector<Shot>();
+    return wanted ? film_schedule(scene, plan.clock, plan.steps) : std::vector<Shot>();
 }
 
 ThreadPlan threads_for(const Scene& scene, bool film) {

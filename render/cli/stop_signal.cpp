@@ -31,7 +31,12 @@ bool ignored(int signal) {
 
 }  // namespace
 
-void install_signal_handlers() {
+void ignore_write_signals() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void install_stop_handlers() {
     struct sigaction action {};
     action.sa_handler = on_stop;
     action.sa_flags = SA_RESTART;  // files are being written: no call of theirs is to fail for it
@@ -39,8 +44,6 @@ void install_signal_handlers() {
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     if (!ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);
-    std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int stop_signal() {

@@ -5,9 +5,12 @@
 
 namespace grainreel {
 
-// A SIGHUP that is ignored already, as under nohup, stays ignored. SIGPIPE and SIGXFSZ are ignored from then
-// on: a closed pipe or a full quota shows as a failed write.
-void install_signal_handlers();
+// SIGPIPE and SIGXFSZ are ignored from then on: a closed pipe or a full quota shows as a failed write.
+void ignore_write_signals();
+
+// For verbs that look at stop_signal(); any other is ended by the first signal. A SIGHUP that is ignored
+// already, as under nohup, stays ignored.
+void install_stop_handlers();
 
 // SIGINT, SIGTERM or SIGHUP, whichever came first; 0 while none did.
 int stop_signal();

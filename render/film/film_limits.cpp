@@ -70,11 +70,53 @@ void warn_of_digits(const Scene& scene, std::int64_t frames, std::vector<std::st
                         data_size_text(static_cast<double>(*film.max_size))));
 }
 
+std::string key_of_segment(std::size_t segment, const char* key) {
+    return fmt::format("film.segment[{}].{}", segment, key);
+}
+
+[[noreturn]] void fail_frames(const Scene& scene, std::size_t segment, double frames) {
+    const bool any = segment < scene.film.segments.size();
+    const bool locked = any && scene.film.segments[segment].kind == FilmSegment::Kind::locked;
+    const std::string key = any ? key_of_segment(segment, locked ? "every" : "playback") : "run.duration";
+    const std::string how =
+        locked ? fmt::format("raise '{}'", key)
+        : any  ? fmt::format("raise '{}', now {:.4g},", key, scene.film.segments[segment].playback)
+               : std::string("lower 'film.rate'");
+    throw UserError(fmt::format(
+        "{}: the film would have {:.4g} frames, and the most are {}; {} or shorten 'run.duration'",
+        scene.where(key), frames, most_frames, how));
+}
+
+[[noreturn]] void fail_moments(const Scene& scene, std::size_t segment, double moments) {
+    const bool averages = scene.film.segments.at(segment).average > 0;
+    const std::string key = key_of_segment(segment, averages ? "average" : "exposures");
+    throw UserError(
+        fmt::format("{}: the film's pictures would be made of {:.4g} earlier moments, and the most are {}; "
+                    "lower '{}' or make the film shorter",
+                    scene.where(key), moments, most_moments, key));
+}
+
 }  // namespace
 
 double estimated_film_size(const Film& film, std::int64_t frames) {
     const double bytes = size_at(film, frames, film.quality);
     return film.max_size ? std::min(bytes, static_cast<double>(*film.max_size)) : bytes;
+}
+
+void check_schedule(const Scene& scene, const std::vector<SegmentCount>& counts) {
+    double shots = 0, moments = 0;  // doubles: sums of what may be anything
+    std::size_t longest = 0, most = 0;
+    const auto moments_of = [&](std::size_t i) {
+        return static_cast<double>(counts[i].shots) * static_cast<double>(counts[i].moments_a_shot);
+    };
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        shots += static_cast<double>(counts[i].shots);
+        moments += moments_of(i);
+        if (counts[i].shots > counts[longest].shots) longest = i;
+        if (moments_of(i) > moments_of(most)) most = i;
+    }
+    if (shots > static_cast<double>(most_frames)) fail_frames(scene, longest, shots);
+    if (moments > static_cast<double>(most_moments)) fail_moments(scene, most, moments);
 }
 
 void check_max_size(const Scene& scene, std::int64_t frames) {

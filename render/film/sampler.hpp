@@ -20,12 +20,23 @@ struct Shot {
 // "1 frame a period at phase 0.25 (plays 1.5×)". UTF-8.
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate);
 
+// How much a segment makes, at most: motion may round two shots to one step.
+struct SegmentCount {
+    std::int64_t shots = 0;
+    std::int64_t moments_a_shot = 0;    // earlier steps that each shot is exposed over or averaged from
+    std::int64_t exposures_a_shot = 0;  // of them those that are drawn: the exposed
+};
+
+// One a segment, in closed form: nothing is made. Throws UserError when a segment is locked but the clock has
+// no periods.
+std::vector<SegmentCount> count_film(const Scene& scene, const Clock& clock, std::int64_t steps);
+
 // Shots in strictly rising order of step, from step 0 to `steps`. Motion segments sample evenly in simulated
 // time (rounded to the nearest step); locked ones take one step every `every` periods at `phase`. Segments
 // follow each other without a gap; the one without a duration takes what the others leave. No segments: one
-// in real time. The segments' film ends with them when they are shorter than `steps`. Throws UserError when a
-// segment is locked but the clock has no periods.
-std::vector<Shot> film_schedule(const Film& film, const Clock& clock, std::int64_t steps);
+// in real time. The segments' film ends with them when they are shorter than `steps`. Throws UserError when
+// count_film does, and before anything is made when that is more than a film may have (check_schedule).
+std::vector<Shot> film_schedule(const Scene& scene, const Clock& clock, std::int64_t steps);
 
 // How a segment is shown while the bed repeats itself after that many periods: its locked frames and means
 // span whole multiples of them.

@@ -35,7 +35,7 @@ std::size_t reference_of(const std::vector<Scene>& scenes) {
     return reference;
 }
 
-std::vector<Instant> instants_of(const Film& film, const Clock& reference, std::int64_t steps) {
+std::vector<Instant> instants_of(const Scene& film, const Clock& reference, std::int64_t steps) {
     std::vector<Instant> instants;
     for (const Shot& shot : film_schedule(film, reference, steps))
         instants.push_back({reference.time(shot.step), shot.segment});

@@ -19,8 +19,8 @@ struct Instant {
 // has to show a moment twice; the first when none is driven.
 std::size_t reference_of(const std::vector<Scene>& scenes);
 
-// The film's shots at the reference's steps.
-std::vector<Instant> instants_of(const Film& film, const Clock& reference, std::int64_t steps);
+// The film's shots at the reference's steps; of the scene only the film counts.
+std::vector<Instant> instants_of(const Scene& film, const Clock& reference, std::int64_t steps);
 
 // One shot an instant, from step 0 to `steps`: the step nearest in time, and in a locked segment the nearest
 // of those at its phase of this scene's own drive. Two scenes of one frequency and phase so show one cycle.

@@ -67,7 +67,7 @@ TEST_F(MovieProgram, WritesTheFilmAndTheNumbers) {
     const Scene read = read_scene(scene);
     const Plan plan = make_plan(read);
 
-    const auto shots = static_cast<int>(film_schedule(read.film, plan.clock, plan.steps).size());
+    const auto shots = static_cast<int>(film_schedule(read, plan.clock, plan.steps).size());
     EXPECT_EQ(decoded_pictures(run / "movie.mp4"), shots);
     EXPECT_EQ(std::distance(fs::directory_iterator(run / "frames"), {}), shots);
     EXPECT_TRUE(fs::exists(run / "poster.png"));

@@ -38,6 +38,18 @@ Film film_of(std::vector<FilmSegment> segments, double rate = 30) {
     return film;
 }
 
+// With a place for messages.
+Scene scene_with(const Film& film) {
+    Scene scene;
+    scene.file = "a.toml";
+    scene.film = film;
+    return scene;
+}
+
+std::vector<Shot> schedule_of(const Film& film, const Clock& clock, std::int64_t steps) {
+    return film_schedule(scene_with(film), clock, steps);
+}
+
 Clock clock_of(double frequency, std::int64_t steps_per_period, double initial_phase = 0) {
     return {1 / (frequency * static_cast<double>(steps_per_period)), steps_per_period, initial_phase};
 }
@@ -53,7 +65,7 @@ TEST(FilmSchedule, MotionTakesTheStepNearestToEachFramesTime) {
     const Clock clock{7e-5, 0, 0};  // no drive; the frame interval is no whole number of steps
     const std::int64_t steps = 20'000;
     const double playback = 0.3, rate = 25;
-    const std::vector<Shot> shots = film_schedule(film_of({motion({}, playback)}, rate), clock, steps);
+    const std::vector<Shot> shots = schedule_of(film_of({motion({}, playback)}, rate), clock, steps);
     const auto count = static_cast<std::size_t>(std::floor(clock.time(steps) * rate / playback)) + 1;
     ASSERT_THAT(shots, SizeIs(count));
     for (std::size_t k = 0; k < count; ++k) {
@@ -65,7 +77,7 @@ TEST(FilmSchedule, MotionTakesTheStepNearestToEachFramesTime) {
 
 TEST(FilmSchedule, WithoutSegmentsTheFilmIsInRealTime) {
     const Clock clock{1e-4, 0, 0};
-    const std::vector<Shot> shots = film_schedule(film_of({}), clock, 20'000);
+    const std::vector<Shot> shots = schedule_of(film_of({}), clock, 20'000);
     ASSERT_THAT(shots, SizeIs(2 * 30 + 1));
     EXPECT_EQ(shots.front().step, 0);
     EXPECT_EQ(shots.back().step, 20'000);
@@ -77,7 +89,7 @@ TEST(FilmSchedule, LockedShotsHaveTheAskedPhaseOfTheDriveExactly) {
             const Clock clock = clock_of(20, 1600, initial);
             const double phase = 0.375;
             const std::vector<Shot> shots =
-                film_schedule(film_of({locked({}, every, phase)}), clock, 100 * 1600 - 1);
+                schedule_of(film_of({locked({}, every, phase)}), clock, 100 * 1600 - 1);
             ASSERT_THAT(shots, SizeIs(static_cast<std::size_t>(100 / every)));
             EXPECT_LT(shots.front().step, 1600);
             for (std::size_t k = 0; k < shots.size(); ++k) {
@@ -90,16 +102,16 @@ TEST(FilmSchedule, LockedShotsHaveTheAskedPhaseOfTheDriveExactly) {
 
 TEST(FilmSchedule, ALockedPhaseIsRoundedToAWholeStep) {
     const Clock clock = clock_of(10, 8);
-    EXPECT_EQ(film_schedule(film_of({locked({}, 1, 0.3)}), clock, 80).front().step, std::llround(0.3 * 8));
+    EXPECT_EQ(schedule_of(film_of({locked({}, 1, 0.3)}), clock, 80).front().step, std::llround(0.3 * 8));
     // 0.99 of 8 steps rounds to 8: the phase 0 of the next period, which is the step 0 of this one.
-    EXPECT_EQ(film_schedule(film_of({locked({}, 1, 0.99)}), clock, 80).front().step, 0);
+    EXPECT_EQ(schedule_of(film_of({locked({}, 1, 0.99)}), clock, 80).front().step, 0);
 }
 
 TEST(FilmSchedule, SegmentsFollowEachOtherAndTheOpenOneTakesTheRest) {
     const Clock clock = clock_of(20, 1000);
     const std::int64_t steps = 10 * 20 * 1000;
     const std::vector<Shot> shots =
-        film_schedule(film_of({motion(0.5, 0.1), locked({}, 2, 0.25), motion(1.0, 0.2)}), clock, steps);
+        schedule_of(film_of({motion(0.5, 0.1), locked({}, 2, 0.25), motion(1.0, 0.2)}), clock, steps);
     std::vector<std::vector<double>> times(3);
     for (std::size_t i = 0; i < shots.size(); ++i) {
         if (i > 0) {
@@ -121,7 +133,7 @@ TEST(FilmSchedule, SegmentsFollowEachOtherAndTheOpenOneTakesTheRest) {
 TEST(FilmSchedule, NothingIsTakenBeyondTheRun) {
     const Clock clock = clock_of(20, 1000);
     const std::vector<Shot> shots =
-        film_schedule(film_of({motion(1.0, 1), locked(5.0, 1, 0), motion({}, 0.1)}), clock, 50'000);
+        schedule_of(film_of({motion(1.0, 1), locked(5.0, 1, 0), motion({}, 0.1)}), clock, 50'000);
     ASSERT_FALSE(shots.empty());
     EXPECT_LE(shots.back().step, 50'000);
     EXPECT_EQ(shots.back().step, 50'000);  // a whole number of periods: the last locked shot is the last step
@@ -129,18 +141,79 @@ TEST(FilmSchedule, NothingIsTakenBeyondTheRun) {
 
 TEST(FilmSchedule, SlowerThanTheStepsStillRisesStrictly) {
     const Clock clock{1e-3, 0, 0};
-    const std::vector<Shot> shots = film_schedule(film_of({motion({}, 0.01)}), clock, 10);
+    const std::vector<Shot> shots = schedule_of(film_of({motion({}, 0.01)}), clock, 10);
     ASSERT_THAT(shots, SizeIs(11));
     for (std::size_t k = 0; k < shots.size(); ++k) EXPECT_EQ(shots[k].step, static_cast<std::int64_t>(k));
 }
 
+// Counts are closed forms, so they can be had of schedules that nobody could make.
+TEST(FilmSchedule, IsCountedAsItIsMade) {
+    const Clock clock = clock_of(20, 1000, 0.3);
+    for (const double playback : {1e-320, 1e-3, 0.0007, 0.3, 1.0, 2.5, 1e16})
+        for (const int every : {1, 4})
+            for (const std::int64_t steps : {1, 999, 1000, 54'321}) {
+                const Scene scene =
+                    scene_with(film_of({motion(0.7, playback), locked(1.0, every, 0.9), motion({}, 1)}));
+                std::int64_t made = 0, counted = 0;
+                for (const SegmentCount& count : count_film(scene, clock, steps)) counted += count.shots;
+                made = static_cast<std::int64_t>(film_schedule(scene, clock, steps).size());
+                EXPECT_EQ(made, counted) << playback << ' ' << every << ' ' << steps;
+            }
+}
+
+TEST(FilmSchedule, AnEndlessPlaybackShowsTheStartAlone) {
+    const std::vector<Shot> shots = schedule_of(film_of({motion({}, 1e300)}), clock_of(20, 1000), 50'000);
+    ASSERT_THAT(shots, SizeIs(1));
+    EXPECT_EQ(shots[0].step, 0);
+}
+
+std::string complaint_of(const Film& film, const Clock& clock, std::int64_t steps) {
+    Scene scene = scene_with(film);
+    scene.written["film.segment[0]"] = {"a.toml", 4, 1};
+    scene.written["film.segment[0].playback"] = {"a.toml", 5, 2};
+    try {
+        film_schedule(scene, clock, steps);
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+// 1e9 s at 1e8 Hz: 1e17 periods, and one step each for the slowest of motions.
+TEST(FilmSchedule, NoMoreIsMadeThanAFilmMayHave) {
+    const Clock clock = clock_of(1e8, 8);
+    const std::int64_t steps = 800'000'000'000'000;
+    EXPECT_EQ(complaint_of(film_of({locked({}, 1, 0)}), clock, steps),
+              "a.toml:4:1: the film would have 1e+14 frames, and the most are 10000000; raise "
+              "'film.segment[0].every' or shorten 'run.duration'");
+    EXPECT_EQ(complaint_of(film_of({motion({}, 1e-320)}), clock, steps),
+              "a.toml:5:2: the film would have 8e+14 frames, and the most are 10000000; raise "
+              "'film.segment[0].playback', now 1e-320, or shorten 'run.duration'");
+}
+
+TEST(FilmSchedule, NoMoreMomentsAreKeptThanAFilmMayHave) {
+    const Clock clock = clock_of(20, 1000);
+    FilmSegment means = locked({}, 1, 0);
+    means.average = 1000;  // 16 a period, and the one before: 16,001 a picture
+    const std::int64_t periods = 20'000'000 / 16'001 + 1;
+    EXPECT_EQ(complaint_of(film_of({means}), clock, 1000 * (periods - 2)), "no error");
+    EXPECT_THAT(complaint_of(film_of({means}), clock, 1000 * periods),
+                HasSubstr("a.toml:4:1: the film's pictures would be made of 2.002e+07 earlier moments"));
+    FilmSegment open = motion({}, 1e-9);
+    open.exposure = 1e300;
+    open.exposures = 1000;
+    EXPECT_THAT(complaint_of(film_of({open}), clock, 100'000),
+                HasSubstr("lower 'film.segment[0].exposures'"));
+    EXPECT_THAT(exposed_steps({5000, 0}, open, clock), SizeIs(999));
+}
+
 TEST(FilmSchedule, ALockWithoutADriveIsTheUsersMistake) {
     try {
-        film_schedule(film_of({motion(1.0, 1), locked({}, 1, 0)}), Clock{1e-4, 0, 0}, 100'000);
+        schedule_of(film_of({motion(1.0, 1), locked({}, 1, 0)}), Clock{1e-4, 0, 0}, 100'000);
         FAIL() << "no error";
     } catch (const UserError& error) {
         EXPECT_STREQ(error.what(),
-                     "film segment 2 is locked to the drive's phase, but nothing is driven; give the "
+                     "a.toml: film segment 2 is locked to the drive's phase, but nothing is driven; give the "
                      "scene a drive, or make it a motion segment");
     }
 }

@@ -20,6 +20,12 @@ Scene driven(double frequency) {
     return scene;
 }
 
+Scene scene_with(const Film& film) {
+    Scene scene;
+    scene.film = film;
+    return scene;
+}
+
 FilmSegment locked(double phase) {
     FilmSegment segment;
     segment.kind = FilmSegment::Kind::locked;
@@ -37,7 +43,7 @@ TEST(Timeline, OneFrequencyShowsOnePhaseAndCycle) {
     Film film;
     film.segments = {locked(0.25)};
     const Clock a = clock_of(20, 800), b = clock_of(20, 1360);  // steps of their own
-    const std::vector<Instant> instants = instants_of(film, a, 8000);
+    const std::vector<Instant> instants = instants_of(scene_with(film), a, 8000);
     ASSERT_EQ(instants.size(), 10u);
     const std::vector<Shot> of_a = shots_at(instants, film.segments, a, 8000);
     const std::vector<Shot> of_b = shots_at(instants, film.segments, b, 13600);
@@ -53,7 +59,7 @@ TEST(Timeline, OtherFrequenciesKeepTheirPhase) {
     film.segments = {locked(0.5)};
     const Clock reference = clock_of(7, 80), other = clock_of(11, 160, 0.125);
     const std::int64_t steps = 160 * 20;
-    const std::vector<Instant> instants = instants_of(film, reference, 80 * 12);
+    const std::vector<Instant> instants = instants_of(scene_with(film), reference, 80 * 12);
     const std::vector<Shot> shots = shots_at(instants, film.segments, other, steps);
     ASSERT_EQ(shots.size(), instants.size());
     for (std::size_t i = 0; i < shots.size(); ++i) {
@@ -70,7 +76,7 @@ TEST(Timeline, MotionTakesTheNearestStepAndNeverOneBeyondTheEnd) {
     film.rate = 30;
     film.segments = {FilmSegment()};
     const Clock undriven{0.0013, 0, 0};
-    const std::vector<Instant> instants = instants_of(film, clock_of(20, 80), 160);  // 0.1 s
+    const std::vector<Instant> instants = instants_of(scene_with(film), clock_of(20, 80), 160);  // 0.1 s
     ASSERT_EQ(instants.size(), 4u);
     const std::vector<Shot> shots = shots_at(instants, film.segments, undriven, 70);
     for (std::size_t i = 0; i + 1 < shots.size(); ++i)

@@ -1,0 +1,112 @@
+// `grainreel check` as its users meet it: what it refuses at once, and what ends it.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+
+class CheckProgram : public testing::Test {
+  protected:
+    Program::Setting setting() const { return {here.path(), {"XDG_CACHE_HOME=" + here.path().string()}}; }
+    Ended check(std::vector<std::string> words) const {
+        words.insert(words.begin(), "check");
+        return run_program(words, setting());
+    }
+
+    TemporaryFolder here;
+    fs::path scene = write_small_scene(here.path());
+};
+
+TEST_F(CheckProgram, ReadsNoFurtherThanASceneMayGo) {
+    const Ended device = check({"/dev/zero"});
+    EXPECT_EQ(device.status, 2);
+    EXPECT_THAT(device.err, HasSubstr("/dev/zero: this is a device; give the path of a scene file"));
+    write_text(here / "large.toml", "");
+    fs::resize_file(here / "large.toml", (16 << 20) + 1);
+    const Ended large = check({"large.toml"});
+    EXPECT_EQ(large.status, 2);
+    EXPECT_THAT(large.err, HasSubstr("large.toml: is larger than the 16 MiB that a scene may have"));
+}
+
+TEST_F(CheckProgram, ReadsAPipe) {
+    const fs::path pipe = here / "pipe.toml";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::thread writer([&] { write_text(pipe, small_scene_text); });
+    const Ended ended = check({pipe.string()});
+    writer.join();
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("Fifty grains"));
+}
+
+// Held in the middle of its work by a pipe that says nothing; had the signal not ended it, the closed pipe
+// would, with a complaint about an empty scene.
+class SignalledCheck : public CheckProgram, public testing::WithParamInterface<int> {};
+
+TEST_P(SignalledCheck, EndsAtOnce) {
+    const fs::path pipe = here / "pipe.toml";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    Program program({"check", pipe.string()}, setting());
+    int end = -1;  // can be opened when the program reads
+    ASSERT_TRUE(wait_until(program, [&] { return (end = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK)) >= 0; }));
+    program.send(GetParam());
+    ::close(end);
+    EXPECT_EQ(program.wait().status, 128 + GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SignalledCheck, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& signal) {
+                             return signal.param == SIGINT    ? "Interrupt"
+                                    : signal.param == SIGTERM ? "Terminate"
+                                                              : "HangUp";
+                         });
+
+// Counted before they are made: each of these took minutes or gigabytes, or had no end.
+TEST_F(CheckProgram, RefusesMoreThanCanBeMade) {
+    const auto complaint = [&](const std::vector<std::string>& words) {
+        std::vector<std::string> all = {scene.string()};
+        all.insert(all.end(), words.begin(), words.end());
+        const Ended ended = check(all);
+        EXPECT_EQ(ended.status, 2);
+        return ended.err;
+    };
+    const std::vector<std::string> long_run = {"--duration", "1e9", "--set", "output.trajectory=false"};
+    EXPECT_THAT(complaint({"--duration", "1e9"}),
+                HasSubstr("make 2e+10 frames of the trajectory, and the most are 1e+09; lengthen "
+                          "'output.trajectory_interval' or shorten 'run.duration'"));
+    EXPECT_THAT(complaint(long_run), HasSubstr("make 1.6e+11 rows of measures, and the most are 1e+09"));
+    EXPECT_THAT(complaint({"--duration", "1e9", "--set", "output.trajectory=false", "--set",
+                           "output.measures_interval=10 s"}),
+                HasSubstr("the film would have 6e+10 frames, and the most are 10000000; raise "
+                          "'film.segment[0].playback', now 0.5, or shorten 'run.duration'"));
+    EXPECT_THAT(complaint({"--duration", "1e6", "--set", "film.segment[0].playback=1e-320", "--set",
+                           "output.measures_interval=1 s"}),
+                HasSubstr("raise 'film.segment[0].playback', now 1e-320, or shorten 'run.duration'"));
+}
+
+TEST_F(CheckProgram, TakesAnyPlaybackAndFrequency) {
+    for (const char* set : {"film.segment[0].playback=1e16", "film.segment[0].playback=1e-320"}) {
+        const Ended ended = check({scene.string(), "--set", set});
+        EXPECT_EQ(ended.status, 0) << set << ' ' << ended.err;
+    }
+    const Ended ended =
+        check({scene.string(), "--set", "drive.frequency=1e8 Hz", "--set", "film.segment[0].kind=locked",
+               "--set", "film.segment[0].playback=1"});
+    EXPECT_EQ(ended.status, 2);
+}
+
+}  // namespace
+}  // namespace grainreel
