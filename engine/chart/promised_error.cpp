@@ -94,8 +94,8 @@ double promised_restitution_error(const Plan& plan, const PairPlan& pair, const 
 std::string promised_error_text(double error) {
     if (std::isnan(error)) return "-";
     if (error < 1e-12) return "0";
-    const double digit = std::pow(10, std::floor(std::log10(error)));
-    return fmt::format("{:.1g}", digit * std::ceil(error / digit * (1 - 1e-9)));
+    const double digit = std::pow(10, std::floor(std::log10(error)) - 1);
+    return fmt::format("{:.2g}", digit * std::ceil(error / digit * (1 - 1e-9)));
 }
 
 }  // namespace grainreel

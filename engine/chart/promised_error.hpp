@@ -15,11 +15,11 @@ namespace grainreel {
 // NaN where fewer than two steps fall into a contact.
 double promised_restitution_error(const Plan& plan, const PairPlan& pair, const Species& a, const Species* b);
 
-// The phases of the first touch, shares of a step, that are tried. Those next to 0 and 1 count: where a contact
-// lasts a whole number of steps, its two ends err together but there.
+// The phases of the first touch, shares of a step, that are tried. Those next to 0 and 1 count: where a
+// contact lasts a whole number of steps, its two ends err together but there.
 std::vector<double> promised_onsets();
 
-// In words: to one digit, rounded up, so that the worst phase keeps the promise; "-" for NaN.
+// In words: to two digits, rounded up, so that the worst phase keeps the promise; "-" for NaN.
 std::string promised_error_text(double error);
 
 }  // namespace grainreel

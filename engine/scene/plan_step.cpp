@@ -57,7 +57,8 @@ bool nearly_elastic(double restitution) {
 // restitution below 0.005 for e >= 0.08 (0.0020 at e = 0.9; tests/scene integrates it). Without corrections
 // that holds for whole n only: onset and exit errors then cancel, at n = 12.5 they leave 0.008. The
 // spring-dashpot's force jumps when the grains meet, which leaves an error of first order: 45 steps leave
-// 0.003 at e = 0.9 and 0.013 at worst. They keep the energy of a vibrated bed to 0.1 %, which 40 do not with
+// 0.003 at e = 0.9 and 0.013 at worst, 0.005 and 0.016 where the dashpot may pull. They keep the energy of a
+// vibrated bed to 0.1 %, which 40 do not with
 // Hertz. Nearly elastic grains of any law have as many: plain Verlet then gains and loses (w dt)^2 / 4 of an
 // impact's energy at most, by the phases of touch and exit, and an elastic gas drifts as with a
 // spring-dashpot.

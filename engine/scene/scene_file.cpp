@@ -46,9 +46,10 @@ std::string load_scene_file(const std::filesystem::path& file) {
     while (stream.read(part, sizeof part), stream.gcount() > 0) {
         text.append(part, static_cast<std::size_t>(stream.gcount()));
         if (text.size() > largest_scene_file)
-            fail(file, fmt::format("is larger than the {} MiB that a scene may have; give the path of a scene "
-                                   "file (.toml)",
-                                   largest_scene_file >> 20));
+            fail(file,
+                 fmt::format("is larger than the {} MiB that a scene may have; give the path of a scene "
+                             "file (.toml)",
+                             largest_scene_file >> 20));
     }
     if (stream.bad()) fail(file, "cannot be read; check its permissions");
     return text;

@@ -167,11 +167,13 @@ std::vector<SegmentCount> count_film(const Scene& scene, const Clock& clock, std
     std::vector<SegmentCount> counts;
     for (const Stretch& stretch : stretches_of(scene, clock, steps)) {
         const FilmSegment& rule = segments[counts.size()];
-        SegmentCount count{stretch.count, 0};
+        SegmentCount count;
+        count.shots = stretch.count;
         if (rule.exposure > 0) {
             const std::int64_t span = exposed_span(rule, exposed_unit(rule, clock), clock);
             count.moments_a_shot =
                 std::max<std::int64_t>(0, std::min<std::int64_t>(rule.exposures, span) - 1);
+            count.exposures_a_shot = count.moments_a_shot;
         } else if (rule.average > 0 && clock.steps_per_period > 0) {
             count.moments_a_shot = means_a_period * rule.average + 1;
         }

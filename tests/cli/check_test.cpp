@@ -61,7 +61,8 @@ TEST_P(SignalledCheck, EndsAtOnce) {
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     Program program({"check", pipe.string()}, setting());
     int end = -1;  // can be opened when the program reads
-    ASSERT_TRUE(wait_until(program, [&] { return (end = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK)) >= 0; }));
+    ASSERT_TRUE(
+        wait_until(program, [&] { return (end = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK)) >= 0; }));
     program.send(GetParam());
     ::close(end);
     EXPECT_EQ(program.wait().status, 128 + GetParam());
@@ -102,10 +103,26 @@ TEST_F(CheckProgram, TakesAnyPlaybackAndFrequency) {
         const Ended ended = check({scene.string(), "--set", set});
         EXPECT_EQ(ended.status, 0) << set << ' ' << ended.err;
     }
-    const Ended ended =
-        check({scene.string(), "--set", "drive.frequency=1e8 Hz", "--set", "film.segment[0].kind=locked",
-               "--set", "film.segment[0].playback=1"});
+    const Ended ended = check({scene.string(), "--set", "drive.frequency=1e8 Hz", "--set",
+                               "film.segment[0].kind=locked", "--set", "film.segment[0].playback=1"});
     EXPECT_EQ(ended.status, 2);
+}
+
+std::string line_with(const std::string& text, const std::string& words) {
+    const std::size_t at = text.find(words);
+    return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
+}
+
+// Measured once: the second answer is that of the first, to the digit.
+TEST_F(CheckProgram, KeepsWhatItMeasuredOfTheMachine) {
+    const Ended first = check({scene.string()}), second = check({scene.string()});
+    EXPECT_EQ(first.status, 0) << first.err;
+    EXPECT_EQ(std::distance(fs::directory_iterator(here / "grainreel"), {}), 1);
+    EXPECT_NE(line_with(first.out, "together about"), "");
+    for (const char* line : {"together about", "for the film", "grain-steps,"})
+        EXPECT_EQ(line_with(first.out, line), line_with(second.out, line));
+    const Ended nowhere = run_program({"check", scene.string()}, {here.path(), {"XDG_CACHE_HOME=/dev/null"}});
+    EXPECT_EQ(nowhere.status, 0) << nowhere.err;
 }
 
 }  // namespace
