@@ -20,7 +20,8 @@ namespace {
 // grains. Measured by processor time (docs/performance.md).
 constexpr double bed_over_lattice = 0.31;
 constexpr double grains_of_a_step = 20;
-// Radii grow in about so many steps, whatever their length; then the bed settles for some time, all in contact.
+// Radii grow in about so many steps, whatever their length; then the bed settles for some time, all in
+// contact.
 constexpr double growing_steps = 120e3, settling_time = 0.9 /* s */, settling_over_shaken = 1.6;
 constexpr double large_bed = 1.5;     // does not fit into the caches
 constexpr double row_over_step = 12;  // a row of measures over a step
