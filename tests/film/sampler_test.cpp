@@ -213,7 +213,7 @@ TEST(FilmSchedule, ALockWithoutADriveIsTheUsersMistake) {
         FAIL() << "no error";
     } catch (const UserError& error) {
         EXPECT_STREQ(error.what(),
-                     "a.toml: film segment 2 is locked to the drive's phase, but nothing is driven; give the "
+                     "a.toml:1:1: film segment 2 is locked to the drive's phase, but nothing is driven; give the "
                      "scene a drive, or make it a motion segment");
     }
 }
