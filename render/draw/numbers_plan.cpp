@@ -161,7 +161,7 @@ NumbersPlan Planner::rows() {
     plan_.note = {x_, y};
     plan_.note_wrap = inner_;
     y += note_height(inner_);
-    plan_.note_part = part(0, plan_.note.y, width_, y);
+    plan_.note_part = part(0, plan_.note.y, width_, y - 0.4 * type_.gap);  // the dial's part begins there
     double right = clock_.width;
     if (scene_.drive.present) {
         plan_.dial = {x_, y};

@@ -130,8 +130,7 @@ TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view
     entry(scene.drive.moves == Drive::Moves::floor ? "floor vibrates" : "vibration",
           direction(scene.drive.direction, true));
     if (has_lab_marks(scene))
-        entry("floor and its stroke",
-              [&](double at_x, double at_y) { lab_mark_sample(writer, at_x, at_y, reach); });
+        entry("floor", [&](double at_x, double at_y) { lab_mark_sample(writer, at_x, at_y, reach); });
     return size;
 }
 

@@ -1,0 +1,175 @@
+// Words and plots of many pictures: nothing lies on anything else, and what there is no room for is named.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/draw/first_gutter.hpp"
+#include "render/draw/numbers_plan.hpp"
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+struct Content {
+    std::size_t plots = 0, species = 2;
+    bool colours = false, text = false;
+};
+
+Scene scene_of(int width, int height, const Content& content) {
+    Scene scene = wedge(width, height);
+    scene.film.camera.frame = CameraFrame::reach;
+    scene.film.title = "Big and small grains in a vibrated wedge hopper";
+    scene.species.clear();
+    for (std::size_t k = 0; k < content.species; ++k)
+        scene.species.push_back(species(fmt::format("kind {}", k), 200, 0.004 + 0.0005 * static_cast<double>(k), blue));
+    for (std::size_t k = 0; k < content.plots; ++k)
+        scene.film.shows.plots.push_back({"lacey", "Lacey mixing index", std::nullopt});
+    if (content.colours)
+        scene.film.shows.colour = {GrainValue::displacement, ColourMap::viridis, {0, 0.3}, false, "cm", 5};
+    if (content.text) {
+        scene.film.shows.text = "mixing {lacey}";
+        scene.film.shows.live_words = {{"mixing ", "lacey", "", 1}, {"", "", "", 1}};
+    }
+    return scene;
+}
+
+struct Named {
+    std::string name;
+    double left, top, right, bottom;
+};
+Named named(const std::string& name, const Rectangle& r) {
+    return {name, 1.0 * r.x, 1.0 * r.y, 1.0 * r.x + r.width, 1.0 * r.y + r.height};
+}
+
+std::vector<Named> blocks_of(const Scene& scene, const PictureLayout& layout) {
+    const Palette palette = make_palette(scene.film.background);
+    const Writer measure{nullptr, layout.type, palette};
+    std::vector<Named> blocks{named("port", layout.port)};
+    const auto add = [&](const std::string& name, const Rectangle& gutter, double x, double y, double width,
+                         double height) {
+        if (width > 0 && height > 0)
+            blocks.push_back({name, gutter.x + x, gutter.y + y, gutter.x + x + width, gutter.y + y + height});
+    };
+    for (const FirstPart::Block& block :
+         first_part(measure, scene, nullptr, layout, layout.first.width).blocks)
+        add(block.name, layout.first, block.box.x, block.box.y, block.box.width, block.box.height);
+    const NumbersPlan plan =
+        plan_numbers(measure, scene, layout.second.width, layout.second.height, layout.stacked);
+    const auto part = [&](const std::string& name, const Rectangle& r) {
+        add(name, layout.second, r.x, r.y, r.width, r.height);
+    };
+    part("clock", plan.clock_part), part("caption", plan.caption_part), part("note", plan.note_part);
+    if (plan.has_dial) part("dial", plan.dial_part);
+    for (const Rectangle& plot : plan.plots) part("plot", plot);
+    const TextSize drive = drive_block(measure, scene, 0, 0);
+    add("drive", layout.second, plan.drive.x, plan.drive.y, drive.width, drive.height);
+    if (layout.stacked && plan.has_arrows) {
+        const TextSize arrows = arrows_block(measure, scene, nullptr, 0, 0);
+        add("arrows", layout.second, plan.arrows.x, plan.arrows.y, arrows.width, arrows.height);
+    }
+    return blocks;
+}
+
+TEST(Layout, NothingLiesOnAnythingElse) {
+    constexpr double kHair = 1.01;  // pixels, of rounding
+    for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 360}, {480, 480}, {1600, 400}})
+        for (const std::size_t plots : {0u, 1u, 3u})
+            for (const std::size_t kinds : {1u, 9u})
+                for (const bool more : {false, true}) {
+                    const Scene scene = scene_of(width, height, {plots, kinds, more, more});
+                    const PictureLayout layout = plan_layout(scene);
+                    const std::vector<Named> blocks = blocks_of(scene, layout);
+                    const std::string what =
+                        fmt::format("{}x{}, {} plots, {} species, more: {}", width, height, plots, kinds, more);
+                    for (std::size_t i = 0; i < blocks.size(); ++i) {
+                        const Named& a = blocks[i];
+                        EXPECT_TRUE(a.left >= 0 && a.top >= 0 && a.right <= width && a.bottom <= height)
+                            << a.name << " leaves the picture, " << what;
+                        for (std::size_t j = i + 1; j < blocks.size(); ++j) {
+                            const Named& b = blocks[j];
+                            const double across = std::min(a.right, b.right) - std::max(a.left, b.left),
+                                         down = std::min(a.bottom, b.bottom) - std::max(a.top, b.top);
+                            EXPECT_FALSE(across > kHair && down > kHair)
+                                << a.name << " and " << b.name << ", " << what;
+                        }
+                    }
+                }
+}
+
+TEST(Layout, AWideBoxStandsBetweenWordsAboveAndBelow) {
+    Scene scene = scene_of(1280, 720, {0, 2});
+    scene.film.camera.azimuth = 0;
+    scene.film.camera.frame = CameraFrame::container;
+    scene.container.shape = Container::Shape::box;
+    scene.container.half_width = 0.03;
+    EXPECT_FALSE(plan_layout(scene).stacked);
+    scene.container.half_width = 0.2;
+    scene.container.depth = 0.02;
+    const PictureLayout layout = plan_layout(scene);
+    EXPECT_TRUE(layout.stacked);
+    EXPECT_EQ(layout.port.width, 1280);
+}
+
+TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
+    const Scene roomy = scene_of(1280, 720, {0, 2});
+    const double whole = type_scale(roomy.film).main;
+    EXPECT_DOUBLE_EQ(plan_layout(roomy).type.main, whole);
+    // With one species more and more the letters become smaller before the first is missing.
+    bool smaller = false;
+    for (std::size_t kinds = 2; kinds < 12; ++kinds) {
+        const PictureLayout layout = plan_layout(scene_of(1280, 720, {3, kinds, true, true}));
+        if (!layout.left_out.empty()) break;
+        smaller = smaller || layout.type.main < 0.95 * whole;
+    }
+    EXPECT_TRUE(smaller);
+    EXPECT_DOUBLE_EQ(type_scale(roomy.film, 0.8).main, 0.8 * whole);
+    EXPECT_GE(type_scale(scene_of(320, 180, {}).film, 0.8).minor, 10);
+}
+
+// Nine species do not vanish: those that fit are there, and the others are counted.
+TEST(Layout, ALongLegendIsCutShort) {
+    const Scene scene = scene_of(640, 360, {2, 9, true, false});
+    const PictureLayout layout = plan_layout(scene);
+    const Palette palette = make_palette(scene.film.background);
+    const Writer measure{nullptr, layout.type, palette};
+    const FirstPart part = first_part(measure, scene, nullptr, layout, layout.first.width);
+    EXPECT_TRUE(std::any_of(part.blocks.begin(), part.blocks.end(),
+                            [](const FirstPart::Block& block) { return block.name == "legend"; }));
+    const auto height = [&](double room) { return legend_block(measure, scene, 0, 0, 100, room).height; };
+    const double all = height(0);
+    std::size_t last = 9;
+    for (double room = all; room > 20; room -= 5) {
+        const std::size_t shown = species_in_legend(measure, scene, 100, room);
+        EXPECT_LE(height(room), room);
+        EXPECT_LE(shown, last);
+        last = shown;
+    }
+    EXPECT_LT(last, 2u);
+}
+
+TEST(Layout, PlotsTakeFreeHeight) {
+    for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}}) {
+        const Scene scene = scene_of(width, height, {1, 1});
+        const PictureLayout layout = plan_layout(scene);
+        const Palette palette = make_palette(scene.film.background);
+        const NumbersPlan plan = plan_numbers({nullptr, layout.type, palette}, scene, layout.second.width,
+                                              layout.second.height, layout.stacked);
+        ASSERT_EQ(plan.plots.size(), 1u);
+        EXPECT_NEAR(plan.plots[0].y + plan.plots[0].height, layout.second.height - layout.type.margin, 2);
+    }
+}
+
+TEST(Text, AWordThatIsALittleTooLongMakesTheLettersSmaller) {
+    const TextStyle style{20, false};
+    const double word = measure_text("displacement", style).width;
+    EXPECT_LE(measure_text("displacement in mm", style, 0.8 * word, 3).width, 0.8 * word);
+    // As many lines as words, so none is broken.
+    const double line = measure_text("x", style).height;
+    EXPECT_LT(measure_text("displacement", style, 0.8 * word, 3).height, line);
+    EXPECT_GT(measure_text("displacement", style, 0.3 * word, 5).height, 1.5 * line);
+}
+
+}  // namespace
+}  // namespace grainreel::test
