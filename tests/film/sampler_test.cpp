@@ -212,9 +212,10 @@ TEST(FilmSchedule, ALockWithoutADriveIsTheUsersMistake) {
         schedule_of(film_of({motion(1.0, 1), locked({}, 1, 0)}), Clock{1e-4, 0, 0}, 100'000);
         FAIL() << "no error";
     } catch (const UserError& error) {
-        EXPECT_STREQ(error.what(),
-                     "a.toml:1:1: film segment 2 is locked to the drive's phase, but nothing is driven; give the "
-                     "scene a drive, or make it a motion segment");
+        EXPECT_STREQ(
+            error.what(),
+            "a.toml:1:1: film segment 2 is locked to the drive's phase, but nothing is driven; give the "
+            "scene a drive, or make it a motion segment");
     }
 }
 
