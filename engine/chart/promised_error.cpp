@@ -79,7 +79,9 @@ std::vector<double> promised_onsets() {
 
 double promised_restitution_error(const Plan& plan, const PairPlan& pair, const Species& a,
                                   const Species* b) {
-    if (pair.contact_time < 2 * plan.clock.step) return std::numeric_limits<double>::quiet_NaN();
+    constexpr double kFewest = 2, kMost = 1000;  // steps: trying longer contacts takes minutes
+    const double steps = pair.contact_time / plan.clock.step;
+    if (!(steps >= kFewest && steps <= kMost)) return std::numeric_limits<double>::quiet_NaN();
     PairPlan smooth = pair;
     smooth.model.tangential = TangentialLaw::none;
     smooth.model.rolls = false;
