@@ -102,10 +102,12 @@ Frame stacked_bed(const Scene& scene) {
     const std::vector<std::size_t> species = spread_species(scene);
     const double pitch =
         std::cbrt(solid_volume(scene) / static_cast<double>(species.size()) / solid_fraction);
-    const double deep = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
-    for (double z = pitch / 2; z < c.height && frame.size() < species.size(); z += pitch) {
-        const double wide = c.half_width_at(z);
-        for (double x = -deep + pitch / 2; x < deep; x += pitch)
+    const double most = pitch * static_cast<double>(species.size());  // m, of a row of all grains
+    const double deep = std::min(most, c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2);
+    const double high = std::min(most, c.height);
+    for (double z = pitch / 2; z < high && frame.size() < species.size(); z += pitch) {
+        const double wide = std::min(most, c.half_width_at(z));
+        for (double x = -deep + pitch / 2; x < deep && frame.size() < species.size(); x += pitch)
             for (double y = -wide + pitch / 2; y < wide && frame.size() < species.size(); y += pitch) {
                 if (c.shape == Container::Shape::cylinder && x * x + y * y > wide * wide) continue;
                 const std::size_t of = species[frame.size()];
