@@ -1,5 +1,6 @@
 #include "engine/measure/period_multiple.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainreel {
@@ -20,7 +21,7 @@ void PeriodMultiple::end_period() {
     const int now = multiple_now();
     confirmed_ = now == other_ ? confirmed_ + 1 : 1;
     other_ = now;
-    if (confirmed_ >= kConfirm) value_ = now;
+    if (confirmed_ >= (value_ == 1 ? kConfirm : kChange)) value_ = now;
 }
 
 double PeriodMultiple::difference_to(int periods_before) const {
@@ -30,12 +31,14 @@ double PeriodMultiple::difference_to(int periods_before) const {
     return std::sqrt(sum / (kPhases * kWindow));
 }
 
-// The least multiple after which less than half of the difference is left, or so little that it counts as
-// none. A drift grows with the number of periods, and noise stays as it is: neither makes a multiple.
+// The least multiple after which less than half of the difference is left. A drift grows with the number of
+// periods, and noise stays as it is: neither makes a multiple. A larger multiple is looked for only where more
+// than a quarter of the difference is left.
 int PeriodMultiple::multiple_now() const {
     int multiple = 1;
     double left = difference_;
-    for (int periods = 2; periods <= kMost && left > least_; ++periods) {
+    const double settled = std::max(least_, 0.25 * difference_);
+    for (int periods = 2; periods <= kMost && left > settled; ++periods) {
         const double difference = difference_to(periods);
         if (difference > 0.5 * left) continue;
         multiple = periods;

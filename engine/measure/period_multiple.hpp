@@ -14,7 +14,8 @@ class PeriodMultiple {
     static constexpr int kPhases = 8;   // looked at in a period, evenly
     static constexpr int kMost = 4;     // periods after which a bed is seen to repeat itself
     static constexpr int kWindow = 4;   // periods over which differences are taken
-    static constexpr int kConfirm = 3;  // periods for which another multiple must have held
+    static constexpr int kConfirm = 3;  // periods for which a first multiple must have held ...
+    static constexpr int kChange = 10;  // ... and another one, so that a slip of some periods does not count
 
     // diameter: m, of a grain; periods that differ by a tenth of it are equal.
     explicit PeriodMultiple(double diameter) : least_(0.1 * diameter) {}

@@ -32,7 +32,8 @@ BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector
 void BedPeriods::note(std::int64_t step, double height) {
     const int before = multiple_.value();
     multiple_.add(step / every(), height);
-    if (multiple_.value() != before) news_.push_back(news_of(step));
+    const bool as_wanted = wanted_ > 0 && wanted_ % multiple_.value() == 0;
+    if (multiple_.value() != before && !as_wanted) news_.push_back(news_of(step));
 }
 
 int BedPeriods::found() const {
@@ -74,7 +75,6 @@ std::string BedPeriods::news_of(std::int64_t step) const {
                           "; locked frames, displacements and means go by {} periods; film.periods = 1 "
                           "lets them go by one",
                           periods);
-    if (wanted_ % periods == 0) return text;
     return text + fmt::format(
                       ", but film.periods is {}: locked frames jump, and displacements and means show "
                       "the bed's flight",

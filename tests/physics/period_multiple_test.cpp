@@ -64,10 +64,24 @@ TEST(PeriodMultiple, IsKnownAfterAsManyPeriodsAsItSays) {
     const auto doubled = [](double t) { return wave(t, 2); };
     EXPECT_EQ(multiple_of(wanted - 1, doubled), 1);
     EXPECT_EQ(multiple_of(wanted, doubled), 2);
-    // And again as many after a change, less those of which half are still seen.
+    // After a change it takes as many, and those that another multiple has to hold longer.
     const auto stops = [](double t) { return wave(t, t < 40 ? 2 : 1); };
     EXPECT_EQ(multiple_of(40, stops), 2);
-    EXPECT_EQ(multiple_of(40 + wanted, stops), 1);
+    constexpr int more = PeriodMultiple::kChange - PeriodMultiple::kConfirm;
+    EXPECT_EQ(multiple_of(40 + more, stops), 2);
+    EXPECT_EQ(multiple_of(40 + wanted + more, stops), 1);
+}
+
+// A period of two, in which every second pair differs a little, or a few periods slip, is one of two.
+TEST(PeriodMultiple, StaysThroughASlipAndASmallModulation) {
+    EXPECT_EQ(multiple_of(60, [](double t) { return wave(t, 2) + 0.2 * wave(t, 4); }), 2);
+    EXPECT_EQ(multiple_of(60, [](double t) { return wave(t, 2) + wave(t, 4); }), 4);
+    PeriodMultiple multiple(kDiameter);
+    for (std::int64_t n = 0; n < 60 * kPhases; ++n) {
+        const double t = static_cast<double>(n) / kPhases;
+        multiple.add(n, wave(t, 2) + (t > 30 && t < 35 ? wave(t, 4) : 0));
+        if (t > 12) ASSERT_EQ(multiple.value(), 2) << t;
+    }
 }
 
 TEST(PeriodMultiple, BeginsAnewAfterAGap) {
