@@ -32,8 +32,8 @@ double PeriodMultiple::difference_to(int periods_before) const {
 }
 
 // The least multiple after which less than half of the difference is left. A drift grows with the number of
-// periods, and noise stays as it is: neither makes a multiple. A larger multiple is looked for only where more
-// than a quarter of the difference is left.
+// periods, and noise stays as it is: neither makes a multiple. A larger multiple is looked for only where
+// more than a quarter of the difference is left.
 int PeriodMultiple::multiple_now() const {
     int multiple = 1;
     double left = difference_;

@@ -15,7 +15,7 @@ namespace grainreel {
 namespace {
 
 // Of each pair a scene may have one. Setting one on the command line takes the other out of the file.
-constexpr std::array<std::array<std::string_view, 2>, 9> rivals{{
+constexpr std::array<std::array<std::string_view, 2>, 11> rivals{{
     {"g_level", "amplitude"},
     {"density", "mass"},
     {"restitution", "normal_damping"},
@@ -23,6 +23,8 @@ constexpr std::array<std::array<std::string_view, 2>, 9> rivals{{
     {"position", "azimuth"},  // of the camera
     {"position", "elevation"},
     {"position", "key"},
+    {"position", "frame"},
+    {"position", "reach"},
     {"file", "settle_limit"},  // of the start, from a file or by layers
     {"file", "settle_damping"},
 }};

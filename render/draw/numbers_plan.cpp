@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-constexpr double most_plot = 0.4, least_plot = 0.16, least_row = 0.12;  // heights over that of the picture
+constexpr double most_plot = 0.4, least_plot = 0.16, least_row = 0.16;  // heights over that of the picture
 constexpr double least_lines = 5;     // of a plot, in heights of minor letters
 constexpr double least_letters = 11;  // of a plot in a row, its width in such heights
 constexpr double most_plot_width = 0.24;

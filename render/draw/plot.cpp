@@ -38,6 +38,15 @@ int most_lines(const PlotFrame& frame, const TypeScale& type) {
     return frame.height > 9 * type.main ? 2 : 1;
 }
 
+// Letters of a title on one line shrink somewhat before it is cut short.
+TextStyle title_style(const std::string& title, const PlotFrame& frame, const TypeScale& type) {
+    constexpr double least_shrink = 0.75;
+    TextStyle style{type.main, false};
+    if (most_lines(frame, type) > 1) return style;
+    style.size *= std::clamp(0.99 * frame.width / measure_text(title, style).width, least_shrink, 1.0);
+    return style;
+}
+
 }  // namespace
 
 void Plot::Slice::add(double value) {
@@ -156,7 +165,7 @@ void Plot::draw_axes() {
     const std::string unit = fitting_unit(largest, frame_.dimension);
     const double size = unit_size(unit, frame_.dimension);
     const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
-    draw_text(on.get(), 0, 0, title, {type_.main, false}, palette_.ink, frame_.width,
+    draw_text(on.get(), 0, 0, title, title_style(title, frame_, type_), palette_.ink, frame_.width,
               most_lines(frame_, type_));
 
     // As many as stand above each other.

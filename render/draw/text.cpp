@@ -103,7 +103,9 @@ Layout make_layout(const std::string& text, const TextStyle& style, double wrap,
 
 Layout make_wrapped(const std::string& text, const TextStyle& style, double wrap, int lines) {
     if (wrap <= 0) return make_layout(text, style, 0, 1);
-    return make_layout(text, {size_for_words(text, style, wrap), style.bold}, wrap, lines);
+    TextStyle fitting = style;
+    fitting.size = size_for_words(text, style, wrap);
+    return make_layout(text, fitting, wrap, lines);
 }
 
 TextSize size_of(PangoLayout* layout) {

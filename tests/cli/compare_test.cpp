@@ -91,8 +91,14 @@ TEST_F(CompareProgram, TakesFinishedRunsToo) {
     EXPECT_EQ(record["drawn"].size(), 2u);
     EXPECT_TRUE(record["engine"].is_null());
     // Mixed: the scene follows the moments of the run. The same scene either way: the same film.
-    ASSERT_EQ(program({"compare", "weak", "strong.toml", "--out", "mixed", "--frames"}).status, 0);
-    ASSERT_EQ(program({"compare", "weak", "strong", "--out", "again", "--frames"}).status, 0);
+    ASSERT_EQ(program({"compare", "weak", "strong.toml", "--out", "mixed", "--frames", "--set",
+                       "film.camera.frame=container"})
+                  .status,
+              0);
+    ASSERT_EQ(program({"compare", "weak", "strong", "--out", "again", "--frames", "--set",
+                       "film.camera.frame=container"})
+                  .status,
+              0);
     EXPECT_TRUE(fs::exists(here / "mixed/strong/trajectory.nc"));
     for (const char* frame : {"frames/000000.png", "frames/000004.png"}) {
         const auto pixels = [&](const char* folder) {
@@ -118,7 +124,8 @@ TEST_F(CompareProgram, FinishedRunsLackNothing) {
         write_text(here / (name + ".toml"), text);
         ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);
     }
-    const std::vector<std::string> options = {"--frames", "--no-film", "--set", "film.size=640x480"};
+    const std::vector<std::string> options = {
+        "--frames", "--no-film", "--set", "film.size=640x480", "--set", "film.camera.frame=container"};
     const auto compare = [&](const std::string& first, const std::string& second, const std::string& out) {
         std::vector<std::string> words = {"compare", first, second, "--out", out};
         words.insert(words.end(), options.begin(), options.end());

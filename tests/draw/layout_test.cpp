@@ -23,7 +23,8 @@ Scene scene_of(int width, int height, const Content& content) {
     scene.film.title = "Big and small grains in a vibrated wedge hopper";
     scene.species.clear();
     for (std::size_t k = 0; k < content.species; ++k)
-        scene.species.push_back(species(fmt::format("kind {}", k), 200, 0.004 + 0.0005 * static_cast<double>(k), blue));
+        scene.species.push_back(
+            species(fmt::format("kind {}", k), 200, 0.004 + 0.0005 * static_cast<double>(k), blue));
     for (std::size_t k = 0; k < content.plots; ++k)
         scene.film.shows.plots.push_back({"lacey", "Lacey mixing index", std::nullopt});
     if (content.colours)
@@ -74,15 +75,16 @@ std::vector<Named> blocks_of(const Scene& scene, const PictureLayout& layout) {
 
 TEST(Layout, NothingLiesOnAnythingElse) {
     constexpr double kHair = 1.01;  // pixels, of rounding
-    for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 360}, {480, 480}, {1600, 400}})
+    for (const auto& [width, height] :
+         {std::pair{1280, 720}, {720, 1280}, {640, 360}, {480, 480}, {1600, 400}})
         for (const std::size_t plots : {0u, 1u, 3u})
             for (const std::size_t kinds : {1u, 9u})
                 for (const bool more : {false, true}) {
                     const Scene scene = scene_of(width, height, {plots, kinds, more, more});
                     const PictureLayout layout = plan_layout(scene);
                     const std::vector<Named> blocks = blocks_of(scene, layout);
-                    const std::string what =
-                        fmt::format("{}x{}, {} plots, {} species, more: {}", width, height, plots, kinds, more);
+                    const std::string what = fmt::format("{}x{}, {} plots, {} species, more: {}", width,
+                                                         height, plots, kinds, more);
                     for (std::size_t i = 0; i < blocks.size(); ++i) {
                         const Named& a = blocks[i];
                         EXPECT_TRUE(a.left >= 0 && a.top >= 0 && a.right <= width && a.bottom <= height)

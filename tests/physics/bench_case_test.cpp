@@ -27,7 +27,6 @@ TEST(WedgeCase, CountsTheMemoryOfItsBedAlone) {
     BenchRequest request;
     request.threads = 1;
     request.quick = true;
-    request.particles = 405;
     const auto go_on = [](auto&&...) { return true; };
     const double first = run_bench(wedge, request, go_on).report.bytes_per_particle;
     const double second = run_bench(wedge, request, go_on).report.bytes_per_particle;

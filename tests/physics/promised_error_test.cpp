@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(PromisedErrorText, IsRoundedUp) {
     EXPECT_EQ(promised_error_text(0.00411), "0.0042");
-    EXPECT_EQ(promised_error_text(0.0041), "0.0041");
-    EXPECT_EQ(promised_error_text(0.00996), "0.01");
+    EXPECT_EQ(promised_error_text(0.0041 / 1.01), "0.0041");
+    EXPECT_EQ(promised_error_text(0.00986), "0.01");
     EXPECT_EQ(promised_error_text(0), "0");
     EXPECT_EQ(promised_error_text(std::nan("")), "-");
 }
