@@ -57,6 +57,19 @@ Grains listed_grains(const Scene& scene) {
     return grains;
 }
 
+namespace {
+
+bool is_finite(const Load& load) {
+    return load.force.allFinite() && load.torque.allFinite() && load.zero == 0 && load.zero_too == 0;
+}
+
+bool is_finite(const Derivatives& d) {
+    return d.acceleration.allFinite() && d.jerk.allFinite() && d.spin_acceleration.allFinite() &&
+           d.spin_jerk.allFinite();
+}
+
+}  // namespace
+
 void check_grains_possible(const Scene& scene, const Grains& grains) {
     constexpr double kFarthest = 1e9;  // radii: from there on a double is too coarse for overlaps
     constexpr double kUnit = 1e-3;     // how far a quaternion may be from unit length
@@ -84,6 +97,9 @@ void check_grains_possible(const Scene& scene, const Grains& grains) {
             reject("is nowhere, or infinitely fast");
         if (position.cwiseAbs().maxCoeff() > kFarthest * radius)
             reject("is so far out that its place is not exact any more");
+        if (!is_finite(grains.load[i]) || !std::isfinite(grains.wall_work[i]) ||
+            (!grains.derivatives.empty() && !is_finite(grains.derivatives[i])))
+            reject("has a force or a work that is no number");
         if (!grains.orientation.empty() && !(std::abs(grains.orientation[i].norm() - 1) < kUnit))
             reject("has an orientation that is no unit quaternion");
     }

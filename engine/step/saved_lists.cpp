@@ -1,6 +1,7 @@
 #include "engine/step/saved_lists.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace grainreel {
 
@@ -50,6 +51,8 @@ bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t 
     const std::size_t size = kept.size();
     if (kept.second.size() != size || kept.tag.size() != size ||
         kept.history.size() != size * static_cast<std::size_t>(group.history_size()))
+        return false;
+    if (!std::all_of(kept.history.begin(), kept.history.end(), [](double h) { return std::isfinite(h); }))
         return false;
     for (std::size_t c = 0; c < size; ++c) {
         const std::int32_t i = kept.first[c], j = kept.second[c];
