@@ -13,12 +13,13 @@ run() { echo "grainreel $*"; "$grainreel" "$@" --quiet --force > /dev/null; }
 picture() {
     local name=$1
     shift
-    run render "$work/wedge" --at 5 --size "${size:-640x480}" --out "$here/$name.png" "$@"
+    run render "$work/wedge" --at 5 --size "${size:-640x480}" "${view[@]}" --out "$here/$name.png" "$@"
 }
 
 run movie "$root/scenes/wedge_segregation.toml" --no-film --duration 6 --set output.contacts=true \
     --set film.rotation=true --out "$work/wedge"
 still=(--set film.rotation=false)
+view=(--set film.camera.azimuth=20 --set film.camera.elevation=10 --set 'film.plot=[]')
 
 picture studio "${still[@]}"
 picture flat "${still[@]}" --set film.style=flat
@@ -28,7 +29,7 @@ picture slab "${still[@]}" --set film.cut.at='5 mm' --set film.cut.thickness='10
 picture rotation
 picture ghost "${still[@]}" --set 'film.ghost=["small"]'
 picture hide "${still[@]}" --set 'film.hide=["small"]'
-picture highlight "${still[@]}" --set 'film.highlight=[1500, 1510, 1520]'
+picture highlight "${still[@]}" --set 'film.highlight=[1600, 1610, 1620]'
 picture above "${still[@]}" --set film.camera.elevation=50 --set film.camera.azimuth=-35 --set film.axes=true
 picture close "${still[@]}" --set film.camera.zoom=2.2
 size=480x640 picture portrait "${still[@]}" --set film.colour.by=speed
@@ -38,10 +39,10 @@ for by in speed vertical-velocity start-height displacement rise spin kinetic-en
 done
 picture arrows "${still[@]}" --set film.arrows.grid=10
 picture force_chains "${still[@]}" --set film.force_chains=true --set 'film.ghost=["small", "big"]'
-picture text "${still[@]}" --set 'film.text="mixing {lacey}\nkinetic energy {kinetic:mJ}"'
-picture plots "${still[@]}" --set 'film.plot=[{y="height_difference"}, {y="lacey"}]'
+picture text "${still[@]}" --set 'film.text="big above small {big_above_small}\nkinetic energy {kinetic:mJ}"'
+picture plots "${still[@]}" --set 'film.plot=[{y="height_difference"}, {y="big_above_small"}]'
 
 # What wants more than one frame.
-run render "$work/wedge" --from 4 --to 5 --no-film --frames --size 640x480 "${still[@]}" \
+run render "$work/wedge" --from 4 --to 5 --no-film --frames --size 640x480 "${still[@]}" "${view[@]}" \
     --set 'film.trails={species=["big"], duration="1 s"}' --out "$work/trails"
 cp "$(find "$work/trails/frames" -name '*.png' | sort | tail -1)" "$here/trails.png"

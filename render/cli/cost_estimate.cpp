@@ -20,6 +20,8 @@ namespace {
 // grains. Measured by processor time (docs/performance.md).
 constexpr double bed_over_lattice = 0.31;
 constexpr double grains_of_a_step = 20;
+// Two threads gain half of what they could with so many grains: they wait for each other once a step.
+constexpr double grains_of_half_gain = 1000;
 // Radii grow in about so many steps, whatever their length; then the bed settles for some time, all in
 // contact.
 constexpr double growing_steps = 120e3, settling_time = 0.9 /* s */, settling_over_shaken = 1.6;
@@ -96,7 +98,8 @@ CostEstimate estimate_cost(const Scene& scene, const Plan& plan, const std::vect
     const double gain = threads.engine > 1 ? std::clamp(machine.lattice_team / machine.lattice_one, 1.0,
                                                         static_cast<double>(threads.engine))
                                            : 1.0;
-    const double step_seconds = (grains + grains_of_a_step) / (cost.engine_one * gain);
+    const double gained = 1 + (gain - 1) * grains / (grains + grains_of_half_gain);
+    const double step_seconds = (grains + grains_of_a_step) / (cost.engine_one * gained);
     cost.packing_seconds = packing * step_seconds;
     cost.engine_seconds =
         steps * step_seconds + steps / plan.measures_every * row_over_step * grains / cost.engine_one;

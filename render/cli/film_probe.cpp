@@ -88,6 +88,34 @@ FramePtr shaken(const Frame& bed, int k, Random& random) {
     return std::make_shared<const Frame>(std::move(frame));
 }
 
+struct FilmUse {
+    int frames = 0;
+    double seconds = 0;  // of processor time
+    double drawing = 0;  // share of that
+};
+
+// Of a film of so many frames, or fewer where they take long.
+FilmUse use_of_film(const Scene& scene, const ThreadPlan& threads, const Frame& bed, int most) {
+    const ProbeFolder folder;
+    FilmOptions options;
+    options.folder = folder.path();
+    options.raster_threads = threads.raster;
+    options.encoder_threads = threads.encoder;
+    options.pictures = most;
+    Random random(2, Stream::centres);
+    const Stopwatch watch;
+    const double before = processor_seconds();
+    FilmMaker film(scene, options);
+    FilmUse use;
+    for (; use.frames < most && (use.frames < least_frames || watch.seconds() < patience); ++use.frames)
+        film.take(shaken(bed, use.frames, random), "");
+    const FilmReport report = film.finish();
+    const double busy = report.draw_seconds + report.encode_seconds;
+    use.seconds = processor_seconds() - before;
+    use.drawing = busy > 0 ? report.draw_seconds / busy : 0.5;
+    return use;
+}
+
 }  // namespace
 
 Frame stacked_bed(const Scene& scene) {
@@ -120,25 +148,13 @@ Frame stacked_bed(const Scene& scene) {
 std::optional<FilmSpeed> probe_film(const Scene& scene, const ThreadPlan& threads) {
     if (scene.grains() > most_grains) return std::nullopt;
     try {
-        const ProbeFolder folder;
-        FilmOptions options;
-        options.folder = folder.path();
-        options.raster_threads = threads.raster;
-        options.encoder_threads = threads.encoder;
-        options.pictures = most_frames;
         const Frame bed = stacked_bed(scene);
-        Random random(2, Stream::centres);
-        const Stopwatch watch;
-        const double before = processor_seconds();
-        FilmMaker film(scene, options);
-        int frames = 0;
-        for (; frames < most_frames && (frames < least_frames || watch.seconds() < patience); ++frames)
-            film.take(shaken(bed, frames, random), "");
-        const FilmReport report = film.finish();
-        const double used = processor_seconds() - before;
-        const double busy = report.draw_seconds + report.encode_seconds;
-        return FilmSpeed{std::max(0.2 * used, used - film_setup_seconds) / frames,
-                         busy > 0 ? report.draw_seconds / busy : 0.5};
+        // What a film takes before its frames is in both, and so in neither's difference.
+        const FilmUse setup = use_of_film(scene, threads, bed, 1);
+        const FilmUse film = use_of_film(scene, threads, bed, most_frames);
+        if (film.frames < least_frames) return std::nullopt;
+        return FilmSpeed{std::max(0.2 * film.seconds, film.seconds - setup.seconds) / (film.frames - 1),
+                         film.drawing};
     } catch (const std::exception&) {
         return std::nullopt;
     }
