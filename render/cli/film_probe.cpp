@@ -23,6 +23,8 @@ constexpr int most_frames = 16, least_frames = 4;
 constexpr double patience = 1.5;  // s, after which no further frame is begun
 constexpr std::int64_t most_grains = 200'000;
 constexpr double solid_fraction = 0.5;  // of a bed that is shaken
+// A frame of the shipped scenes' runs takes 0.7 to 0.9 of one of the stack, in which more grains are seen.
+constexpr double run_over_stack = 0.8;
 
 double processor_seconds() {
     rusage usage{};
@@ -74,16 +76,16 @@ std::vector<std::size_t> spread_species(const Scene& scene) {
     return all;
 }
 
-// Every grain a little off its place, as between two frames of a film.
+// As between two frames in slow motion: the bed moves as a whole, and every grain a little off its place.
 FramePtr shaken(const Frame& bed, int k, Random& random) {
     Frame frame = bed;
     frame.step = k;
     frame.time = 0.01 * k;
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        const double reach = 0.05 * frame.radius[i];
+        const double reach = 0.01 * frame.radius[i];
         const auto off = [&] { return random.between(-reach, reach); };
         frame.velocity[i] = 10 * Vec3(off(), off(), off());
-        frame.position[i] += Vec3(off(), off(), off());
+        frame.position[i] += Vec3(off(), off(), off() + 0.3 * frame.radius[0] * (k % 4));
     }
     return std::make_shared<const Frame>(std::move(frame));
 }
@@ -153,8 +155,8 @@ std::optional<FilmSpeed> probe_film(const Scene& scene, const ThreadPlan& thread
         const FilmUse setup = use_of_film(scene, threads, bed, 1);
         const FilmUse film = use_of_film(scene, threads, bed, most_frames);
         if (film.frames < least_frames) return std::nullopt;
-        return FilmSpeed{std::max(0.2 * film.seconds, film.seconds - setup.seconds) / (film.frames - 1),
-                         film.drawing};
+        const double frames = std::max(0.2 * film.seconds, film.seconds - setup.seconds);
+        return FilmSpeed{run_over_stack * frames / (film.frames - 1), film.drawing};
     } catch (const std::exception&) {
         return std::nullopt;
     }
