@@ -28,7 +28,6 @@ constexpr double growing_steps = 120e3, settling_time = 0.9 /* s */, settling_ov
 constexpr double large_bed = 1.5;     // does not fit into the caches
 constexpr double row_over_step = 12;  // a row of measures over a step
 constexpr double seconds_to_start = 0.1;
-constexpr double two_threads_unequal = 1.07;  // drawing and encoding wait for each other at times
 // Where no frame can be drawn for a measurement: s a million pixels.
 constexpr double assumed_seconds = 0.02;
 
@@ -63,7 +62,7 @@ double packing_steps(const Scene& scene, const Plan& plan) {
 double film_wall(double processor_seconds, double drawing, const ThreadPlan& threads, int processors) {
     if (processors < 2) return processor_seconds;
     const double drawn = drawing / threads.raster, encoded = (1 - drawing) / threads.encoder;
-    return processor_seconds * std::min(1.0, two_threads_unequal * std::max(drawn, encoded));
+    return processor_seconds * std::min(1.0, std::max(drawn, encoded));
 }
 
 double film_processor_seconds(const std::vector<SegmentCount>& film, const MachineFigures& machine) {
