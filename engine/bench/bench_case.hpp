@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/step_loop.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/bench/bench_case.hpp"
-#include "engine/step/cost_clock.hpp"
+#include "engine/step/threads/cost_clock.hpp"
 
 namespace grainreel {
 

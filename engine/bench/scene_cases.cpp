@@ -7,7 +7,7 @@
 
 #include "engine/base/random.hpp"
 #include "engine/run/surroundings.hpp"
-#include "engine/scene/reader.hpp"
+#include "engine/scene/text/reader.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 

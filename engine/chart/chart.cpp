@@ -1,9 +1,9 @@
 #include "engine/chart/chart.hpp"
 
-#include "engine/chart/accuracy.hpp"
-#include "engine/chart/savings.hpp"
-#include "engine/chart/stability.hpp"
-#include "engine/chart/validation.hpp"
+#include "engine/chart/accuracy/accuracy.hpp"
+#include "engine/chart/accuracy/savings.hpp"
+#include "engine/chart/limits/stability.hpp"
+#include "engine/chart/validation/validation.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #endif
 
 #include "engine/laws/touch-inl.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {

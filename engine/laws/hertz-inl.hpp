@@ -13,7 +13,7 @@
 
 #include "engine/laws/spring_dashpot-inl.hpp"
 #include "engine/laws/touch-inl.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {

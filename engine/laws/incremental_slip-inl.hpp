@@ -17,7 +17,7 @@
 #include "engine/laws/friction-inl.hpp"
 #include "engine/laws/power-inl.hpp"
 #include "engine/laws/touch-inl.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/laws/touch_chunk.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 
 namespace grainreel {
 

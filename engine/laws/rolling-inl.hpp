@@ -14,7 +14,7 @@
 
 #include "engine/laws/carry-inl.hpp"
 #include "engine/laws/friction-inl.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {

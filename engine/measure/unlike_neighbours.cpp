@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "engine/base/nearest_image.hpp"
-#include "engine/step/cells.hpp"
+#include "engine/step/grid/cells.hpp"
 
 namespace grainreel {
 

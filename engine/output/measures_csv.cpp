@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/film/measure_columns.hpp"
 
 namespace grainreel {
 namespace {

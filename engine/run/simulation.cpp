@@ -21,7 +21,7 @@
 #include "engine/start/settle.hpp"
 #include "engine/start/start_file.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "engine/step/neighbours.hpp"
+#include "engine/step/grid/neighbours.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

@@ -10,7 +10,7 @@
 
 #include "engine/frame.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -1,7 +1,7 @@
 // The surroundings of a scene's grains: walls and their motion, gravity, the reach of the neighbour lists.
 #pragma once
 
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/step/step_loop.hpp"
 

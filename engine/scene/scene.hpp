@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/scene/film_look.hpp"
-#include "engine/scene/film_shows.hpp"
+#include "engine/scene/film/film_look.hpp"
+#include "engine/scene/film/film_shows.hpp"
 
 namespace grainreel {
 
@@ -151,7 +151,7 @@ struct Start {
     bool operator==(const Start&) const = default;
 };
 
-// How the step is made; see engine/step/scheme.hpp.
+// How the step is made; see engine/step/forces/scheme.hpp.
 enum class Integrator { velocity_verlet, leapfrog, position_verlet, forest_ruth, gear };
 
 // What stiffness, step and corrections are by default; docs/accuracy.md has what each costs.

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/key_path.hpp"
-#include "engine/scene/writer.hpp"
+#include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/text/writer.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "engine/base/random.hpp"
-#include "engine/scene/free_space.hpp"
+#include "engine/plan/free_space.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/step/neighbours.hpp"
+#include "engine/step/grid/neighbours.hpp"
 
 namespace grainreel {
 

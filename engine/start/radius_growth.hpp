@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/step_loop.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/flush_denormals.hpp"
-#include "engine/step/integrate.hpp"
+#include "engine/step/forces/integrate.hpp"
 
 namespace grainreel {
 

@@ -15,15 +15,15 @@
 #include <vector>
 
 #include "engine/base/team.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "engine/step/cells.hpp"
-#include "engine/step/contact_pass.hpp"
-#include "engine/step/integrate.hpp"
-#include "engine/step/neighbours.hpp"
-#include "engine/step/scheme.hpp"
+#include "engine/step/forces/contact_pass.hpp"
+#include "engine/step/forces/integrate.hpp"
+#include "engine/step/forces/scheme.hpp"
+#include "engine/step/grid/cells.hpp"
+#include "engine/step/grid/neighbours.hpp"
 
 namespace grainreel {
 

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "engine/base/binary.hpp"
-#include "engine/step/saved_lists.hpp"
+#include "engine/step/lists/saved_lists.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

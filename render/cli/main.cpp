@@ -4,18 +4,18 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/plan.hpp"
-#include "engine/scene/reader.hpp"
-#include "render/cli/bench.hpp"
-#include "render/cli/chart.hpp"
-#include "render/cli/check.hpp"
-#include "render/cli/compare.hpp"
-#include "render/cli/movie.hpp"
-#include "render/cli/options.hpp"
-#include "render/cli/render.hpp"
-#include "render/cli/reporter.hpp"
-#include "render/cli/stop_signal.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "render/cli/options/options.hpp"
+#include "render/cli/report/reporter.hpp"
+#include "render/cli/verbs/bench.hpp"
+#include "render/cli/verbs/chart.hpp"
+#include "render/cli/verbs/check.hpp"
+#include "render/cli/verbs/compare.hpp"
+#include "render/cli/verbs/movie.hpp"
+#include "render/cli/verbs/render.hpp"
+#include "render/run/stop_signal.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "render/spheres/sphere_kernels.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "render/spheres/light-inl.hpp"
+#include "render/spheres/light/light-inl.hpp"
 #include "render/spheres/settle-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "render/spheres/lamp.hpp"
+#include "render/spheres/light/lamp.hpp"
 #include "render/spheres/sphere.hpp"
 
 namespace grainreel {

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "engine/output/trajectory.hpp"
-#include "engine/scene/plan.hpp"
-#include "engine/scene/reader.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/text/reader.hpp"
 #include "engine/start/grain_table.hpp"
-#include "render/film/sampler.hpp"
+#include "render/film/sampling/sampler.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/output/trajectory.hpp"
-#include "render/cli/known_reach.hpp"
+#include "render/run/moments/known_reach.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/scene/bed.hpp"
-#include "render/draw/camera_path.hpp"
+#include "render/draw/camera/camera_path.hpp"
 #include "support.hpp"
 
 namespace grainreel::test {

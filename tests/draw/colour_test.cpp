@@ -1,11 +1,11 @@
 // Colours that stand for numbers.
 #include <gtest/gtest.h>
 
-#include "engine/scene/grain_values.hpp"
-#include "render/draw/colour_map.hpp"
-#include "render/draw/colour_scale.hpp"
-#include "render/draw/grain_colours.hpp"
-#include "render/draw/ticks.hpp"
+#include "engine/scene/film/grain_values.hpp"
+#include "render/draw/grains/colour_map.hpp"
+#include "render/draw/grains/colour_scale.hpp"
+#include "render/draw/grains/grain_colours.hpp"
+#include "render/draw/plots/ticks.hpp"
 #include "support.hpp"
 
 namespace grainreel::test {

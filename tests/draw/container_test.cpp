@@ -1,7 +1,7 @@
 // The container in the picture: where it is, and that all of it is there.
 #include <gtest/gtest.h>
 
-#include "render/draw/writer.hpp"
+#include "render/draw/words/writer.hpp"
 #include "support.hpp"
 
 namespace grainreel::test {

@@ -1,10 +1,10 @@
 // What the camera has in the picture when it is not told: the container, its bed, or what the grains reach.
-#include "render/draw/framing.hpp"
+#include "render/draw/camera/framing.hpp"
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/reach.hpp"
-#include "engine/scene/reader.hpp"
+#include "engine/plan/reach.hpp"
+#include "engine/scene/text/reader.hpp"
 #include "support.hpp"
 
 namespace grainreel::test {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "render/draw/exposure.hpp"
-#include "render/draw/palette.hpp"
-#include "render/draw/renderer.hpp"
+#include "render/draw/picture/exposure.hpp"
+#include "render/draw/picture/palette.hpp"
+#include "render/draw/picture/renderer.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

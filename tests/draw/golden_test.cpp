@@ -12,8 +12,8 @@
 #include <random>
 
 #include "engine/measure/measure_table.hpp"
-#include "engine/scene/colours.hpp"
-#include "render/draw/side_by_side.hpp"
+#include "engine/scene/film/colours.hpp"
+#include "render/draw/panels/side_by_side.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

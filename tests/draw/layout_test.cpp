@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "render/draw/first_gutter.hpp"
-#include "render/draw/numbers_plan.hpp"
+#include "render/draw/words/first_gutter.hpp"
+#include "render/draw/words/numbers_plan.hpp"
 #include "support.hpp"
 
 namespace grainreel::test {

@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "engine/measure/measure_table.hpp"
-#include "render/draw/overlay.hpp"
-#include "render/draw/plot.hpp"
-#include "render/draw/shown_grains.hpp"
-#include "render/draw/trails.hpp"
-#include "render/draw/velocity_field.hpp"
+#include "render/draw/grains/shown_grains.hpp"
+#include "render/draw/marks/trails.hpp"
+#include "render/draw/marks/velocity_field.hpp"
+#include "render/draw/plots/plot.hpp"
+#include "render/draw/words/overlay.hpp"
 #include "support.hpp"
 
 namespace grainreel::test {

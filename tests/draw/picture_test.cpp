@@ -15,9 +15,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/scene/colours.hpp"
-#include "render/draw/captions.hpp"
-#include "render/draw/palette.hpp"
+#include "engine/scene/film/colours.hpp"
+#include "render/draw/picture/palette.hpp"
+#include "render/draw/words/captions.hpp"
 #include "render/gl/objects.hpp"
 #include "support.hpp"
 

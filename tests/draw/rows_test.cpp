@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "render/draw/shade_row.hpp"
+#include "render/draw/container/shade_row.hpp"
 #include "render/spheres/lay_over.hpp"
 #include "render/spheres/pixel.hpp"
 #include "tests/instruction_sets.hpp"

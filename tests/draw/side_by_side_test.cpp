@@ -1,11 +1,11 @@
 // Several scenes in one picture: scales, places, words that are said once.
-#include "render/draw/side_by_side.hpp"
+#include "render/draw/panels/side_by_side.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/measure/measure_table.hpp"
-#include "render/draw/panel_plots.hpp"
+#include "render/draw/plots/panel_plots.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel {

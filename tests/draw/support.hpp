@@ -8,9 +8,9 @@
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/draw/container_drawing.hpp"
-#include "render/draw/layout.hpp"
-#include "render/draw/renderer.hpp"
+#include "render/draw/container/container_drawing.hpp"
+#include "render/draw/picture/renderer.hpp"
+#include "render/draw/words/layout.hpp"
 
 namespace grainreel::test {
 

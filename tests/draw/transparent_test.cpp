@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/measure_table.hpp"
-#include "render/draw/numbers_plan.hpp"
-#include "render/draw/palette.hpp"
-#include "render/draw/side_by_side.hpp"
-#include "render/draw/writer.hpp"
+#include "render/draw/panels/side_by_side.hpp"
+#include "render/draw/picture/palette.hpp"
+#include "render/draw/words/numbers_plan.hpp"
+#include "render/draw/words/writer.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

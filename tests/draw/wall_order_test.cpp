@@ -4,8 +4,8 @@
 #include <functional>
 #include <limits>
 
-#include "render/draw/palette.hpp"
-#include "render/draw/spheres.hpp"
+#include "render/draw/grains/spheres.hpp"
+#include "render/draw/picture/palette.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -1,4 +1,4 @@
-#include "render/film/bounded_queue.hpp"
+#include "render/film/production/bounded_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/film/bt709.hpp"
+#include "render/film/codec/bt709.hpp"
 
 #include <gtest/gtest.h>
 

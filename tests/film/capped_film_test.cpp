@@ -1,4 +1,4 @@
-#include "render/film/capped_film.hpp"
+#include "render/film/files/capped_film.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/data_size.hpp"
-#include "engine/scene/words.hpp"
-#include "render/film/smaller_film.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/words.hpp"
+#include "render/film/files/smaller_film.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 

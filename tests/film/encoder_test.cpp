@@ -1,4 +1,4 @@
-#include "render/film/encoder.hpp"
+#include "render/film/codec/encoder.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>

@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-#include "render/film/film_maker.hpp"
+#include "render/film/production/film_maker.hpp"
 
 namespace grainreel::test {
 

@@ -1,4 +1,4 @@
-#include "render/film/film_maker.hpp"
+#include "render/film/production/film_maker.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

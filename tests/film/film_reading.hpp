@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/draw/picture.hpp"
+#include "render/draw/picture/picture.hpp"
 
 namespace grainreel::test {
 

@@ -1,5 +1,5 @@
 // Against the numbers of WCAG 2.2, success criterion 2.3.1.
-#include "render/film/flash_watch.hpp"
+#include "render/film/files/flash_watch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "render/draw/palette.hpp"
+#include "render/draw/picture/palette.hpp"
 
 namespace grainreel {
 namespace {

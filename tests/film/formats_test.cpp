@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/words.hpp"
-#include "render/film/encoder.hpp"
+#include "engine/scene/text/words.hpp"
+#include "render/film/codec/encoder.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 

@@ -1,11 +1,11 @@
-#include "render/film/pacing.hpp"
+#include "render/film/sampling/pacing.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "render/film/sampler.hpp"
+#include "render/film/sampling/sampler.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/film/png.hpp"
+#include "render/film/files/png.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "render/film/sampler.hpp"
+#include "render/film/sampling/sampler.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

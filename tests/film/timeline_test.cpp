@@ -1,4 +1,4 @@
-#include "render/film/timeline.hpp"
+#include "render/film/sampling/timeline.hpp"
 
 #include <gtest/gtest.h>
 

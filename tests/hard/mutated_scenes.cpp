@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/keys.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/hard/group.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/run/simulation.hpp"
-#include "engine/scene/reader.hpp"
+#include "engine/scene/text/reader.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "engine/bench/bench_run.hpp"
 #include "engine/bench/scene_cases.hpp"
-#include "engine/scene/reader.hpp"
-#include "engine/scene/writer.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "engine/scene/text/writer.hpp"
 
 namespace grainreel {
 namespace {

@@ -7,13 +7,13 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/chart/scheme_growth.hpp"
-#include "engine/chart/stability.hpp"
+#include "engine/chart/limits/scheme_growth.hpp"
+#include "engine/chart/limits/stability.hpp"
+#include "engine/plan/plan_parts.hpp"
 #include "engine/run/health.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/plan_parts.hpp"
-#include "engine/scene/reader.hpp"
-#include "engine/scene/words.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "engine/scene/text/words.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

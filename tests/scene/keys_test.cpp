@@ -1,4 +1,4 @@
-#include "engine/scene/keys.hpp"
+#include "engine/scene/keys/keys.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,14 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/writer.hpp"
+#include "engine/scene/text/writer.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
 namespace {
 
 const std::string page = GRAINREEL_SOURCE "/docs/scenes.md";
-const std::string begin_mark = "<!-- table of keys: generated from engine/scene/keys.cpp, begin -->\n";
+const std::string begin_mark = "<!-- table of keys: generated from engine/scene/keys/keys.cpp, begin -->\n";
 const std::string end_mark = "<!-- table of keys: end -->\n";
 
 std::string load(const std::string& path) {
@@ -37,7 +37,7 @@ TEST(Keys, DocsTellWhatTheReaderKnows) {
         return;
     }
     EXPECT_EQ(text.substr(start, end - start), key_table_markdown())
-        << "docs/scenes.md is not what engine/scene/keys.cpp says; write it anew with\n"
+        << "docs/scenes.md is not what engine/scene/keys/keys.cpp says; write it anew with\n"
            "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=Keys.DocsTellWhatTheReaderKnows";
 }
 

@@ -1,4 +1,4 @@
-#include "engine/scene/live_text.hpp"
+#include "engine/scene/film/live_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

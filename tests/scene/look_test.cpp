@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/grain_values.hpp"
+#include "engine/scene/film/grain_values.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

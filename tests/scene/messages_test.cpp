@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/plan.hpp"
-#include "engine/scene/reader.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/text/reader.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

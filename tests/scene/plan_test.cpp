@@ -1,5 +1,5 @@
 // The plan against formulas worked out by hand, one condition at a time.
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/plan_parts.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/plan_parts.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "engine/scene/purposes.hpp"
+#include "engine/scene/film/purposes.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/data_size.hpp"
-#include "engine/scene/plan.hpp"
-#include "engine/scene/words.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/words.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

@@ -1,5 +1,5 @@
 // How high the grains get, by formula.
-#include "engine/scene/reach.hpp"
+#include "engine/plan/reach.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/scene/reader.hpp"
+#include "engine/scene/text/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/colours.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/film/colours.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/scene/reader.hpp"
+#include "engine/scene/text/reader.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

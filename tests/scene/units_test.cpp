@@ -1,4 +1,4 @@
-#include "engine/scene/units.hpp"
+#include "engine/scene/text/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/scene/writer.hpp"
+#include "engine/scene/text/writer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,151 @@
+#include "engine/plan/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "engine/base/error.hpp"
+#include "engine/plan/plan_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double most_steps = 9e15;  // up to there a double counts exactly, and so are times
+constexpr double most_records =
+    1e9;  // of a file: 400 GB of measures, and NetCDF numbers no more than twice that
+constexpr double frames_without_drive = 1.0 / 30, rows_without_drive = 0.01;  // s
+
+void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
+    const auto keep_overlap = [&](const PairPlan& pair, const Species& a, const Species* b) {
+        plan.expected_overlap = std::max(plan.expected_overlap, expected_overlap(scene, bed, pair, a, b));
+    };
+    const std::size_t count = scene.species.size();
+    for (std::size_t a = 0; a < count; ++a) {
+        const Species& first = scene.species[a];
+        for (std::size_t b = 0; b < count; ++b) {
+            plan.grain.push_back(b < a
+                                     ? plan.grain[b * count + a]
+                                     : plan_pair(scene, bed, scene.between(a, b), first, &scene.species[b]));
+            keep_overlap(plan.grain.back(), first, &scene.species[b]);
+        }
+        plan.wall.push_back(plan_pair(scene, bed, scene.contact.wall[a], first, nullptr));
+        keep_overlap(plan.wall.back(), first, nullptr);
+    }
+}
+
+// `seconds` in steps; `key` is the place to complain about.
+std::int64_t count_steps(const Scene& scene, double seconds, double step, const char* key) {
+    const double steps = seconds / step;
+    if (steps > most_steps)
+        throw UserError(
+            fmt::format("{}: {:.4g} s in steps of {:.4g} s make {:.3g} steps, and the most are {:.2g}; "
+                        "shorten it or lengthen run.step",
+                        scene.where(key), seconds, step, steps, most_steps));
+    return std::llround(steps);
+}
+
+// Rounds the step down so that a multiple of 8 makes one period: then its phases, halves and quarters are
+// steps.
+Clock plan_clock(const Scene& scene, double step) {
+    Clock clock;
+    clock.step = step;
+    if (!scene.drive.present) return clock;
+    // A step that was so rounded before comes back as it was, hence the hair of tolerance.
+    const double eighths = std::max(1.0, std::ceil(1 / (8 * scene.drive.frequency * step) * (1 - 1e-12)));
+    clock.steps_per_period = count_steps(scene, 8 * eighths, 1, "drive.frequency");
+    clock.step = 1 / (scene.drive.frequency * static_cast<double>(clock.steps_per_period));
+    clock.initial_phase = scene.drive.phase;
+    return clock;
+}
+
+// What a file would hold one of every so many steps.
+void check_records(const Scene& scene, const Plan& plan, double every, const char* what, const char* key) {
+    const double records = static_cast<double>(plan.steps) / every;
+    if (records <= most_records) return;
+    throw UserError(fmt::format(
+        "{}: the run's {} steps make {:.4g} {}, and the most are {:.2g}; lengthen '{}' or shorten "
+        "'run.duration'",
+        scene.where(key), plan.steps, records, what, most_records, key));
+}
+
+void plan_output(const Scene& scene, Plan& plan) {
+    const Output& output = scene.output;
+    const std::int64_t period = plan.clock.steps_per_period;
+    const auto every = [&](const std::optional<double>& interval, std::int64_t driven, double without,
+                           const char* key) {
+        if (!interval && period > 0) return static_cast<double>(driven);
+        const double seconds = interval.value_or(without), steps = seconds / plan.clock.step;
+        const auto whole = static_cast<double>(count_steps(scene, seconds, plan.clock.step, key));
+        return std::max(1.0, std::abs(steps - whole) < 1e-9 * whole ? whole : steps);
+    };
+    if (output.trajectory)
+        plan.trajectory_every =
+            every(output.trajectory_interval, period, frames_without_drive, "output.trajectory_interval");
+    plan.measures_every =
+        every(output.measures_interval, period / 8, rows_without_drive, "output.measures_interval");
+    if (output.trajectory)
+        check_records(scene, plan, plan.trajectory_every, "frames of the trajectory",
+                      "output.trajectory_interval");
+    check_records(scene, plan, plan.measures_every, "rows of measures", "output.measures_interval");
+}
+
+// Here and not in the reader: a finished run is drawn again though its start file may be gone.
+void check_start_file(const Scene& scene) {
+    std::error_code ignored;
+    const std::string& file = scene.start.file;
+    if (scene.start.method != Start::Method::file || std::filesystem::is_regular_file(file, ignored)) return;
+    const bool exists = std::filesystem::exists(file, ignored);
+    throw UserError(fmt::format("{}: 'file' names {}, which {}; give a checkpoint or final.csv",
+                                scene.where("start.file"), file, exists ? "is no file" : "does not exist"));
+}
+
+bool any_contact(const Plan& plan, bool (*is)(const PairPlan&)) {
+    return std::any_of(plan.grain.begin(), plan.grain.end(), is) ||
+           std::any_of(plan.wall.begin(), plan.wall.end(), is);
+}
+}  // namespace
+
+bool Plan::rubs() const {
+    return any_contact(*this, [](const PairPlan& p) { return p.model.tangential != TangentialLaw::none; });
+}
+
+bool Plan::rolls() const {
+    return any_contact(*this, [](const PairPlan& p) { return p.model.rolls; });
+}
+
+Plan make_plan(const Scene& scene) {
+    check_start_file(scene);
+    Plan plan;
+    plan.arms = scene.contact.arms;
+    plan.integrator = scene.run.integrator;
+    plan.moving_walls = (scene.drive.present && scene.drive.amplitude > 0) ||
+                        std::any_of(scene.walls.begin(), scene.walls.end(),
+                                    [](const FreeWall& wall) { return !wall.velocity.isZero(0); });
+
+    const BedPlan bed = plan_bed(scene);
+    plan.bed_height = bed.height;
+    plan.impact_speed = bed.impact_speed;
+    plan_contacts(scene, bed, plan);
+
+    const StepChoice step = plan_step(scene, plan);
+    plan.step_reason = step.reason;
+    plan.clock = plan_clock(scene, step.step);
+    plan.steps = count_steps(scene, scene.run.duration, plan.clock.step, "run.duration");
+    if (plan.steps == 0)
+        throw UserError(
+            fmt::format("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
+                        scene.where("run.duration"), scene.run.duration, plan.clock.step));
+    if (scene.start.method == Start::Method::layers)
+        plan.settle_steps_limit =
+            count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");
+    plan_output(scene, plan);
+    plan.warnings = scene.notes;
+    for (const std::vector<std::string>& found : {likely_slips(scene), plan_warnings(scene, plan, bed, step)})
+        plan.warnings.insert(plan.warnings.end(), found.begin(), found.end());
+    return plan;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,326 @@
+// Stiffness by the three conditions of the bed: impacts, weight, and waves that cross it within a period.
+// Symbols: d smaller diameter, m effective mass, eps wanted overlap over d, v* impact speed, h bed height.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/base/error.hpp"
+#include "engine/plan/damping.hpp"
+#include "engine/plan/plan_parts.hpp"
+#include "engine/scene/bed.hpp"
+
+namespace grainreel {
+namespace {
+
+using std::numbers::pi;
+
+// Settling is short, and nobody looks: overlaps may be this large there.
+constexpr double settling_overlap = 0.05;
+// A plastic block on the plate hits it at up to 2.13 a omega for Gamma from 1.2 to 10.
+constexpr double plastic_block_speed = 2.2;
+
+double mass_of(const Species& species, double diameter) {
+    return species.density * pi / 6 * diameter * diameter * diameter;
+}
+
+double reduced_mass(double a, double b) {
+    return std::isinf(b) ? a : a * b / (a + b);
+}
+
+std::string place_of_pair(const Species& a, const Species* b) {
+    return fmt::format("\"{}\" and {}", a.name, b == nullptr ? "the wall" : "\"" + b->name + "\"");
+}
+
+// Top speed of a grain over the drive's a omega. A single ball on a plate of random phase gains and loses
+// until <v^2> = (1 + e) / (1 - e) (a omega)^2 / 2, and rarely has more than three times that speed. In a bed
+// of n layers a blow passes 2n - 1 contacts before it is back at the plate: e becomes e^(2n-1), and for a
+// deep bed that is the plastic block. (The two ends are derived, the exponent is an estimate.)
+double speed_over_drive(double restitution, double layers) {
+    const double whole = std::min(0.98, std::pow(restitution, 2 * layers - 1));
+    return std::max(plastic_block_speed, 3 * std::sqrt((1 + whole) / (2 * (1 - whole))));
+}
+
+// Times sqrt(m / K): the duration of a free impact with a linear spring.
+double contact_time_factor(const PairContact& contact) {
+    if (contact.normal == NormalLaw::walton_braun) return pi / 2 * (1 + contact.restitution);
+    if (contact.normal_damping) return pi;
+    const double logarithm = std::log(contact.restitution);
+    return std::sqrt(pi * pi + logarithm * logarithm);  // pi / sqrt(1 - beta^2)
+}
+
+// The weight that rests on one grain, over its diameter: K1 >= load / eps.
+double static_load(const BedPlan& bed, double diameter) {
+    return 3 * (1 + bed.g_level) * settled_solid_fraction * bed.largest_density * bed.gravity *
+           bed.carried_height * diameter;
+}
+
+struct Stiffness {
+    double value = 0;
+    std::string reason;
+};
+
+// A stiffness that grows with every demand made of it.
+class Demands {
+  public:
+    void add(double value, const char* reason) {
+        if (value > chosen_.value) chosen_ = {value, reason};
+    }
+    const Stiffness& chosen() const { return chosen_; }
+
+  private:
+    Stiffness chosen_;
+};
+
+void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Touching& t,
+                      Demands& demands) {
+    const double eps = scene.run.overlap;
+    demands.add(t.effective_mass * std::pow(bed.impact_speed / (eps * t.diameter), 2), "impact");
+    demands.add(static_load(bed, t.diameter) / eps, "static load");
+    if (bed.gravity == 0) return;  // t_c <= 0.1 d / (f h)
+    const double share = contact_time_factor(contact) * bed.frequency * bed.height / (0.1 * t.diameter);
+    demands.add(t.effective_mass * share * share, "wave");
+}
+
+// The same conditions for Hertz' effective modulus E*.
+void demand_modulus(const Scene& scene, const BedPlan& bed, const Touching& t, Demands& demands) {
+    const double allowed = scene.run.overlap * t.diameter, m = t.effective_mass, v = bed.impact_speed;
+    const double to_modulus = 0.75 / std::sqrt(t.effective_radius);  // E* of k
+    demands.add(to_modulus * 1.25 * m * v * v / std::pow(allowed, 2.5), "impact");
+    demands.add(to_modulus * static_load(bed, t.diameter) * t.diameter / std::pow(allowed, 1.5),
+                "static load");
+    if (bed.gravity == 0 || v == 0) return;
+    const double longest = 0.1 * t.diameter / (bed.frequency * bed.height);
+    demands.add(to_modulus * m * std::pow(hertz_contact_time(1, 1, v) / longest, 2.5), "wave");
+}
+
+Stiffness choose_stiffness(const Scene& scene, const BedPlan& bed, const PairContact& contact,
+                           const Species& a, const Species* b) {
+    if (contact.stiffness) return {*contact.stiffness, "the scene"};
+    const bool hertz = contact.normal == NormalLaw::hertz;
+    Demands demands;
+    for (const Touching& t : extremes(a, b))
+        hertz ? demand_modulus(scene, bed, t, demands) : demand_stiffness(scene, bed, contact, t, demands);
+    if (demands.chosen().value > 0) return demands.chosen();
+    throw UserError(
+        fmt::format("{}: '{}' is missing between {}, and with neither drive nor gravity nothing says "
+                    "how large it must be; write for example {}",
+                    scene.where("contact"), hertz ? "modulus" : "stiffness", place_of_pair(a, b),
+                    hertz ? "modulus = \"1 GPa\"" : "stiffness = \"2e4 N/m\""));
+}
+
+// Damping and restitution of the spring-dashpot, each from the other; damping = 2 beta omega0 at the mean
+// effective mass.
+void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact, const Species& a,
+                  const Species* b) {
+    const double natural = std::sqrt(pair.loading_stiffness / mean_effective_mass(a, b));
+    if (!contact.normal_damping) {
+        pair.normal_damping = 2 * natural * linear_damping(contact.restitution, contact.attraction);
+    } else {
+        pair.normal_damping = *contact.normal_damping;
+        double critical = std::numeric_limits<double>::infinity();
+        for (const Touching& t : extremes(a, b))
+            critical = std::min(critical, 2 * std::sqrt(pair.loading_stiffness / t.effective_mass));
+        if (pair.normal_damping >= critical && contact.attraction)
+            throw UserError(fmt::format(
+                "{}: 'normal_damping' of {:.6g} 1/s between {} is not below the critical {:.6g} "
+                "1/s, so that nothing rebounds; reduce it or raise the stiffness",
+                scene.where("contact.normal_damping"), pair.normal_damping, place_of_pair(a, b), critical));
+        pair.restitution = linear_restitution(pair.normal_damping / (2 * natural), contact.attraction);
+    }
+    if (contact.tangential == TangentialLaw::linear_spring)
+        pair.tangential_damping = contact.tangential_damping.value_or(pair.normal_damping / 2);
+}
+
+// s: of the damped oscillation's half; an overdamped contact is longer, but not faster.
+double linear_contact_time(const PairPlan& pair) {
+    const double natural = std::sqrt(pair.loading_stiffness / pair.effective_mass);
+    const double beta = pair.normal_damping / (2 * natural);
+    return pi / (natural * std::sqrt(std::max(0.01, 1 - beta * beta)));
+}
+
+// e(v) = sqrt(w0 / (w0 + S v)), w0 = sqrt(K1 / m) (Walton & Braun 1986): S from one point of it, at the mean
+// effective mass; then e as it is at v* of the heaviest pair, for step and contact time.
+void plan_hardening(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Species& a,
+                    const Species* b) {
+    const double natural = std::sqrt(pair.loading_stiffness / mean_effective_mass(a, b));
+    const double e = contact.restitution;
+    pair.hardening = natural * (1 / (e * e) - 1) / *contact.restitution_speed;
+    double slowest = natural;
+    for (const Touching& t : extremes(a, b))
+        slowest = std::min(slowest, std::sqrt(pair.loading_stiffness / t.effective_mass));
+    pair.restitution = std::sqrt(slowest / (slowest + pair.hardening * bed.impact_speed));
+}
+
+// Straight lines between the rows of a table, constant beyond.
+double restitution_at(const std::vector<RestitutionPoint>& table, double speed) {
+    double e = table.front().restitution;
+    for (std::size_t k = 1; k < table.size(); ++k) {
+        const RestitutionPoint &low = table[k - 1], &high = table[k];
+        const double share = std::clamp((speed - low.speed) / (high.speed - low.speed), 0.0, 1.0);
+        e += share * (high.restitution - low.restitution);
+    }
+    return e;
+}
+
+ContactModel contact_model(const PairContact& contact, bool corrected, Precision precision) {
+    ContactModel model;
+    model.precision = precision;
+    model.tangential = contact.tangential;
+    model.rolls = contact.rolling_friction > 0;
+    if (corrected && !nearly_elastic(contact.restitution)) model.normal = NormalForce::walton_braun_corrected;
+    if (contact.normal == NormalLaw::spring_dashpot) model.normal = NormalForce::spring_dashpot;
+    if (contact.normal == NormalLaw::hertz) model.normal = NormalForce::hertz;
+    if (contact.restitution_speed) model.normal = NormalForce::walton_braun_speed;
+    if (!contact.restitution_table.empty()) model.normal = NormalForce::walton_braun_table;
+    return model;
+}
+
+void plan_walton_braun(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Species& a,
+                       const Species* b) {
+    if (contact.restitution_speed) plan_hardening(bed, pair, contact, a, b);
+    pair.restitution_table = contact.restitution_table;
+    if (!pair.restitution_table.empty())
+        pair.restitution = restitution_at(pair.restitution_table, bed.impact_speed);
+    pair.unloading_stiffness = pair.loading_stiffness / (pair.restitution * pair.restitution);
+    pair.contact_time =
+        pi / 2 * (1 + pair.restitution) * std::sqrt(pair.effective_mass / pair.loading_stiffness);
+    // The same to the last bit, and so is the step: elastic grains go the ways of those without a dashpot.
+    if (pair.restitution == 1) pair.contact_time = linear_contact_time(pair);
+}
+
+// A free impact takes longer the slower it is, so v* says how long a step may be.
+void plan_hertz(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Touching& smallest) {
+    pair.modulus = pair.loading_stiffness;
+    const double k = 4.0 / 3 * pair.modulus * std::sqrt(smallest.effective_radius);
+    const double speed = bed.impact_speed > 0 ? bed.impact_speed
+                                              : std::sqrt(0.8 * k / smallest.effective_mass) *
+                                                    std::pow(pair.allowed_overlap, 1.25);
+    pair.loading_stiffness = pair.unloading_stiffness = 1.5 * k * std::sqrt(pair.allowed_overlap);
+    pair.hertz_damping = hertz_damping(contact.restitution, contact.attraction);
+    pair.contact_time = hertz_contact_time(smallest.effective_mass, k, speed);
+}
+
+// m/s: how fast listed grains, or a grain and a wall, may come together.
+double closing_speed(const Scene& scene) {
+    double fastest = 0;
+    Vec3 low = scene.start.grains[0].velocity, high = low;
+    const auto take = [&](const Vec3& velocity) {
+        low = low.cwiseMin(velocity);
+        high = high.cwiseMax(velocity);
+        fastest = std::max(fastest, velocity.norm());
+    };
+    for (const ListedGrain& grain : scene.start.grains) take(grain.velocity);
+    for (const FreeWall& wall : scene.walls) take(wall.velocity);
+    return std::max(scene.walls.empty() && scene.container.shape == Container::Shape::none ? 0.0 : fastest,
+                    (high - low).norm());
+}
+
+}  // namespace
+
+std::vector<Touching> extremes(const Species& a, const Species* b) {
+    std::vector<Touching> all;
+    for (const double first : {a.diameter.smallest, a.diameter.mean, a.diameter.largest}) {
+        const double mass = mass_of(a, first);
+        if (b == nullptr) {
+            all.push_back({first, first / 2, mass, first / 2});
+            continue;
+        }
+        for (const double second : {b->diameter.smallest, b->diameter.mean, b->diameter.largest})
+            all.push_back({std::min(first, second), (first + second) / 2,
+                           reduced_mass(mass, mass_of(*b, second)), first * second / (first + second) / 2});
+    }
+    return all;
+}
+
+double mean_effective_mass(const Species& a, const Species* b) {
+    const double mass = mass_of(a, a.diameter.mean);
+    return b == nullptr ? mass : reduced_mass(mass, mass_of(*b, b->diameter.mean));
+}
+
+BedPlan plan_bed(const Scene& scene) {
+    BedPlan bed;
+    const Drive& drive = scene.drive;
+    bed.gravity = scene.gravity.norm();
+    if (drive.present) bed.frequency = drive.frequency;
+    if (drive.present && bed.gravity > 0) bed.g_level = drive.g_level(bed.gravity);
+    bed.height = fill_height(scene, settled_solid_fraction);
+    bed.carried_height = std::min(bed.height, 2 * bed_width(scene));
+    double diameters = 0;
+    for (const Species& s : scene.species) {
+        bed.largest_density = std::max(bed.largest_density, s.density);
+        bed.largest_mass = std::max(bed.largest_mass, mass_of(s, s.diameter.largest));
+        diameters += static_cast<double>(s.count) * s.diameter.mean;
+    }
+    bed.layers = std::max(1.0, bed.height * static_cast<double>(scene.grains()) / diameters);
+
+    double restitution = 0;
+    for (const PairContact& pair : scene.contact.grain) restitution = std::max(restitution, pair.restitution);
+    if (drive.present) bed.impact_speed = speed_over_drive(restitution, bed.layers) * drive.speed();
+    const double fall = std::sqrt(2 * bed.gravity * (scene.container.height - bed.height));
+    if (scene.start.method == Start::Method::grains) {
+        bed.impact_speed += fall + closing_speed(scene);
+    } else if (scene.start.method == Start::Method::layers) {
+        bed.drop_speed = fall;
+        bed.impact_speed = std::max(bed.impact_speed, fall * scene.run.overlap / settling_overlap);
+    } else if (!drive.present) {
+        bed.impact_speed = fall;  // all that one can know of a bed that starts from a file
+    }
+    return bed;
+}
+
+PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Species& a,
+                   const Species* b) {
+    PairPlan pair;
+    pair.model = contact_model(contact, scene.run.contact_corrections, scene.run.precision);
+    const Stiffness stiffness = choose_stiffness(scene, bed, contact, a, b);
+    pair.loading_stiffness = stiffness.value;
+    pair.stiffness_reason = stiffness.reason;
+    pair.restitution = contact.restitution;
+    pair.attraction = contact.attraction;
+    const Touching smallest = extremes(a, b).front();
+    pair.effective_mass = smallest.effective_mass;
+    pair.allowed_overlap = scene.run.overlap * smallest.diameter;
+    switch (contact.normal) {
+        case NormalLaw::walton_braun:
+            plan_walton_braun(bed, pair, contact, a, b);
+            break;
+        case NormalLaw::spring_dashpot:
+            pair.unloading_stiffness = pair.loading_stiffness;
+            plan_damping(scene, pair, contact, a, b);
+            pair.contact_time = linear_contact_time(pair);
+            break;
+        case NormalLaw::hertz:
+            plan_hertz(bed, pair, contact, smallest);
+            break;
+    }
+    if (contact.tangential == TangentialLaw::none) return pair;
+    pair.friction = contact.friction;
+    pair.rolling_friction = contact.rolling_friction;
+    pair.tangential_ratio = contact.tangential_ratio;
+    pair.tangential_stiffness = contact.tangential_ratio * pair.loading_stiffness;
+    pair.gamma = contact.tangential == TangentialLaw::incremental_slip ? contact.gamma : 0;
+    return pair;
+}
+
+double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const Species& a,
+                        const Species* b) {
+    double largest = 0;
+    for (const Touching& t : extremes(a, b)) {
+        const double load = std::max(t.effective_mass, bed.largest_mass / 3);
+        double impact = bed.impact_speed * std::sqrt(load / pair.loading_stiffness) / t.diameter;
+        double weight = static_load(bed, t.diameter) / pair.loading_stiffness;
+        if (pair.modulus > 0) {
+            const double k = 4.0 / 3 * pair.modulus * std::sqrt(t.effective_radius);
+            impact = std::pow(1.25 * load * bed.impact_speed * bed.impact_speed / k, 0.4) / t.diameter;
+            weight = std::pow(static_load(bed, t.diameter) * t.diameter / k, 2.0 / 3) / t.diameter;
+        }
+        largest = std::max({largest, impact, scene.drive.present || bed.gravity > 0 ? weight : 0.0});
+    }
+    return largest;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,55 @@
+#include "engine/plan/reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/bed.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double loose_fraction = 0.55;  // solid, of a bed between walls that are near
+constexpr double thrown_faster = 1.6;    // than the plate moves
+constexpr double upright = 0.95;         // cosine of the largest angle between gravity and -z
+
+bool has_a_bed(const Scene& scene) {
+    const double gravity = scene.gravity.norm();
+    return scene.container.shape != Container::Shape::none && scene.walls.empty() && gravity > 0 &&
+           -scene.gravity.z() >= upright * gravity;
+}
+
+// m: how far a drive throws the bed above where it rests.
+double throw_height(const Scene& scene) {
+    const Drive& drive = scene.drive;
+    if (!drive.present) return 0;
+    const double gravity = scene.gravity.norm(), stroke = drive.amplitude * std::abs(drive.direction.z());
+    if (drive.g_level(gravity) <= 1) return stroke;
+    const double speed = thrown_faster * drive.speed();
+    return stroke + speed * speed / (2 * gravity);
+}
+
+// m: of grains placed by hand, where their own flight takes them.
+double highest_listed(const Scene& scene) {
+    double highest = 0;
+    for (const ListedGrain& grain : scene.start.grains) {
+        const double up = std::max(0.0, grain.velocity.z());
+        highest = std::max(highest,
+                           grain.position.z() + 0.5 * grain.diameter + up * up / (2 * scene.gravity.norm()));
+    }
+    return highest;
+}
+
+}  // namespace
+
+std::optional<double> resting_top(const Scene& scene) {
+    if (!has_a_bed(scene)) return {};
+    return fill_height(scene, loose_fraction);
+}
+
+std::optional<double> estimated_reach(const Scene& scene) {
+    const std::optional<double> bed = resting_top(scene);
+    if (!bed) return {};
+    return std::max(*bed + throw_height(scene), highest_listed(scene));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,62 @@
+// The quantities that can colour grains: their words, dimensions and units.
+#pragma once
+
+#include "engine/scene/film/film_shows.hpp"
+#include "engine/scene/text/units.hpp"
+#include "engine/scene/text/words.hpp"
+
+namespace grainreel {
+
+inline const Words<GrainValue> grain_value_words{{"species", GrainValue::species},
+                                                 {"speed", GrainValue::speed},
+                                                 {"vertical-velocity", GrainValue::vertical_velocity},
+                                                 {"start-height", GrainValue::start_height},
+                                                 {"displacement", GrainValue::displacement},
+                                                 {"rise", GrainValue::rise},
+                                                 {"spin", GrainValue::spin},
+                                                 {"kinetic-energy", GrainValue::kinetic_energy},
+                                                 {"coordination", GrainValue::coordination},
+                                                 {"contact-force", GrainValue::contact_force}};
+inline const Words<ColourMap> colour_map_words{
+    {"viridis", ColourMap::viridis}, {"cividis", ColourMap::cividis}, {"vik", ColourMap::vik}};
+
+inline Dimension dimension_of(GrainValue value) {
+    switch (value) {
+        case GrainValue::speed:
+        case GrainValue::vertical_velocity:
+            return Dimension::speed;
+        case GrainValue::start_height:
+        case GrainValue::displacement:
+        case GrainValue::rise:
+            return Dimension::length;
+        case GrainValue::spin:
+            return Dimension::spin;
+        case GrainValue::kinetic_energy:
+            return Dimension::energy;
+        case GrainValue::contact_force:
+            return Dimension::force;
+        case GrainValue::species:
+        case GrainValue::coordination:
+            break;
+    }
+    return Dimension::number;
+}
+
+// Has two signs: wants a diverging map and a range that is even on both sides.
+inline bool is_signed(GrainValue value) {
+    return value == GrainValue::vertical_velocity || value == GrainValue::rise;
+}
+
+// SI units in one of `unit`, 0.01 for "cm/s"; 1 for an empty one. Throws UserError, without a place, when it
+// is not a unit of the dimension.
+double unit_size(const std::string& unit, Dimension dimension);
+
+// The largest of the dimension's usual units in which `value` is not below 0.5; the smallest of them for
+// less.
+std::string fitting_unit(double value, Dimension dimension);
+
+// Low and high of the colours when the scene does not say: of the whole film, from the scene alone, so that a
+// colour means the same in every frame. {0, 0} when the scene gives no scale.
+std::array<double, 2> usual_range(GrainValue value, const Scene& scene);
+
+}  // namespace grainreel

@@ -1,0 +1,224 @@
+// The keys of a document: assignments from the command line, and checks that every key is known and was read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <sstream>
+
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/text/document.hpp"
+
+namespace grainreel {
+namespace {
+
+// Of each pair a scene may have one. Setting one on the command line takes the other out of the file.
+constexpr std::array<std::array<std::string_view, 2>, 11> rivals{{
+    {"g_level", "amplitude"},
+    {"density", "mass"},
+    {"restitution", "normal_damping"},
+    {"restitution", "restitution_table"},
+    {"position", "azimuth"},  // of the camera
+    {"position", "elevation"},
+    {"position", "key"},
+    {"position", "frame"},
+    {"position", "reach"},
+    {"file", "settle_limit"},  // of the start, from a file or by layers
+    {"file", "settle_damping"},
+}};
+
+// What a key gives meaning to: setting it to something else takes these back, beside it in its table, unless
+// the command line has said them as well.
+struct Dependents {
+    std::string_view key;
+    std::array<std::string_view, 4> others;
+};
+constexpr std::array<Dependents, 2> dependents{{
+    {"film.colour.by", {"map", "unit", "range", "layers"}},
+    {"film.segment[].kind", {"playback", "every", "phase"}},
+}};
+
+// "species[1].count" or "species.big.count" -> species, 1 or big, count
+std::vector<std::string> parts_of(const std::string& path) {
+    std::vector<std::string> parts;
+    std::string part;
+    for (const char c : path + ".") {
+        if (c == '.' || c == '[' || c == ']') {
+            if (!part.empty()) parts.push_back(part);
+            part.clear();
+        } else {
+            part += c;
+        }
+    }
+    return parts;
+}
+
+// ".5", "5." and "+.5" are numbers to everybody but TOML.
+std::optional<double> plain_number(std::string_view text) {
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    if (text.empty() || read.ec != std::errc() || read.ptr != end) return std::nullopt;
+    return value;
+}
+
+// `text` as TOML where it is TOML and the key does not want text; otherwise as a number or a string.
+toml::table parsed_value(const std::string& text, const Key* key) {
+    const bool quoted = !text.empty() && (text.front() == '"' || text.front() == '\'');
+    const bool wants_text = key != nullptr && (key->kind == KeyKind::text || key->kind == KeyKind::choice);
+    // "0x0" is a hexadecimal number to TOML.
+    const bool plain_size = key != nullptr && key->kind == KeyKind::picture_size && text.rfind('[', 0) != 0;
+    if (quoted || !(wants_text || plain_size)) {
+        try {
+            return toml::parse("value = " + text);
+        } catch (const toml::parse_error&) {
+        }
+    }
+    const bool wants_number = !quoted && !wants_text && !plain_size;
+    if (const auto number = wants_number ? plain_number(text) : std::nullopt)
+        return toml::table{{"value", *number}};
+    return toml::table{{"value", text}};
+}
+
+}  // namespace
+
+toml::node* Document::step_into(toml::node& node, const std::string& part, const std::string& by) {
+    if (toml::table* table = node.as_table()) {
+        if (!table->contains(part)) table->insert(part, toml::table{});
+        return table->get(part);
+    }
+    toml::array* array = node.as_array();
+    if (array == nullptr) return nullptr;
+    const bool is_index = part.find_first_not_of("0123456789") == std::string::npos && part.size() < 9;
+    if (is_index && std::stoul(part) < array->size()) return array->get(std::stoul(part));
+    for (toml::node& element : *array)
+        if (element.is_table() && element.as_table()->at_path("name").value<std::string>() == part)
+            return &element;
+    throw UserError(fmt::format("{}: there is no '{}' among the {} entries; they count from 0", by,
+                                excerpt(part), array->size()));
+}
+
+// The table that the last of `parts` lies in, made where it is missing, and its path with indices.
+std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::string>& parts,
+                                                         const Location& by) {
+    toml::node* node = &root_;
+    std::string path;
+    for (std::size_t i = 0; i + 1 < parts.size() && node != nullptr; ++i) {
+        toml::node* inner = step_into(*node, parts[i], by.file);
+        if (const toml::array* array = node->as_array()) {
+            std::size_t index = 0;
+            while (array->get(index) != inner) ++index;
+            path += fmt::format("[{}]", index);
+        } else {
+            path = join_path(path, parts[i]);
+        }
+        node = inner;
+        written_.try_emplace(path, by);
+    }
+    if (node == nullptr || !node->is_table())
+        throw UserError(
+            fmt::format("{}: '{}' is not a table; name one of its own keys", by.file, excerpt(path)));
+    return {node->as_table(), path};
+}
+
+// Takes a key out, and the places of all that was below it.
+void Document::remove(toml::table& table, const std::string& table_path, std::string_view key) {
+    table.erase(key);
+    const std::string gone = join_path(table_path, key);
+    const auto below = [&](const std::string& path) {
+        return path == gone || path.rfind(gone + ".", 0) == 0 || path.rfind(gone + "[", 0) == 0;
+    };
+    std::erase_if(written_, [&](const auto& entry) { return below(entry.first); });
+}
+
+// Takes out of the table what belonged to the value that `key` has had.
+void Document::take_back(toml::table& table, const std::string& table_path, const std::string& key,
+                         const toml::node& value) {
+    const Key* known = find_key(join_path(table_path, key));
+    const auto old = table[key].value<std::string>(), now = value.value<std::string>();
+    if (known == nullptr || (old && old == now)) return;
+    for (const auto& [of, others] : dependents) {
+        if (of != known->path) continue;
+        for (const std::string_view other : others)
+            if (!from_command_line(join_path(table_path, other))) remove(table, table_path, other);
+    }
+}
+
+void Document::set(const Assignment& assignment) {
+    const std::string place = assignment.place();
+    if (const std::string wrong = complaint_of_utf8(assignment.text); !wrong.empty())
+        throw UserError(fmt::format("{}: {}; type it in a UTF-8 terminal", place, wrong));
+    const std::vector<std::string> parts = parts_of(assignment.key());
+    if (assignment.text.find('=') == std::string::npos || parts.empty())
+        throw UserError(fmt::format("{}: no assignment; write --set drive.frequency=\"30 Hz\"", place));
+
+    const Location by{place, 0, 0};
+    const auto [table, table_path] = table_for(parts, by);
+    const std::string& key = parts.back();
+    const std::string path = join_path(table_path, key);
+    toml::table parsed = parsed_value(assignment.value(), find_key(path));
+    const toml::node& value = *parsed.get("value");
+    for (const auto& [one, other] : rivals) {
+        if (key == one) remove(*table, table_path, other);
+        if (key == other) remove(*table, table_path, one);
+    }
+    take_back(*table, table_path, key, value);
+    remove(*table, table_path, key);
+    written_[path] = by;
+    const bool empty_list = is_table_array_path(path) && value.is_array() && value.as_array()->empty();
+    const bool empty_table = value.is_table() && value.as_table()->empty();
+    if (empty_list || empty_table) return;
+    toml::table& target = *table;
+    value.visit([&](const auto& found) { target.insert_or_assign(key, found); });
+}
+
+void Document::check_keys() const {
+    check_table("", root_);
+}
+
+void Document::check_table(const std::string& path, const toml::table& table) const {
+    for (const auto& entry : table) check_entry(join_path(path, entry.first.str()), entry.second);
+}
+
+void Document::check_entry(const std::string& path, const toml::node& node) const {
+    const bool is_value = find_key(path) != nullptr;
+    if (is_value && node.is_table() && is_table_path(path)) return check_table(path, *node.as_table());
+    if (is_value) return;
+    if (is_table_array_path(path)) {
+        const toml::array* array = node.as_array();
+        if (array == nullptr || !array->is_array_of_tables() || array->empty())
+            fail(path, fmt::format("must be a list of tables; write [[{}]] above its keys", path));
+        for (std::size_t i = 0; i < array->size(); ++i)
+            check_table(fmt::format("{}[{}]", path, i), *array->get(i)->as_table());
+        return;
+    }
+    if (is_table_path(path)) {
+        if (!node.is_table()) fail(path, fmt::format("must be a table; write [{}] above its keys", path));
+        return check_table(path, *node.as_table());
+    }
+    const std::string table = table_of(path);
+    throw UserError(fmt::format("{}: unknown key '{}' {} {}; {}", place(path), excerpt(name_of(path)),
+                                table.front() == '[' ? "in" : "at", excerpt(table),
+                                advice_for_unknown_key(path)));
+}
+
+void Document::check_all_read() const {
+    check_read("", root_);
+}
+
+void Document::check_read(const std::string& path, const toml::node& node) const {
+    const bool is_value = find_key(path) != nullptr && !(node.is_table() && is_table_path(path));
+    if (is_value && read_.count(path) == 0)
+        fail(path, "is of no use here: nothing in this scene needs it; remove it");
+    if (const toml::table* table = node.as_table()) {
+        for (const auto& entry : *table) check_read(join_path(path, entry.first.str()), entry.second);
+    } else if (const toml::array* array = node.as_array(); array != nullptr && is_table_array_path(path)) {
+        for (std::size_t i = 0; i < array->size(); ++i)
+            check_read(fmt::format("{}[{}]", path, i), *array->get(i));
+    }
+}
+
+}  // namespace grainreel

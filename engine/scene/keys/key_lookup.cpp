@@ -1,0 +1,192 @@
+// Finding keys in the list, the right ones and the nearest ones, and describing them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/keys/keys.hpp"
+
+namespace grainreel {
+namespace {
+
+// "species[1].count" -> "species[].count"
+std::string without_indices(std::string_view path) {
+    std::string pattern;
+    bool inside = false;
+    for (const char c : path) {
+        if (c == ']') inside = false;
+        if (!inside) pattern += c;
+        if (c == '[') inside = true;
+    }
+    return pattern;
+}
+
+// Damerau's distance: insertions, deletions, substitutions and swaps of neighbours that turn a into b.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+    std::iota(above.begin(), above.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({above[j] + 1, row[j - 1] + 1, substituted});
+            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        std::swap(before, above);
+        std::swap(above, row);
+    }
+    return above[b.size()];
+}
+
+// Names of keys and tables directly inside a table, in the list's order.
+std::vector<std::string> names_inside(const std::string& table) {
+    const std::string start = table.empty() ? "" : table + ".";
+    std::vector<std::string> names;
+    for (const Key& key : scene_keys()) {
+        if (key.path.compare(0, start.size(), start) != 0) continue;
+        std::string name = key.path.substr(start.size());
+        name = name.substr(0, name.find_first_of(".["));
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
+std::string heading_of(const std::string& table) {
+    if (table.empty()) return "the top level";
+    if (table.size() > 2 && table.compare(table.size() - 2, 2, "[]") == 0)
+        return "[[" + table.substr(0, table.size() - 2) + "]]";
+    return "[" + table + "]";
+}
+
+std::string value_words(const Key& key) {
+    switch (key.kind) {
+        case KeyKind::integer:
+            return "whole number";
+        case KeyKind::flag:
+            return "true or false";
+        case KeyKind::text:
+            return "text";
+        case KeyKind::choice:
+            return fmt::format("\"{}\"", fmt::join(key.choices, "\", \""));
+        case KeyKind::colour:
+            return "colour";
+        case KeyKind::vector:
+            return "[x, y, z]";
+        case KeyKind::picture_size:
+            return "\"WxH\" or [W, H]";
+        case KeyKind::species_pair:
+            return "two names";
+        case KeyKind::speed_table:
+            return "[[m/s, number], ...]";
+        case KeyKind::interval:
+            return "[low, high]";
+        case KeyKind::name_list:
+            return "list of names";
+        case KeyKind::integer_list:
+            return "list of whole numbers";
+        case KeyKind::quantity:
+        case KeyKind::gravity:
+        case KeyKind::diameter:
+            break;
+    }
+    return key.dimension == Dimension::number ? "number" : text_of(key.dimension).unit;
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+    if (std::isnan(value)) return false;
+    if (std::isinf(value)) return infinite && value > 0;
+    return (open ? value > low : value >= low) && value <= high;
+}
+
+std::string Range::text() const {
+    if (std::isfinite(low) && std::isfinite(high))
+        return open ? fmt::format("larger than {} and at most {}", low, high)
+                    : fmt::format("from {} to {}", low, high);
+    if (std::isfinite(low))
+        return open ? fmt::format("larger than {}", low) : fmt::format("at least {}", low);
+    return infinite ? "" : "finite";
+}
+
+std::string Key::example() const {
+    if (!fallback.empty()) return fallback;
+    if (kind == KeyKind::integer) return range.low > 1 ? fmt::format("{:.15g}", range.low * 10) : "100";
+    if (kind == KeyKind::choice) return "\"" + choices.front() + "\"";
+    if (kind == KeyKind::text) return "\"small\"";
+    if (kind == KeyKind::colour) return "\"orange\"";
+    if (kind == KeyKind::species_pair) return "[\"small\", \"wall\"]";
+    if (kind == KeyKind::interval) return "[0, 1]";
+    if (kind == KeyKind::name_list) return "[\"small\"]";
+    if (kind == KeyKind::integer_list) return "[3, 14]";
+    if (kind == KeyKind::vector)
+        return dimension == Dimension::number ? "[0, 0, 1]"
+                                              : fmt::format("[{}, 0, 0]", text_of(dimension).example);
+    if (kind == KeyKind::speed_table) return "[[\"0.1 m/s\", 0.95], [\"2 m/s\", 0.8]]";
+    return text_of(dimension).example;
+}
+
+const Key* find_key(std::string_view path) {
+    const std::string pattern = without_indices(path);
+    const auto& keys = scene_keys();
+    const auto found =
+        std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.path == pattern; });
+    return found == keys.end() ? nullptr : &*found;
+}
+
+bool is_table_path(std::string_view path) {
+    const std::string start = without_indices(path) + ".";
+    return std::any_of(scene_keys().begin(), scene_keys().end(),
+                       [&](const Key& k) { return k.path.compare(0, start.size(), start) == 0; });
+}
+
+bool is_table_array_path(std::string_view path) {
+    return is_table_path(std::string(path) + "[]");
+}
+
+std::string table_of(std::string_view path) {
+    return heading_of(parent_of(without_indices(path)));
+}
+
+std::string advice_for_unknown_key(std::string_view path) {
+    const std::string name = name_of(without_indices(path));
+    const std::vector<std::string> here = names_inside(parent_of(without_indices(path)));
+    const auto nearest = std::min_element(here.begin(), here.end(), [&](const auto& a, const auto& b) {
+        return edit_distance(name, a) < edit_distance(name, b);
+    });
+    if (nearest != here.end() && edit_distance(name, *nearest) <= std::max<std::size_t>(2, name.size() / 3))
+        return fmt::format("did you mean '{}'?", *nearest);
+    for (const Key& key : scene_keys())
+        if (name_of(key.path) == name) return fmt::format("it belongs in {}", table_of(key.path));
+    return fmt::format("the keys there are {}", fmt::join(here, ", "));
+}
+
+std::string key_table_markdown() {
+    std::string text;
+    std::string table = "none yet";
+    for (const Key& key : scene_keys()) {
+        std::string inside = parent_of(key.path);
+        std::string name = name_of(key.path);
+        if (inside == "species[].diameter") {
+            inside = "species[]";
+            name = "diameter." + name;
+        }
+        if (inside != table) {
+            table = inside;
+            text += fmt::format("\n### {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
+                                inside.empty() ? "At the top level" : "`" + heading_of(inside) + "`");
+        }
+        std::string value = value_words(key);
+        if (const std::string range = key.range.text(); !range.empty() && range != "finite")
+            value += ", " + range;
+        if (key.range.infinite) value += ", or inf";
+        const std::string fallback = key.fallback.empty() ? key.fallback_note : "`" + key.fallback + "`";
+        text += fmt::format("| `{}` | {} | {} | {} |\n", name, value, fallback, key.about);
+    }
+    return text;
+}
+
+}  // namespace grainreel

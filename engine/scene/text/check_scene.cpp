@@ -1,0 +1,195 @@
+// What can be wrong between values that are right by themselves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "engine/plan/free_space.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/scene/film/measure_columns.hpp"
+#include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/text/reader_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+// The densest share of the container that growing spheres in layers reaches without jamming: random packings
+// of equal spheres end at 0.64, and one that can still be sheared near 0.55.
+constexpr double most_solid = 0.55;
+
+[[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
+    throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
+}
+
+// As one reads it: "big " and "big" look alike.
+std::string trimmed(const std::string& name) {
+    const auto first = name.find_first_not_of(' ');
+    return first == std::string::npos ? "" : name.substr(first, name.find_last_not_of(' ') - first + 1);
+}
+
+// Names that differ in commas or quotes alone would share their columns of measures.csv.
+void check_columns(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Species& species : scene.species) names.push_back(species.name);
+    std::set<std::string> columns;
+    for (const MeasureColumn& column : measure_columns(names))
+        if (!columns.insert(column.name).second)
+            throw UserError(
+                fmt::format("{}: the names of the species give measures.csv the column \"{}\" twice; choose "
+                            "names that differ in letters",
+                            scene.where("species"), excerpt(column.name)));
+}
+
+void check_names(const Scene& scene) {
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        const std::string key = fmt::format("species[{}].name", i);
+        const std::string& name = scene.species[i].name;
+        if (trimmed(name).empty()) fail(scene, key, "must not be empty; write for example \"small\"");
+        if (name == "wall")
+            fail(scene, key, "must not be \"wall\", which stands for the container; choose another");
+        if (!names.insert(trimmed(name)).second)
+            fail(scene, key, fmt::format("\"{}\" is taken; choose another", excerpt(name)));
+    }
+    check_columns(scene);
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    if (scene.grains() > most)
+        throw UserError(fmt::format("{}: {} grains are more than the {} that can be numbered; use fewer",
+                                    scene.where("species"), scene.grains(), most));
+}
+
+void check_wedge(const Scene& scene) {
+    const Container& c = scene.container;
+    if (c.shape != Container::Shape::wedge) return;
+    if (c.half_angle >= std::numbers::pi / 2)
+        fail(scene, "container.half_angle",
+             fmt::format("must be less than 90 deg, but is {:.6g} deg{}",
+                         c.half_angle * 180 / std::numbers::pi,
+                         c.half_angle > 2 * std::numbers::pi && c.half_angle < 90
+                             ? fmt::format("; a bare number is in rad, write \"{:.6g} deg\"", c.half_angle)
+                             : ""));
+    if (c.slant_height > c.height)
+        fail(scene, "container.slant_height",
+             fmt::format(
+                 "is {:.6g} m, more than the height of the container, {:.6g} m; lower it or raise the height",
+                 c.slant_height, c.height));
+    const double taken = c.slant_height * std::tan(c.half_angle);
+    if (c.floor_half_width() < 0)
+        fail(
+            scene, "container.half_width",
+            fmt::format(
+                "is {:.6g} m, but the slanted walls take {:.6g} m on each side and would cross; widen it, or "
+                "reduce half_angle or slant_height",
+                c.half_width, taken));
+}
+
+void check_grain_sizes(const Scene& scene) {
+    const Container& c = scene.container;
+    if (c.shape == Container::Shape::none) return;
+    struct Extent {
+        double size;
+        const char* key;
+    };
+    std::vector<Extent> extents{{c.height, "height"}};
+    const bool wedge = c.shape == Container::Shape::wedge;
+    const bool cylinder = c.shape == Container::Shape::cylinder;
+    extents.push_back({2 * c.half_width, cylinder ? "diameter" : wedge ? "half_width" : "width"});
+    if (!cylinder) extents.push_back({c.depth, "depth"});
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        const double largest = scene.species[i].diameter.largest;
+        for (const Extent& extent : extents)
+            if (largest > extent.size)
+                fail(scene, fmt::format("species[{}].diameter", i),
+                     fmt::format("of {:.6g} m does not fit in the container, {:.6g} m across (container.{}); "
+                                 "use smaller "
+                                 "grains or a larger container",
+                                 largest, extent.size, extent.key));
+        if (c.periodic_depth && c.depth < 4 * largest)
+            fail(scene, "container.depth",
+                 fmt::format(
+                     "of {:.6g} m is too short to be periodic, less than 4 diameters of \"{}\", {:.6g} m; "
+                     "lengthen it",
+                     c.depth, scene.species[i].name, 4 * largest));
+    }
+}
+
+void check_room(const Scene& scene) {
+    if (scene.start.method != Start::Method::layers) return;
+    const double solid = solid_volume(scene);
+    const double room = FreeSpace(scene).volume();
+    if (room <= 0)
+        throw UserError(
+            fmt::format("{}: the planes leave no room in the container to start layers in; move "
+                        "them, or turn their normals towards the grains",
+                        scene.where("wall")));
+    if (solid > most_solid * room)
+        throw UserError(
+            fmt::format("{}: {} grains of {:.4g} m3 fill {:.1f} % of the {}'s {:.4g} m3, more than the "
+                        "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
+                        scene.where("species"), scene.grains(), solid, 100 * solid / room,
+                        scene.walls.empty() ? "container" : "room", room, 100 * most_solid));
+}
+
+// Layers are to lie on something.
+void check_gravity(const Scene& scene) {
+    const bool held = scene.container.lid || !scene.walls.empty();
+    if (scene.start.method != Start::Method::layers || held || scene.gravity.z() <= 0) return;
+    fail(scene, "gravity",
+         fmt::format(
+             "points up, with {0:.6g} m/s2 along z, and the container is open above, so that the grains "
+             "fall out of it; write gravity = {0:.6g}, which is downwards, or top = \"lid\"",
+             scene.gravity.z()));
+}
+
+void check_drive(const Scene& scene) {
+    const Drive& drive = scene.drive;
+    if (!drive.present || drive.moves == Drive::Moves::container) return;
+    const double stroke = 2 * drive.amplitude * std::abs(drive.direction.z());
+    if (stroke >= scene.container.height)
+        fail(scene, "drive.moves",
+             fmt::format(
+                 "is \"floor\", whose stroke of {:.6g} m is not less than the container's height, {:.6g} m; "
+                 "reduce the amplitude",
+                 stroke, scene.container.height));
+}
+
+void check_film(const Scene& scene) {
+    const Film& film = scene.film;
+    const Camera& camera = film.camera;
+    if (camera.position && *camera.position == camera.target.value_or(extent_of(scene).middle()))
+        fail(scene, "film.camera.position", "is where the camera looks; move it, or the target");
+    if (film.wall_ghost && !scene.drive.present)
+        fail(scene, "film.wall_ghost",
+             "shows where the walls rest, but nothing moves; add [drive] or take it out");
+    if (film.exaggerate == 1) return;
+    if (!scene.drive.present)
+        fail(scene, "film.exaggerate",
+             "enlarges the container's motion, but nothing moves; add [drive] or take it out");
+    const bool floor_only = scene.drive.moves == Drive::Moves::floor;
+    const bool wall_apart = std::any_of(scene.walls.begin(), scene.walls.end(), [](const FreeWall& wall) {
+        return !wall.moves || wall.velocity != Vec3(0, 0, 0);
+    });
+    if (floor_only || wall_apart)
+        fail(scene, "film.exaggerate",
+             "needs walls that all move together, or grains would be drawn inside those that do not; take it "
+             "out");
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+    check_names(scene);
+    check_wedge(scene);
+    check_grain_sizes(scene);
+    check_room(scene);
+    check_gravity(scene);
+    check_drive(scene);
+    check_film(scene);
+}
+
+}  // namespace grainreel

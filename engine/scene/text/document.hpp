@@ -1,0 +1,99 @@
+// A TOML file as the reader wants it: values by key path ("species[1].count"), checked against the list of
+// keys, every complaint with its place. Internal to the reader.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/vector.hpp"
+#include "engine/scene/keys/keys.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/scene/text/assignment.hpp"
+
+namespace grainreel {
+
+class Document {
+  public:
+    // `file` is the name used in messages. Throws UserError when the text is not UTF-8 or not TOML.
+    Document(std::string_view text, std::string file);
+
+    // One assignment of the command line. A key that excludes others (g_level and amplitude), or that others
+    // belong to (the colour's map to what it stands for), removes them; [] and {} remove a list of tables and
+    // a table. Throws UserError when the place does not exist or the text is not UTF-8.
+    void set(const Assignment& assignment);
+
+    // Throws at the first key that is not in the list, or is a table and should not be, or the other way
+    // round.
+    void check_keys() const;
+    // Throws at the first key that nothing has read.
+    void check_all_read() const;
+
+    bool has(const std::string& path) const;
+    std::size_t size(const std::string& path) const;  // of an array; 0 when absent
+    bool is_table(const std::string& path) const;     // an inline table as a value
+    bool is_array(const std::string& path) const;
+    bool is_text(const std::string& path) const;
+    std::string written_value(const std::string& path) const;  // of a key that is there, as TOML, cut short
+
+    // The value of a key, in its dimension's unit; none when absent. Throw UserError when it is not of the
+    // key's kind or outside its range.
+    std::optional<double> quantity(const std::string& path);
+    std::optional<std::int64_t> integer(const std::string& path);
+    std::optional<bool> flag(const std::string& path);
+    std::optional<std::string> text(const std::string& path);  // also choices
+    std::optional<Vec3> vector(const std::string& path);       // also gravity; each a quantity
+    std::optional<std::vector<std::string>> names(const std::string& path);
+    // Rows of a speed (m/s) and a number, at most kTablePoints; empty when absent.
+    std::vector<std::array<double, 2>> speed_table(const std::string& path);
+    std::optional<std::array<std::int64_t, 2>> two_integers(const std::string& path);
+    // [low, high], each a quantity of this dimension.
+    std::optional<std::array<double, 2>> interval(const std::string& path, Dimension dimension);
+    std::vector<std::string> name_list(const std::string& path);      // empty when absent
+    std::vector<std::int64_t> integer_list(const std::string& path);  // likewise
+
+    double required_quantity(const std::string& path);
+    std::string required_text(const std::string& path);
+
+    // "'path' <what>" at the key's place.
+    [[noreturn]] void fail(const std::string& path, const std::string& what) const;
+    // "[table] lacks 'key', ..." at the place of the table.
+    [[noreturn]] void fail_missing(const std::string& path) const;
+    // Throws when the key is there, because of `reason` ("a box has no slanted walls").
+    void refuse(const std::string& path, const std::string& reason) const;
+
+    const std::map<std::string, Location>& written() const { return written_; }
+    bool from_command_line(const std::string& path) const;
+    std::string place(const std::string& path) const;  // "file:line:column"
+
+  private:
+    const toml::node* find(const std::string& path) const;
+    const toml::node* read(const std::string& path);  // find, and remember that it was read
+    double number_in(const std::string& path, const toml::node& node, const Key& key) const;
+    void check_bare_phase(const std::string& path, const toml::node& node) const;
+    std::string written_value(const toml::node& node) const;
+    void record(const std::string& path, const toml::node& node);
+    void check_table(const std::string& path, const toml::table& table) const;
+    void check_entry(const std::string& path, const toml::node& node) const;
+    void check_read(const std::string& path, const toml::node& node) const;
+    toml::node* step_into(toml::node& node, const std::string& part, const std::string& by);
+    std::pair<toml::table*, std::string> table_for(const std::vector<std::string>& parts, const Location& by);
+    void remove(toml::table& table, const std::string& table_path, std::string_view key);
+    void take_back(toml::table& table, const std::string& table_path, const std::string& key,
+                   const toml::node& value);
+
+    std::string file_;
+    toml::table root_;
+    std::map<std::string, Location> written_;
+    std::set<std::string> read_;
+};
+
+}  // namespace grainreel

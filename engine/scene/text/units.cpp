@@ -1,0 +1,154 @@
+#include "engine/scene/text/units.hpp"
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+
+namespace grainreel {
+namespace {
+
+struct FreeUnit {
+    void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+
+// The table of units that udunits installs beside itself. Its location is compiled into the library, or given
+// by UDUNITS2_XML_PATH. udunits keeps global state, hence one lock around every use.
+class UnitSystem {
+  public:
+    UnitSystem() {
+        ut_set_error_message_handler(ut_ignore);  // it would print to stderr
+        system_ = ut_read_xml(nullptr);
+        if (system_ == nullptr)
+            throw UserError(
+                "the units database udunits2.xml is missing; install the package libudunits2-data or set "
+                "UDUNITS2_XML_PATH to the file");
+        // udunits knows degrees by name and by the degree sign only.
+        if (const Unit degree = parse("degree")) ut_map_symbol_to_unit("deg", UT_ASCII, degree.get());
+    }
+    ~UnitSystem() { ut_free_system(system_); }
+    UnitSystem(const UnitSystem&) = delete;
+    UnitSystem& operator=(const UnitSystem&) = delete;
+
+    Unit parse(const std::string& text) const { return Unit(ut_parse(system_, text.c_str(), UT_UTF8)); }
+
+    // The factor from `from` to `to`; none when they measure different things. For udunits the radian is 1,
+    // so that 25 rad/s would pass as 25 Hz: here it is a dimension of its own.
+    static std::optional<double> factor(const Unit& from, const Unit& to) {
+        if (!ut_are_convertible(from.get(), to.get())) return std::nullopt;
+        const Unit ratio(ut_divide(from.get(), to.get()));
+        std::array<char, 256> definition{};
+        if (!ratio ||
+            ut_format(ratio.get(), definition.data(), definition.size() - 1, UT_ASCII | UT_DEFINITION) < 0)
+            return std::nullopt;
+        if (std::string_view(definition.data()).find("rad") != std::string_view::npos) return std::nullopt;
+        const std::unique_ptr<cv_converter, void (*)(cv_converter*)> converter(
+            ut_get_converter(from.get(), to.get()), cv_free);
+        if (!converter || cv_convert_double(converter.get(), 0) != 0) return std::nullopt;  // no offsets
+        return cv_convert_double(converter.get(), 1);
+    }
+
+  private:
+    ut_system* system_ = nullptr;
+};
+
+std::mutex units_lock;
+
+const UnitSystem& unit_system() {
+    static const UnitSystem system;
+    return system;
+}
+
+constexpr std::array<DimensionText, 17> dimension_texts{{
+    {"m", "a length", "\"5 mm\""},
+    {"s", "a time", "\"10 s\""},
+    {"Hz", "a frequency", "\"25 Hz\""},
+    {"1/s", "a rate", "\"10 1/s\""},
+    {"rad", "an angle", "\"20 deg\""},
+    {"turn", "a phase", "\"90 deg\""},
+    {"degree", "an angle", "\"20 deg\""},
+    {"kg/m3", "a density", "\"2.5 g/cm3\""},
+    {"kg", "a mass", "\"0.16 g\""},
+    {"N/m", "a stiffness", "\"2e4 N/m\""},
+    {"Pa", "a pressure", "\"70 GPa\""},
+    {"m/s", "a speed", "\"0.5 m/s\""},
+    {"rad/s", "an angular velocity", "\"10 rad/s\""},
+    {"m/s2", "an acceleration", "\"9.81 m/s2\""},
+    {"J", "an energy", "\"5 µJ\""},
+    {"N", "a force", "\"10 mN\""},
+    {"1", "a plain number", "0.5"},
+}};
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+    return text;
+}
+
+// udunits would take "1 000 mm" for 1 times 000 mm, and "mm 3" for three of them: a unit begins with a
+// letter, or with "1/", and no number follows a space.
+bool looks_like_unit(std::string_view text) {
+    if (text.empty()) return false;
+    if (text.substr(0, 2) == "1/") text.remove_prefix(2);
+    const auto first = static_cast<unsigned char>(text.empty() ? ' ' : text.front());
+    if (!std::isalpha(first) && first < 0x80) return false;
+    for (std::size_t i = 0; i + 1 < text.size(); ++i)
+        if (std::isspace(static_cast<unsigned char>(text[i])) &&
+            !std::isalpha(static_cast<unsigned char>(text[i + 1])) &&
+            static_cast<unsigned char>(text[i + 1]) < 0x80)
+            return false;
+    return text.find('@') == std::string_view::npos;
+}
+
+// " is a time" for a unit of another dimension we know; " is not" otherwise.
+std::string other_dimension(const Unit& unit) {
+    for (const DimensionText& other : dimension_texts)
+        if (UnitSystem::factor(unit, unit_system().parse(other.unit)))
+            return fmt::format(" is {}", other.noun);
+    return " is not";
+}
+
+}  // namespace
+
+const DimensionText& text_of(Dimension dimension) {
+    return dimension_texts[static_cast<std::size_t>(dimension)];
+}
+
+double parse_quantity(std::string_view text, Dimension dimension, const std::string& example) {
+    const DimensionText& wanted = text_of(dimension);
+    const auto fail = [&](const std::string& what) -> UserError {
+        return UserError(fmt::format("must be {}, but {}; write for example {}", wanted.noun, what,
+                                     example.empty() ? wanted.example : example));
+    };
+    const std::string_view all = trimmed(text);
+    const std::string shown = excerpt(text);
+    double value = 0;
+    const auto [end, failure] = std::from_chars(all.data(), all.data() + all.size(), value);
+    if (failure != std::errc() || !std::isfinite(value))
+        throw fail(fmt::format("\"{}\" does not begin with a number", shown));
+    const std::string unit_text(trimmed(all.substr(static_cast<std::size_t>(end - all.data()))));
+    if (dimension == Dimension::number)
+        throw fail(unit_text.empty() ? fmt::format("\"{}\" is text; leave the quotes out", shown)
+                                     : fmt::format("\"{}\" has a unit", shown));
+    if (unit_text.empty()) throw fail(fmt::format("\"{}\" has no unit", shown));
+
+    const std::lock_guard guard(units_lock);
+    const Unit unit = looks_like_unit(unit_text) ? unit_system().parse(unit_text) : Unit();
+    if (!unit) throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", shown, excerpt(unit_text)));
+    const std::optional<double> scale = UnitSystem::factor(unit, unit_system().parse(wanted.unit));
+    if (!scale) throw fail(fmt::format("\"{}\"{}", shown, other_dimension(unit)));
+    // 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off.
+    const double parts = std::round(1 / *scale);
+    return parts > 1 && std::abs(parts * *scale - 1) < 1e-13 ? value / parts : value * *scale;
+}
+
+}  // namespace grainreel

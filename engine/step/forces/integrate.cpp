@@ -1,0 +1,289 @@
+#include "engine/step/forces/integrate.hpp"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/step/forces/integrate.cpp"
+#include "engine/vector/targets.hpp"
+//
+#include "engine/vector/record-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+constexpr std::uint64_t kAllTogether = (1 << kTogether) - 1;
+
+// Of grain i: position and radius; motion; force and torque.
+struct Numbers {
+    double *place, *motion, *load;
+    float* rounded;
+    const Loaded* loaded;
+    const std::uint64_t otherwise;
+    bool large;
+    Numbers(Grains& g, const KickInput& in)
+        : place(reinterpret_cast<double*>(g.place.data())),
+          motion(reinterpret_cast<double*>(g.motion.data())),
+          load(reinterpret_cast<double*>(g.load.data())),
+          rounded(g.rounded.empty() ? nullptr : reinterpret_cast<float*>(g.rounded.data())),
+          loaded(in.loaded && in.loaded->few() ? in.loaded : nullptr),
+          otherwise(in.unloaded ? 0 : ~std::uint64_t{0}),
+          large(g.size() >= kLargeBed) {}
+
+    // Bit k: whether grain i + k may have a load.
+    HWY_INLINE std::uint64_t loads_from(std::ptrdiff_t i) const {
+        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : otherwise;
+    }
+
+    // Four grains some way ahead of those at i, whose `loads` begin there: what contacts have not brought to
+    // the cache already, which is all of it where the bed is large, and what they read a copy of.
+    HWY_INLINE void fetch_ahead(std::ptrdiff_t i, std::uint64_t loads) const {
+        constexpr std::ptrdiff_t ahead = 32;
+        if (!large && !rounded) return;
+        const std::ptrdiff_t later = i + ahead;
+        for (std::ptrdiff_t k = later; k < later + kTogether; ++k) __builtin_prefetch(motion + 8 * k, 1);
+        if (!large) return;
+        for (std::ptrdiff_t k = later; k < later + kTogether; k += 2) __builtin_prefetch(place + 4 * k, 1);
+        if (rounded)
+            for (std::ptrdiff_t k = later; k < later + kTogether; k += 2)
+                __builtin_prefetch(rounded + 8 * k, 1);
+        if ((loads >> ahead & kAllTogether) == 0) return;
+        for (std::ptrdiff_t k = later; k < later + kTogether; ++k) __builtin_prefetch(load + 8 * k, 1);
+    }
+};
+
+// What a pass works on of motion and load: velocity and force, and with friction spin and torque behind them.
+template <bool rubs>
+struct MotionRecord {
+    static constexpr int size = rubs ? 8 : 4;
+    static HWY_INLINE Record<size> of(const Record<4>& first, const Record<4>& second) {
+        if constexpr (rubs)
+            return both(first, second);
+        else
+            return first;
+    }
+    // (x, x, x, fourth) twice: kicks leave mass and inertia as they are.
+    static HWY_INLINE Record<size> of(double x, double fourth = 0) {
+        const Record<4> four = record_of(Vec3(x, x, x), fourth);
+        return of(four, four);
+    }
+    // As mixed precision reads it.
+    static HWY_INLINE Record<8> with_radius(const Record<size>& motion, double radius) {
+        if constexpr (rubs)
+            return with_last(motion, radius);
+        else
+            return both(motion, with_last(record_of(0.0), radius));
+    }
+    // Each half's fourth number, everywhere in it.
+    static HWY_INLINE Record<size> fourths(const double* from) {
+        return of(record_of(from[3]), record_of(from[7]));
+    }
+};
+
+// Whether a pass over the grains ends a step, begins one, or both.
+template <bool ends, bool begins, bool rubs, bool drags>
+HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    using Whole = MotionRecord<rubs>;
+    constexpr int size = Whole::size;
+    const Numbers at(grains, in);
+    const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
+    const Record<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
+    const Record<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
+    const Vec3 no_minus_zero = in.gravity + Vec3::Zero();  // as with a load of zero
+    const Record<size> gravity = Whole::of(record_of(no_minus_zero), zero);
+    const Record<size> frame = Whole::of(record_of(in.frame), zero);
+    Record<4> fastest = zero;
+    const auto go_on = [&](std::ptrdiff_t i, auto has_load) HWY_ATTR {
+        double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
+        Record<size> now = record_at<size>(motion), gains = gravity;
+        if (has_load.value) gains = multiply_add(record_at<size>(load), Whole::fourths(motion), gravity);
+        if (ends) now = multiply_add(last, gains, now);
+        if (ends && drags) now = now * keep;
+        if (begins) {
+            now = multiply_add(next, gains, now);
+            double* place = at.place + 4 * i;
+            const double radius = place[3];
+            put(multiply_add(whole, first_four(now), record_at<4>(place)), place);
+            if (has_load.value) put(nothing, load);
+            const Record<size> relative = now - frame;
+            fastest = larger_size(fastest, first_four(relative));
+            if (at.rounded) put_rounded(Whole::with_radius(relative, radius), at.rounded + 8 * i);
+        }
+        put(now, motion);
+    };
+    std::ptrdiff_t i = begin;
+    for (; i + kTogether <= end; i += kTogether) {
+        const std::uint64_t loads = at.loads_from(i);
+        at.fetch_ahead(i, loads);
+        if (loads & kAllTogether)
+            for (int k = 0; k < kTogether; ++k) go_on(i + k, std::true_type());
+        else
+            for (int k = 0; k < kTogether; ++k) go_on(i + k, std::false_type());
+    }
+    for (; i < end; ++i) go_on(i, std::true_type());
+    HWY_ALIGN double f[4];
+    put(fastest, f);
+    return {f[0], f[1], f[2]};
+}
+
+template <bool ends, bool begins>
+HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const auto of = [&](auto rubs, auto drags) HWY_ATTR {
+        return pass_of<ends, begins, rubs.value, drags.value>(grains, in, begin, end);
+    };
+    const std::true_type yes;
+    const std::false_type no;
+    if (in.keep == 1) return in.rubs ? of(yes, no) : of(no, no);
+    return in.rubs ? of(yes, yes) : of(no, yes);
+}
+
+Vec3 first_half(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    return pass<false, true>(grains, in, begin, end);
+}
+
+Vec3 second_half(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    return pass<true, false>(grains, in, begin, end);
+}
+
+Vec3 both_halves(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    return pass<true, true>(grains, in, begin, end);
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grainreel {
+
+namespace {
+
+// Rotates q by the angle rate * step about the rate's axis; q stays of unit length.
+Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
+    const double angle = rate.norm() * step;
+    if (angle == 0) return q;
+    return (Quaternion(Eigen::AngleAxisd(angle, rate.normalized())) * q).normalized();
+}
+
+void turn(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    if (!in.rubs || grains.orientation.empty()) return;
+    for (std::int32_t i = begin; i < end; ++i) {
+        grains.orientation[i] = turned(grains.orientation[i], grains.motion[i].spin, in.drift);
+    }
+}
+
+}  // namespace
+
+HWY_EXPORT(first_half);
+HWY_EXPORT(second_half);
+HWY_EXPORT(both_halves);
+
+Vec3 kick_and_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const Vec3 fastest = HWY_DYNAMIC_DISPATCH(first_half)(grains, in, begin, end);
+    turn(grains, in, begin, end);
+    return fastest;
+}
+
+void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    HWY_DYNAMIC_DISPATCH(second_half)(grains, in, begin, end);
+}
+
+Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const Vec3 fastest = HWY_DYNAMIC_DISPATCH(both_halves)(grains, in, begin, end);
+    turn(grains, in, begin, end);
+    return fastest;
+}
+
+void fly(Grains& grains, const Flight& flight, std::int32_t begin, std::int32_t end) {
+    KickInput kicks = flight.kicks;
+    kicks.unloaded = true;
+    kicks.loaded = nullptr;
+    flight.begins ? HWY_DYNAMIC_DISPATCH(first_half)(grains, kicks, begin, end)
+                  : HWY_DYNAMIC_DISPATCH(both_halves)(grains, kicks, begin, end);
+}
+
+void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {
+    const std::int32_t many = complete - vanguard.next;
+    const std::int32_t end = std::min(vanguard.next + many - many % kTogether, vanguard.end);
+    if (end <= vanguard.next) return;
+    vanguard.fastest = vanguard.fastest.cwiseMax(kick_and_go_on(grains, vanguard.kicks, vanguard.next, end));
+    vanguard.next = end;
+}
+
+void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i)
+        grains.place[i].position += in.drift * grains.motion[i].velocity;
+    turn(grains, in, begin, end);
+}
+
+namespace {
+
+Vec3 acceleration(const Grains& grains, const KickInput& in, std::int32_t i) {
+    return grains.motion[i].inverse_mass * grains.load[i].force + in.gravity;
+}
+Vec3 spin_acceleration(const Grains& grains, std::int32_t i) {
+    return grains.motion[i].inverse_inertia * grains.load[i].torque;
+}
+
+}  // namespace
+
+void begin_derivatives(Grains& grains, const KickInput& in) {
+    grains.derivatives.assign(grains.size(), {});
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(grains.size()); ++i) {
+        grains.derivatives[i].acceleration = acceleration(grains, in, i);
+        if (in.rubs) grains.derivatives[i].spin_acceleration = spin_acceleration(grains, i);
+    }
+}
+
+Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const double h = in.drift;
+    Vec3 fastest(0, 0, 0);
+    for (std::int32_t i = begin; i < end; ++i) {
+        Derivatives& d = grains.derivatives[i];
+        Vec3& v = grains.motion[i].velocity;
+        const Vec3 mean = v + h / 2 * d.acceleration + h * h / 6 * d.jerk;
+        grains.place[i].position += h * mean;
+        fastest = fastest.cwiseMax((mean - in.frame).cwiseAbs());
+        v += h * d.acceleration + h * h / 2 * d.jerk;
+        d.acceleration += h * d.jerk;
+        grains.load[i] = {};
+        if (!in.rubs) continue;
+        grains.motion[i].spin += h * d.spin_acceleration + h * h / 2 * d.spin_jerk;
+        d.spin_acceleration += h * d.spin_jerk;
+    }
+    turn(grains, in, begin, end);
+    round_motion(grains, in, begin, end);
+    return fastest;
+}
+
+void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    if (grains.rounded.empty()) return;
+    for (std::int32_t i = begin; i < end; ++i) {
+        const Eigen::Vector3f velocity = (grains.motion[i].velocity - in.frame).cast<float>();
+        const Eigen::Vector3f rate = grains.motion[i].spin.cast<float>();
+        grains.rounded[i] = {{velocity.x(), velocity.y(), velocity.z()},
+                             static_cast<float>(grains.motion[i].inverse_mass),
+                             {rate.x(), rate.y(), rate.z()},
+                             static_cast<float>(grains.place[i].radius)};
+    }
+}
+
+// Coefficients 1/6, 5/6, 1, 1/3 for a force that gives the second derivative; 5/12, 1, 1/2 for a torque that
+// gives the first.
+void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const double h = in.drift;
+    for (std::int32_t i = begin; i < end; ++i) {
+        Derivatives& d = grains.derivatives[i];
+        const Vec3 more = acceleration(grains, in, i) - d.acceleration;
+        grains.place[i].position += h * h / 12 * more;
+        grains.motion[i].velocity = (grains.motion[i].velocity + 5 * h / 12 * more) * in.keep;
+        d.acceleration += more;
+        d.jerk += more / h;
+        if (!in.rubs) continue;
+        const Vec3 faster = spin_acceleration(grains, i) - d.spin_acceleration;
+        grains.motion[i].spin = (grains.motion[i].spin + 5 * h / 12 * faster) * in.keep;
+        d.spin_acceleration += faster;
+        d.spin_jerk += faster / h;
+    }
+}
+
+}  // namespace grainreel
+#endif

@@ -1,0 +1,191 @@
+#include "engine/step/forces/loads.hpp"
+
+#include <utility>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/step/forces/loads.cpp"
+#include "engine/vector/targets.hpp"
+//
+#include "engine/laws/row-inl.hpp"
+#include "engine/vector/records-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+// Of L::count contacts: what the second body gains in force and the first loses, and what they lose and gain
+// in torque.
+template <class L>
+struct Pushes {
+    Triple<L> force, first_loses, second_gains;
+};
+
+// Torques are -arm * turning with turning = k x T, for both; what resists rolling comes on top.
+template <class L, bool rubs>
+HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
+    const Triple<L> k = triple_at<L>(chunk.touch->normal, c);
+    const L normal = row_at<L>(chunk.force->normal, c);
+    Pushes<L> p;
+    if constexpr (!rubs) {
+        p.force = k * normal;
+    } else {
+        const Triple<L> across = triple_at<L>(chunk.force->tangential, c), turning = k.cross(across);
+        p.force = across.plus(k, normal);
+        p.first_loses = turning * row_at<L>(chunk.touch->first_arm, c);
+        p.second_gains = -(turning * row_at<L>(chunk.touch->second_arm, c));
+        if (chunk.rolling) {
+            const Triple<L> rolling = triple_at<L>(chunk.rolling->torque, c);
+            p.first_loses += rolling;
+            p.second_gains += rolling;
+        }
+    }
+    return p;
+}
+
+HWY_INLINE double* numbers(Load& one) {
+    return reinterpret_cast<double*>(&one);
+}
+
+// Force and torque of contacts on one of their bodies, contact by contact; without friction the force alone.
+// They stay in registers: what is stored in one piece and loaded in another has to wait.
+template <bool rubs>
+HWY_INLINE auto by_contact(const Triple<Lanes>& force, const Triple<Lanes>& torque) {
+    const auto four = [](const Triple<Lanes>& t) HWY_ATTR {
+        return Four<Doubles>{t.x.value, t.y.value, t.z.value, Lanes(0.0).value};
+    };
+    if constexpr (rubs)
+        return rows_of(four(force), four(torque));
+    else
+        return rows_of(four(force));
+}
+template <bool rubs>
+HWY_INLINE auto by_contact(const Triple<FloatLanes>& force, const Triple<FloatLanes>& torque) {
+    const auto four = [](const Triple<FloatLanes>& t) HWY_ATTR {
+        return Four<Floats>{t.x.value, t.y.value, t.z.value, FloatLanes(0.0).value};
+    };
+    if constexpr (rubs)
+        return float_rows_of(four(force), four(torque));
+    else
+        return float_rows_of(four(force));
+}
+
+// work<k>() for the first `count` contacts of a register, in their order.
+template <class L, class Work>
+HWY_INLINE void each_of(int count, const Work& work) {
+    const auto in_turn = [&]<int... k>(std::integer_sequence<int, k...>) HWY_ATTR {
+        if (count >= L::count)
+            (work.template operator()<k>(), ...);
+        else
+            ((k < count ? work.template operator()<k>() : void()), ...);
+    };
+    in_turn(std::make_integer_sequence<int, L::count>());
+}
+
+template <int size>
+HWY_INLINE void add(double* load, const Record<size>& more) {
+    put(record_at<size>(load) + more, load);
+}
+template <int size>
+HWY_INLINE void take_off(double* load, const Record<size>& less) {
+    put(record_at<size>(load) - less, load);
+}
+
+// Of sorted contacts a register's second bodies come before all of its first ones: no grain notices, as its
+// contacts as second body precede those as first, and loads that follow each other lie apart (1.3 times as
+// fast as in turn).
+template <class L, bool rubs, bool sorted>
+HWY_INLINE void add_each(const ChunkOfContacts& chunk, Load* loads) {
+    for (int c = 0; c < chunk.count; c += L::count) {
+        chunk.touch->fetch_some();
+        const Pushes<L> p = pushes<L, rubs>(chunk, c);
+        const auto gained = by_contact<rubs>(p.force, p.second_gains);
+        const auto lost = by_contact<rubs>(p.force, p.first_loses);
+        const std::int32_t *const firsts = chunk.first + c, *const seconds = chunk.second + c;
+        const auto second = [&]<int k>()
+                                HWY_ATTR { add(numbers(loads[seconds[k]]), gained.template row<k>()); };
+        const auto first = [&]<int k>()
+                               HWY_ATTR { take_off(numbers(loads[firsts[k]]), lost.template row<k>()); };
+        if constexpr (sorted) {
+            each_of<L>(chunk.count - c, second);
+            each_of<L>(chunk.count - c, first);
+        } else {
+            each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
+                first.template operator()<k>();
+                second.template operator()<k>();
+            });
+        }
+    }
+}
+
+template <class L, bool rubs>
+void pairs_of(const ChunkOfContacts& chunk, Load* loads) {
+    chunk.sorted ? add_each<L, rubs, true>(chunk, loads) : add_each<L, rubs, false>(chunk, loads);
+}
+
+template <class L>
+void pairs_at(const ChunkOfContacts& chunk, Load* loads) {
+    chunk.rubs ? pairs_of<L, true>(chunk, loads) : pairs_of<L, false>(chunk, loads);
+}
+
+void pairs(const ChunkOfContacts& chunk, Grains& grains) {
+    chunk.rounded ? pairs_at<FloatLanes>(chunk, grains.load.data())
+                  : pairs_at<Lanes>(chunk, grains.load.data());
+}
+
+// J: the work that walls do on their grains through forces on the walls.
+template <class L>
+HWY_INLINE void put_work(const WallForces& in, int c, const Triple<L>& force, double* work) {
+    alignas(64) double rows[3][L::count];
+    store_as(force.x, rows[0]), store_as(force.y, rows[1]), store_as(force.z, rows[2]);
+    const auto* at_end = reinterpret_cast<const double*>(in.walls.motion.data()) + 4;
+    for (int k = 0; k < L::count; k += kLanes) {
+        const auto v = load_records(at_end, sizeof(FaceMotion) / sizeof(double), in.contacts.second + c + k);
+        const Triple<Lanes> on_wall{load(rows[0] + k), load(rows[1] + k), load(rows[2] + k)};
+        store(on_wall.dot({v.a, v.b, v.c}) * Lanes(-in.step), work + k);
+    }
+}
+
+template <class L, bool rubs>
+void walls_of(const WallForces& in) {
+    const ChunkOfContacts& chunk = in.contacts;
+    alignas(64) double work[L::count];
+    for (int c = 0; c < chunk.count; c += L::count) {
+        const Pushes<L> p = pushes<L, rubs>(chunk, c);
+        put_work<L>(in, c, p.force, work);
+        const auto lost = by_contact<rubs>(p.force, p.first_loses);
+        each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
+            if (!chunk.touch->touches(c + k)) return;
+            const std::int32_t grain = chunk.first[c + k];
+            take_off(numbers(in.grains.load[grain]), lost.template row<k>());
+            in.grains.wall_work[grain] += work[k];
+        });
+    }
+}
+
+template <class L>
+void walls_at(const WallForces& in) {
+    in.contacts.rubs ? walls_of<L, true>(in) : walls_of<L, false>(in);
+}
+
+void add_to_walls(const WallForces& in) {
+    in.contacts.rounded ? walls_at<FloatLanes>(in) : walls_at<Lanes>(in);
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grainreel {
+
+HWY_EXPORT(pairs);
+HWY_EXPORT(add_to_walls);
+
+void add_pairs(const ChunkOfContacts& chunk, Grains& grains) {
+    HWY_DYNAMIC_DISPATCH(pairs)(chunk, grains);
+}
+
+void add_walls(const WallForces& forces) {
+    HWY_DYNAMIC_DISPATCH(add_to_walls)(forces);
+}
+
+}  // namespace grainreel
+#endif

@@ -1,0 +1,62 @@
+// What beds larger than the caches fetch before it is wanted: they wait for second bodies, which lie far from
+// the first in no order that the processor foresees. So all grains are brought to the second-level cache in
+// their order, a while before a contact wants them, and second bodies to the first level a chunk ahead: a
+// fifth of the time of a million. Small beds lose by it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/base/ahead.hpp"
+#include "engine/laws/touch_chunk.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/lists/contact_table.hpp"
+
+namespace grainreel {
+
+inline bool is_large_bed(const Grains& grains) {
+    return grains.size() >= kLargeBed;
+}
+
+// Of candidates, the second places of the chunk after the one at c. (Inlined by force, as Ahead::fetch_some.)
+[[gnu::always_inline]] inline void fetch_places(const Grains& grains, const ContactTable& table,
+                                                std::int32_t c) {
+    const std::int32_t begin = std::min(table.candidates(), c + kChunk);
+    const std::int32_t end = std::min(table.candidates(), c + 2 * kChunk);
+    for (std::int32_t k = begin; k < end; ++k) __builtin_prefetch(&grains.place[table.near_second()[k]]);
+}
+
+// Of contacts, the second bodies of the chunk after the one at c; `rounded` as mixed precision reads them.
+[[gnu::always_inline]] inline void fetch_second(const Grains& grains, bool rounded, const ContactTable& table,
+                                                std::int32_t c) {
+    for (std::int32_t k = c + kChunk; k < std::min(table.sorted(), c + 2 * kChunk); ++k) {
+        const std::int32_t j = table.second()[k];
+        __builtin_prefetch(&grains.place[j]);
+        if (rounded)
+            __builtin_prefetch(&grains.rounded[j]);
+        else
+            __builtin_prefetch(&grains.motion[j]);
+        __builtin_prefetch(&grains.load[j], 1);
+    }
+}
+
+// Second bodies now, and into `ahead` the grains that the chunks after this one, of `count` contacts at c,
+// will have in their order. Where contacts are few, a chunk has its grains from so far that the processor
+// does as well by itself, with grains that go on with the next step one after the other.
+inline void look_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t c,
+                       int count, Ahead& ahead) {
+    constexpr std::int32_t kAhead = 1000, kMost = 300;  // grains; a tile of boxes has some 2,000
+    fetch_second(grains, rounded, table, c);
+    const auto later = [&](std::int32_t i) {
+        return std::min(i + kAhead, static_cast<std::int32_t>(grains.size()));
+    };
+    const std::int32_t begin = later(table.first()[c]), end = later(table.first()[c + count - 1] + 1);
+    ahead.start(rounded ? 28 : 44);  // registers that a chunk takes on its way, all sweeps together
+    if (end - begin > kMost) return;
+    ahead.add(grains.place, begin, end);
+    ahead.add(grains.motion, begin, end);
+    ahead.add(grains.load, begin, end);
+    if (rounded) ahead.add(grains.rounded, begin, end);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,114 @@
+#include "engine/step/grid/neighbours.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/step/grid/near_partners.hpp"
+
+namespace grainreel {
+
+void put_in_order(const TeamMember& me, Cells& cells, Grains& grains, double skin, double period,
+                  std::vector<std::int32_t>& index) {
+    if (me.leads()) {
+        if (period > 0) {
+            for (Place& p : grains.place) p.position.x() = nearest_image(p.position.x(), period);
+        }
+        cells.order(grains.place, skin, period);
+        index.resize(grains.size());
+    }
+    me.wait();
+    const std::vector<std::int32_t>& order = cells.in_order();
+    grains.reorder(order, me);
+    const auto [begin, end] = me.part_of(order.size());
+    for (std::int32_t i = begin; i < end; ++i) index[order[i]] = i;
+    me.wait();
+    if (me.leads()) cells.lay(grains.place, skin);
+    me.wait();
+}
+
+void NeighbourList::put(const NeighbourList& part, std::size_t grain, std::size_t at) {
+    const auto shift = static_cast<std::int32_t>(at);
+    for (std::size_t i = 1; i < part.start.size(); ++i) start[grain + i] = part.start[i] + shift;
+    std::copy(part.partner.begin(), part.partner.end(), partner.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+namespace {
+
+void make_room(std::vector<std::int32_t>& partner, std::size_t wanted) {
+    if (wanted > partner.capacity()) partner.reserve(wanted + wanted / 32 + 1024);
+    partner.resize(partner.capacity());
+}
+
+// Partners from several grids, tiles, or both ends of a period: who merges lists relies on their order.
+void in_order(std::vector<std::int32_t>& partner, std::size_t from, std::size_t to) {
+    const auto begin = partner.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto end = partner.begin() + static_cast<std::ptrdiff_t>(to);
+    if (!std::is_sorted(begin, end)) std::sort(begin, end);
+}
+
+// [first, last) of an array that ends at `end`: a block whose length is a constant, which mostly is enough.
+// How many a row of boxes holds could not be predicted. Writes to kNearSlack places behind.
+void copy_row(const std::int32_t* first, const std::int32_t* last, const std::int32_t* end,
+              std::int32_t* to) {
+    if (end - first < kNearSlack) {
+        std::copy(first, last, to);
+        return;
+    }
+    std::memcpy(to, first, kNearSlack * sizeof *to);
+    if (last - first > kNearSlack) std::copy(first + kNearSlack, last, to + kNearSlack);
+}
+
+}  // namespace
+
+void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
+                std::int32_t end, NeighbourList& part) {
+    part.start.resize(end - begin + 1);
+    std::vector<std::int32_t>& partner = part.partner;
+    std::size_t count = 0;
+    for (std::int32_t i = begin; i < end; ++i) {
+        part.start[i - begin] = static_cast<std::int32_t>(count);
+        const Place& own = grains.place[i];
+        std::size_t candidates = count;
+        int turns = 0;  // rising rows of indices, behind one another
+        for (const Cells::Level& level : cells.levels()) {
+            const std::size_t before = candidates;
+            const std::int32_t* const end_of_rows = level.grid.in_order().data() + level.members.size();
+            level.grid.near(own.position, own.radius + skin + level.largest, level.leads,
+                            [&](const std::int32_t* first, const std::int32_t* last) {
+                                if (level.rising && last[-1] <= i) return;
+                                const std::size_t more = candidates + (last - first);
+                                if (partner.size() < more + kNearSlack) make_room(partner, more + kNearSlack);
+                                copy_row(first, last, end_of_rows, partner.data() + candidates);
+                                candidates = more;
+                            });
+            if (candidates > before) turns += level.rising && level.grid.is_one_tile() && period == 0 ? 1 : 2;
+        }
+        const std::size_t from = count;
+        if (candidates > count)
+            count += keep_near(grains, i, skin, period, partner.data() + count,
+                               static_cast<std::int32_t>(candidates - count));
+        if (turns > 1) in_order(partner, from, count);
+    }
+    part.start[end - begin] = static_cast<std::int32_t>(count);
+    part.partner.resize(count);
+    part.farthest_partner = 0;
+    for (std::int32_t i = begin; i < end; ++i) {
+        const std::int32_t behind = part.start[i - begin + 1];
+        if (part.start[i - begin] < behind)
+            part.farthest_partner = std::max(part.farthest_partner, part.partner[behind - 1] - i);
+    }
+}
+
+void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,
+                std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part) {
+    part.clear();
+    for (std::int32_t i = begin; i < end; ++i) {
+        const Place& p = grains.place[i];
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            if (distance_to(faces[f], faces[f].displacement(pose), p.position).distance < p.radius + skin)
+                part.push_back({i, static_cast<std::int32_t>(f)});
+        }
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,71 @@
+#include "engine/step/lists/saved_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainreel {
+
+namespace {
+
+bool within(std::int32_t index, std::int32_t count) {
+    return index >= 0 && index < count;
+}
+
+bool is_sound(const NeighbourList& list, std::int32_t grains) {
+    const auto& start = list.start;
+    const auto& partner = list.partner;
+    if (std::ssize(start) != grains + std::ptrdiff_t{1} || start.front() != 0 ||
+        start.back() != std::ssize(partner) || !std::is_sorted(start.begin(), start.end()))
+        return false;
+    std::int32_t farthest = 0;
+    for (std::int32_t i = 0; i < grains; ++i) {
+        for (std::int32_t at = start[i], before = i; at < start[i + 1]; before = partner[at++]) {
+            if (partner[at] <= before || partner[at] >= grains) return false;
+            farthest = std::max(farthest, partner[at] - i);
+        }
+    }
+    return list.farthest_partner == farthest;
+}
+
+}  // namespace
+
+bool are_sound(const NeighbourLists& lists, std::int32_t grains, std::int32_t faces) {
+    const auto inside = [&](const WallNeighbour& w) {
+        return within(w.grain, grains) && within(w.face, faces);
+    };
+    const auto before = [](const WallNeighbour& a, const WallNeighbour& b) {
+        return a.grain != b.grain ? a.grain < b.grain : a.face < b.face;
+    };
+    return is_sound(lists.pairs, grains) && std::all_of(lists.walls.begin(), lists.walls.end(), inside) &&
+           std::is_sorted(lists.walls.begin(), lists.walls.end(), before);
+}
+
+ContactOrder order_of(const KeptContacts& kept, std::size_t c) {
+    return {ContactTable::began(kept.tag[c]), kept.first[c], kept.second[c]};
+}
+
+bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t g, const Grains& grains,
+               std::int32_t faces, std::int32_t steps) {
+    const ContactGroup& group = rules.groups[g];
+    const auto count = static_cast<std::int32_t>(grains.size());
+    const std::size_t size = kept.size();
+    if (kept.second.size() != size || kept.tag.size() != size ||
+        kept.history.size() != size * static_cast<std::size_t>(group.history_size()))
+        return false;
+    if (!std::all_of(kept.history.begin(), kept.history.end(), [](double h) { return std::isfinite(h); }))
+        return false;
+    for (std::size_t c = 0; c < size; ++c) {
+        const std::int32_t i = kept.first[c], j = kept.second[c];
+        if (!within(i, count) || !within(j, group.of_pairs ? count : faces) || (group.of_pairs && j <= i))
+            return false;
+        const std::int32_t s = grains.species[i];
+        const std::int32_t its_group = group.of_pairs
+                                           ? rules.group_of_pair[s * rules.species + grains.species[j]]
+                                           : rules.group_of_wall[s];
+        if (its_group != static_cast<std::int32_t>(g) || order_of(kept, c).began > steps) return false;
+        if (c > 0 && !(order_of(kept, c - 1) < order_of(kept, c))) return false;
+    }
+    return true;
+}
+
+}  // namespace grainreel

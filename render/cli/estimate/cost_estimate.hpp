@@ -1,0 +1,41 @@
+// What a run will take on this machine, before it begins.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/cli/estimate/thread_plan.hpp"
+#include "render/film/sampling/sampler.hpp"
+
+namespace grainreel {
+
+// What this machine does, measured or kept from an earlier time.
+struct MachineFigures {
+    double lattice_one = 0;      // grain-steps a second of lattice_speed on one thread
+    double lattice_team = 0;     // on the engine's threads
+    double frame_seconds = 0;    // of processor time, to draw and encode a frame of one moment
+    double frame_drawing = 0.5;  // share of it that is drawing
+    int processors = 1;          // that the program may use
+};
+
+struct CostEstimate {
+    double grain_steps = 0;                          // with packing
+    double packing_share = 0;                        // of them
+    double engine_one = 0;                           // grain-steps a second of one thread, in this scene
+    double packing_seconds = 0, engine_seconds = 0;  // on the planned threads
+    std::int64_t frames = 0;
+    double frame_seconds = 0;  // of processor time, mean; exposures with it
+    double film_seconds = 0;
+    double total_seconds = 0;
+};
+
+// Engine and film take turns on one or two processors and work beside each other on more (thread_plan.hpp).
+CostEstimate estimate_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+                           const ThreadPlan& threads, const MachineFigures& machine);
+
+// From the cache, or measured now and put there: half a second or so, and as much for a film not seen before.
+MachineFigures machine_figures(const Scene& scene, const Plan& plan, const ThreadPlan& threads);
+
+}  // namespace grainreel

@@ -1,0 +1,121 @@
+#include "render/cli/report/reporter.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+namespace grainreel {
+
+namespace {
+
+constexpr auto terminal_interval = std::chrono::milliseconds(100);
+constexpr auto json_interval = std::chrono::milliseconds(500);
+constexpr auto pipe_interval = std::chrono::seconds(5);
+constexpr double pipe_share = 0.1;                       // of a stage, when that is sooner ...
+constexpr auto pipe_shortest = std::chrono::seconds(1);  // ... but not much sooner
+
+bool is_terminal() {
+    const char* term = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::strcmp(term, "dumb") != 0;
+}
+
+// See no-color.org: set and not empty.
+bool colour_wanted() {
+    const char* no_color = std::getenv("NO_COLOR");
+    return no_color == nullptr || *no_color == '\0';
+}
+
+int terminal_width() {
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+void put(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+}  // namespace
+
+Reporter::Reporter(const ReporterOptions& options)
+    : options_(options), terminal_(is_terminal()), coloured_(terminal_ && colour_wanted()) {}
+
+Reporter::~Reporter() {
+    clear();
+}
+
+void Reporter::detail(const std::string& text) {
+    if (log_ != nullptr) log_->info(text);
+    if (options_.verbose && !options_.quiet) print("detail", "", text);
+}
+
+void Reporter::info(const std::string& text) {
+    if (log_ != nullptr) log_->info(text);
+    if (!options_.quiet) print("info", "", text);
+}
+
+void Reporter::warning(const std::string& text) {
+    if (log_ != nullptr) log_->warning(text);
+    if (!options_.quiet) print("warning", "\033[33m", text);
+}
+
+void Reporter::error(const std::string& text) {
+    if (log_ != nullptr) log_->error(text);
+    print("error", "\033[31m", text);
+}
+
+void Reporter::print(const char* kind, const char* colour, const std::string& text) {
+    if (options_.form == ReporterOptions::Form::json) {
+        const nlohmann::ordered_json object = {{"event", kind}, {"text", text}};
+        put(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        return;
+    }
+    clear();
+    const bool plain = *colour == '\0';
+    if (plain) {
+        put(text + "\n");
+    } else if (coloured_) {
+        put(std::string(colour) + kind + ":\033[0m " + text + "\n");
+    } else {
+        put(std::string(kind) + ": " + text + "\n");
+    }
+}
+
+bool Reporter::due(const Progress& now, Watch::time_point time) const {
+    if (!last_ || last_->stage != now.stage) return true;
+    const auto since = time - last_time_;
+    const bool finished = now.done >= 1 && last_->done < 1;
+    if (options_.form == ReporterOptions::Form::json) return finished || since >= json_interval;
+    if (terminal_) return finished || since >= terminal_interval;
+    return since >= pipe_interval ||
+           (since >= pipe_shortest && (finished || now.done - last_->done >= pipe_share));
+}
+
+void Reporter::progress(const Progress& progress) {
+    if (options_.quiet || options_.form == ReporterOptions::Form::none) return;
+    const Watch::time_point now = Watch::now();
+    if (!due(progress, now)) return;
+    last_ = progress;
+    last_time_ = now;
+    if (options_.form == ReporterOptions::Form::json) {
+        put(progress_json(progress) + "\n");
+    } else if (terminal_) {
+        // One column stays free: a line that fills the last one would wrap on some terminals.
+        put("\r" + progress_line(progress, terminal_width() - 1) + "\033[K");
+        line_shown_ = true;
+    } else {
+        put(progress_line(progress, 200) + "\n");
+    }
+}
+
+void Reporter::clear() {
+    if (line_shown_) put("\r\033[K");
+    line_shown_ = false;
+}
+
+}  // namespace grainreel

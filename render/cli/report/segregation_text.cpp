@@ -1,0 +1,33 @@
+#include "render/cli/report/segregation_text.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/measure/measure.hpp"
+
+namespace grainreel {
+
+std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to) {
+    const BigAndSmall kinds = big_and_small(scene.species);
+    const std::string &big = scene.species[kinds.big].name, &small = scene.species[kinds.small].name;
+    std::vector<std::string> parts;
+    const auto say = [&](const std::string& what, double Measures::*index, const char* meaning, bool sign) {
+        const double first = from.*index, last = to.*index;
+        if (!std::isfinite(first) || !std::isfinite(last)) return;
+        const auto number = [&](double value) {
+            return sign ? fmt::format("{:+.2f}", value) : fmt::format("{:.2f}", value);
+        };
+        parts.push_back(fmt::format("{} from {} to {}{}", what, number(first), number(last), meaning));
+    };
+    say(fmt::format("mean height of {} minus {}, over the bed's height,", big, small),
+        &Measures::height_difference, "", true);
+    say(fmt::format("probability that {} lies above {}", big, small), &Measures::big_above_small,
+        " (1/2 is mixed)", false);
+    say("unlike neighbours over chance", &Measures::unlike_neighbours, " (1 is mixed)", false);
+    say("Lacey mixing index", &Measures::lacey, " (1 is mixed)", false);
+    return fmt::format("segregation: {}", fmt::join(parts, "; "));
+}
+
+}  // namespace grainreel

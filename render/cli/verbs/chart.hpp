@@ -1,0 +1,12 @@
+// The verb `chart`.
+#pragma once
+
+#include "render/cli/options/options.hpp"
+#include "render/cli/report/reporter.hpp"
+
+namespace grainreel {
+
+// Returns the exit status. Throws UserError and RunError.
+int make_chart(const Options& options, Reporter& reporter);
+
+}  // namespace grainreel

@@ -1,0 +1,42 @@
+// The chapters of what `grainreel check` prints. Internal to print_plan.
+#pragma once
+
+#include <fmt/ostream.h>
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/film/sampling/sampler.hpp"
+
+namespace grainreel {
+
+// Lines of a name and a text, the texts below each other.
+class Listing {
+  public:
+    explicit Listing(std::ostream& out) : out_(out) {}
+    void line(std::string_view name, const std::string& text) { fmt::print(out_, "{:<13}{}\n", name, text); }
+    void gap() { out_ << '\n'; }
+
+  private:
+    std::ostream& out_;
+};
+
+std::string metres_text(double metres);
+std::string span_text(double seconds);
+std::string grouped(std::int64_t count);  // 1234567 as "1,234,567"
+
+void print_setup(const Scene& scene, const Plan& plan, Listing& list);
+void print_model(const Scene& scene, const Plan& plan, Listing& list);
+void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out);
+void print_files(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list);
+// Measures the machine when its cache has nothing (cost_estimate.hpp).
+void print_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list);
+
+std::int64_t frames_of(const std::vector<SegmentCount>& film);
+
+}  // namespace grainreel

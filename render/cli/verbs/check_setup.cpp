@@ -1,0 +1,89 @@
+// What is simulated: grains, container, drive.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "engine/scene/bed.hpp"
+#include "render/cli/verbs/check_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+std::string diameter_text(const SizeSpread& d) {
+    switch (d.kind) {
+        case SizeSpread::Kind::fixed:
+            return metres_text(d.mean);
+        case SizeSpread::Kind::uniform:
+            return fmt::format("{} to {}", metres_text(d.smallest), metres_text(d.largest));
+        case SizeSpread::Kind::normal:
+            break;
+    }
+    return fmt::format("{} +- {}", metres_text(d.mean), metres_text(d.deviation));
+}
+
+std::string container_text(const Container& c) {
+    const std::string top = c.lid ? "closed by a lid" : "open above";
+    switch (c.shape) {
+        case Container::Shape::wedge:
+            return fmt::format(
+                "wedge, {:.4g} deg from the vertical up to {}, width {} at the floor and {} above, depth "
+                "{}{}, "
+                "height {}, {}",
+                c.half_angle * 180 / std::numbers::pi, metres_text(c.slant_height),
+                metres_text(2 * c.floor_half_width()), metres_text(2 * c.half_width), metres_text(c.depth),
+                c.periodic_depth ? " (periodic)" : "", metres_text(c.height), top);
+        case Container::Shape::box:
+            return fmt::format("box, width {}, depth {}{}, height {}, {}", metres_text(2 * c.half_width),
+                               metres_text(c.depth), c.periodic_depth ? " (periodic)" : "",
+                               metres_text(c.height), top);
+        case Container::Shape::none:
+            return "none";
+        case Container::Shape::cylinder:
+            break;
+    }
+    return fmt::format("cylinder, diameter {}, height {}, {}", metres_text(2 * c.half_width),
+                       metres_text(c.height), top);
+}
+
+std::string wall_text(const FreeWall& wall) {
+    std::string text = fmt::format("{}: plane towards ({:.3g}, {:.3g}, {:.3g})", wall.name, wall.normal.x(),
+                                   wall.normal.y(), wall.normal.z());
+    if (wall.velocity.norm() > 0) text += fmt::format(", moving at {:.3g} m/s", wall.velocity.norm());
+    return wall.moves ? text + ", follows the drive" : text;
+}
+
+std::string drive_text(const Scene& scene) {
+    const Drive& d = scene.drive;
+    if (!d.present) return "none";
+    const double g = scene.gravity.norm();
+    const std::string level = g > 0 ? fmt::format(", gamma {:.4g}", d.g_level(g)) : "";
+    const std::string along = d.direction == Vec3(0, 0, 1)
+                                  ? "up and down"
+                                  : fmt::format("along ({:.3g}, {:.3g}, {:.3g})", d.direction.x(),
+                                                d.direction.y(), d.direction.z());
+    const std::string ramp = d.ramp > 0 ? fmt::format("grows over {:.3g} periods", d.ramp) : "starts at once";
+    const std::string phase = d.phase != 0 ? fmt::format(", phase {:.4g} deg", d.phase * 360) : "";
+    return fmt::format("{} {}, {:.4g} Hz, amplitude {}{}, top speed {:.3g} m/s{}, {}",
+                       d.moves == Drive::Moves::container ? "container" : "floor", along, d.frequency,
+                       metres_text(d.amplitude), level, d.speed(), phase, ramp);
+}
+
+}  // namespace
+
+void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
+    list.line("scene", fmt::format("{} ({})", scene.title, scene.file));
+    list.line("grains", fmt::format("{}, {:.3g} kg", grouped(scene.grains()), total_mass(scene)));
+    for (const Species& s : scene.species)
+        list.line("", fmt::format("{} {} of {}, {:.4g} kg/m3", grouped(s.count), s.name,
+                                  diameter_text(s.diameter), s.density));
+    list.line("container", container_text(scene.container));
+    for (const FreeWall& wall : scene.walls) list.line("", wall_text(wall));
+    if (scene.start.method != Start::Method::grains)
+        list.line("bed",
+                  fmt::format("about {} high at rest, {:.0f} % of the container's height",
+                              metres_text(plan.bed_height), 100 * plan.bed_height / scene.container.height));
+    list.line("gravity", fmt::format("{:.4g} m/s2", scene.gravity.norm()));
+    list.line("drive", drive_text(scene));
+}
+
+}  // namespace grainreel

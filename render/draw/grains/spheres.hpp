@@ -1,0 +1,50 @@
+// From a frame's grains to a layer of lit spheres.
+#pragma once
+
+#include "engine/base/team.hpp"
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/draw/camera/view.hpp"
+#include "render/draw/container/container_drawing.hpp"
+#include "render/draw/grains/grain_colours.hpp"
+#include "render/spheres/light/sphere_layer.hpp"
+
+namespace grainreel {
+
+class SpherePainter {
+  public:
+    // width, height: pixels of the port. ghosts: paint those of the scene's ghost species alone, where
+    // nothing else stands before them; otherwise paint all grains that are taken.
+    SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts);
+
+    // See Renderer.
+    void start_from(const Frame& frame) { grain_colours_.start_from(frame); }
+
+    // One after the other.
+    void take(const View& view, const Frame& frame);
+    void find_visible();
+    // Walls as they were painted behind and before the grains.
+    void find_order(const View& view, const ContainerShapes& walls);
+    void find_neighbours();
+    const Layer& light();
+    double seen_share(std::size_t grain) const { return layer_.visibility().seen_share(grain); }
+    // Where the layers of walls are not right, and what is left of the one before the grains.
+    const std::vector<WallPixel>& wall_pixels() const { return layer_.wall_order().pixels(); }
+
+  private:
+    void open_bed(const View& view, const Frame& frame);
+    void mark_rotation(const View& view, const Frame& frame);
+    void mark_painted(const Frame& frame);
+
+    GrainColours grain_colours_;
+    Team& team_;
+    std::vector<std::uint8_t> painted_;  // by species; empty: all of them
+    SphereLayer layer_;
+    Spheres spheres_;
+    FilmLook look_;
+    Sight sight_;
+    Cut cut_;
+    Lamp lamp_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,44 @@
+#include "render/draw/plots/panel_plots.hpp"
+
+#include <algorithm>
+
+namespace grainreel {
+
+PanelPlots::PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layout, const TypeScale& type,
+                       const Palette& palette) {
+    TypeScale small = type;
+    small.main = type.minor;
+    double end = 0;
+    for (const Panel& panel : panels) end = std::max(end, panel.scene.run.duration);
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        const std::vector<Rectangle>& places = layout.places[i].plots;
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            PlotFrame frame = plot_frame(panels[i].scene, panels[i].scene.film.shows.plots[k]);
+            frame.time[1] = end;
+            frame.width = places[k].width;
+            frame.height = places[k].height;
+            plots_.push_back({Plot(frame, small, palette), frame.column, places[k], i});
+        }
+    }
+}
+
+bool PanelPlots::take(const std::vector<FramePtr>& frames) {
+    bool changed = false;
+    for (Placed& placed : plots_) changed |= placed.plot.take(*frames[placed.panel]);
+    if (changed) share_limits();
+    return changed;
+}
+
+void PanelPlots::share_limits() {
+    for (Placed& placed : plots_) {
+        std::optional<std::array<double, 2>> all;
+        for (const Placed& other : plots_) {
+            const auto own = other.plot.limits();
+            if (other.column != placed.column || !own) continue;
+            all = all ? std::array{std::min((*all)[0], (*own)[0]), std::max((*all)[1], (*own)[1])} : *own;
+        }
+        if (all) placed.plot.show(*all);
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,76 @@
+// The colour bar: what the grains' colours mean.
+#include <algorithm>
+#include <cmath>
+
+#include "render/draw/grains/colour_scale.hpp"
+#include "render/draw/plots/ticks.hpp"
+#include "render/draw/words/writer.hpp"
+
+namespace grainreel {
+namespace {
+
+// Its ends have the colours of the range's ends, so that it can be read off a picture.
+void paint_bar(cairo_t* on, const ColourScale& scale, int x, int y, int width, int height) {
+    cairo_save(on);
+    cairo_set_antialias(on, CAIRO_ANTIALIAS_NONE);
+    for (int i = 0; i < width; ++i) {
+        const double share = scale.bands() > 0 ? (i + 0.5) / width : i / (width - 1.0);
+        const Colour colour = in_bytes(scale.at_share(share));
+        cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
+        cairo_rectangle(on, x + i, y, 1, height);
+        cairo_fill(on);
+    }
+    cairo_restore(on);
+}
+
+}  // namespace
+
+ColourBarPlace colour_bar_place(const TypeScale& type, double x, double y, double width) {
+    ColourBarPlace place;
+    place.x = static_cast<int>(std::ceil(x));
+    place.y = static_cast<int>(std::ceil(y));
+    place.width = std::max(2, static_cast<int>(std::floor(width)));
+    place.height = std::max(4, static_cast<int>(std::lround(0.7 * type.main)));
+    return place;
+}
+
+TextSize colour_bar_block(const Writer& writer, const Scene& scene, double x, double y, double width) {
+    if (scene.film.shows.colour.by == GrainValue::species) return {};
+    const ColourScale scale(scene.film.shows.colour);
+    const TypeScale& type = writer.type;
+    const TextSize title = writer.write(x, y, scale.title(), writer.minor(), writer.palette.ink, width, 3);
+    const double top = y + title.height + 0.4 * type.gap;
+    const ColourBarPlace bar = colour_bar_place(type, x, top, width);
+    const double tick = 0.3 * type.main, below = bar.y + bar.height;
+    if (writer.on) {
+        paint_bar(writer.on, scale, bar.x, bar.y, bar.width, bar.height);
+        const Colour& ink = writer.palette.ink;
+        cairo_set_source_rgb(writer.on, ink.red, ink.green, ink.blue);
+        cairo_set_line_width(writer.on, std::max(1.0, type.main / 16));
+    }
+    const double low = scale.low() / scale.unit_size(), high = scale.high() / scale.unit_size();
+    // Room for the words decides how many.
+    const double widest = std::max(measure_text(tick_text(low, (high - low) / 3), writer.minor()).width,
+                                   measure_text(tick_text(high, (high - low) / 3), writer.minor()).width);
+    const int most = std::clamp(static_cast<int>(width / (1.5 * widest)), 2, 6);
+    const std::vector<double> ticks = round_ticks(low, high, most);
+    double deepest = 0;
+    for (const double value : ticks) {
+        const double at = bar.x + (value - low) / (high - low) * (bar.width - 1) + 0.5;
+        const std::string text = tick_text(value, ticks.size() > 1 ? ticks[1] - ticks[0] : std::abs(value));
+        const TextSize size = measure_text(text, writer.minor());
+        const double left = std::clamp(at - 0.5 * size.width, x, std::max(x, x + width - size.width));
+        if (writer.on) {
+            const Colour& ink = writer.palette.ink;
+            cairo_set_source_rgb(writer.on, ink.red, ink.green, ink.blue);
+            cairo_move_to(writer.on, at, below);
+            cairo_line_to(writer.on, at, below + tick);
+            cairo_stroke(writer.on);
+        }
+        writer.write(left, below + 1.2 * tick, text, writer.minor(), writer.palette.faint_ink);
+        deepest = std::max(deepest, size.height);
+    }
+    return {width, below + 1.2 * tick + deepest - y};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,163 @@
+#include "render/film/codec/encoder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/error.hpp"
+#include "render/film/codec/remux.hpp"
+
+namespace grainreel {
+namespace {
+
+AvFramePtr make_frame(const AVCodecContext& codec) {
+    AvFramePtr frame(av_frame_alloc());
+    if (!frame) throw RunError("film: no memory for a frame");
+    frame->format = codec.pix_fmt;
+    frame->width = codec.width;
+    frame->height = codec.height;
+    frame->color_primaries = codec.color_primaries;
+    frame->color_trc = codec.color_trc;
+    frame->colorspace = codec.colorspace;
+    frame->color_range = codec.color_range;
+    frame->chroma_location = codec.chroma_sample_location;
+    if (av_frame_get_buffer(frame.get(), 0) < 0) throw RunError("film: no memory for a frame");
+    return frame;
+}
+
+AVPixelFormat pixels_of(const EncoderSettings& settings) {
+    return settings.alpha ? settings.codec->pixels_with_alpha : settings.codec->pixels;
+}
+
+}  // namespace
+
+CodecSettings codec_settings(const EncoderSettings& settings) {
+    const EvenSize size = coded_size(settings.width, settings.height, pixels_of(settings));
+    return {size.width,       size.height,     av_d2q(settings.rate, 100'000),
+            settings.quality, settings.preset, settings.threads,
+            settings.alpha,   settings.pass,   settings.bit_rate,
+            settings.log};
+}
+
+Encoder::Encoder(const EncoderSettings& settings)
+    : settings_(settings), conversion_(settings.width, settings.height, pixels_of(settings)) {
+    quiet_ffmpeg();
+    const CodecSettings wanted = codec_settings(settings);
+    if (wanted.width != settings.width || wanted.height != settings.height)
+        notes_.push_back(fmt::format(
+            "{}x{} padded to {}x{}: {} needs even sizes to play everywhere; the last column or "
+            "row is repeated",
+            settings.width, settings.height, wanted.width, wanted.height, settings.codec->standard));
+    OpenCodec open = open_codec(*settings.codec, wanted);
+    codec_ = std::move(open.context);
+    description_ = fmt::format("{}: {}", settings.codec->words, open.description);
+    frame_ = make_frame(*codec_);
+    packet_.reset(av_packet_alloc());
+    if (!packet_) throw RunError("film: no memory for a packet");
+    open_file();
+}
+
+Encoder::~Encoder() {
+    if (!file_) return;
+    try {
+        close();
+    } catch (const RunError&) {
+        // The film so far is on disk and plays; who wanted to know of errors called finish().
+    }
+}
+
+std::string Encoder::name() const {
+    return settings_.path == to_stdout ? "stdout" : settings_.path.string();
+}
+
+void Encoder::open_file() {
+    const FilmContainer& container = settings_.codec->container;
+    AVFormatContext* context = nullptr;
+    avformat_alloc_output_context2(&context, nullptr, container.muxer, nullptr);
+    file_.reset(context);
+    AVStream* stream = context ? avformat_new_stream(context, nullptr) : nullptr;
+    if (!stream || avcodec_parameters_from_context(stream->codecpar, codec_.get()) < 0)
+        throw RunError(fmt::format("film: this libavformat writes no {}", settings_.codec->words));
+    stream->time_base = codec_->time_base;
+    stream->avg_frame_rate = codec_->framerate;
+    av_dict_set(&context->metadata, "title", settings_.title.c_str(), 0);
+    av_dict_set(&context->metadata, "comment", settings_.comment.c_str(), 0);
+
+    // Each fragment reaches the disk whole as soon as it ends.
+    context->flags |= AVFMT_FLAG_FLUSH_PACKETS;
+    context->flags |= AVFMT_FLAG_BITEXACT;  // or Matroska would draw a number by lot
+    AvOptions options;
+    for (const auto& [key, value] : container.growing) options.set(key, value);
+    const std::string url = settings_.path == to_stdout ? "pipe:1" : ffmpeg_url(settings_.path);
+    int code = avio_open(&context->pb, url.c_str(), AVIO_FLAG_WRITE);
+    if (code >= 0) code = avformat_write_header(context, options.get());
+    if (code < 0) fail(code);
+}
+
+void Encoder::check_open() const {
+    if (!file_) throw RunError(fmt::format("{}: closed after an error", name()));
+}
+
+void Encoder::add(const Picture& picture) {
+    check_open();
+    const int code = av_frame_make_writable(frame_.get());  // the encoder may still read the last one
+    if (code < 0) fail(code);
+    conversion_.convert(picture, *frame_);
+    add(*frame_);
+}
+
+void Encoder::add(AVFrame& frame) {
+    check_open();
+    frame.pts = frames_;
+    frame.pict_type = AV_PICTURE_TYPE_NONE;  // what kind it was where it comes from is of no interest
+    encode(&frame);
+    ++frames_;
+}
+
+// Null drains the encoder.
+void Encoder::encode(const AVFrame* frame) {
+    int code = avcodec_send_frame(codec_.get(), frame);
+    if (code < 0) fail(code);
+    while ((code = avcodec_receive_packet(codec_.get(), packet_.get())) >= 0) write(*packet_);
+    if (code != AVERROR(EAGAIN) && code != AVERROR_EOF) fail(code);
+}
+
+void Encoder::write(AVPacket& packet) {
+    AVFormatContext& context = *file_;
+    payload_ += packet.size;
+    packet.duration = 1;
+    packet.stream_index = 0;
+    av_packet_rescale_ts(&packet, codec_->time_base, context.streams[0]->time_base);
+    const int code = av_write_frame(&context, &packet);  // tells of the file's errors, too
+    av_packet_unref(&packet);
+    if (code < 0) fail(code);
+}
+
+void Encoder::close() {
+    if (frames_ > 0) encode(nullptr);  // SVT-AV1 would wait for ever for a first frame
+    int code = av_write_trailer(file_.get());
+    if (frames_ == 0) code = std::max(code, 0);  // the GIF muxer has nothing to end then
+    if (code >= 0) code = avio_closep(&file_->pb);
+    if (code < 0) fail(code);
+    file_.reset();
+}
+
+void Encoder::finish() {
+    check_open();
+    close();
+    const FilmContainer& container = settings_.codec->container;
+    if (frames_ > 0 && !container.complete.empty()) remux_for_streaming(settings_.path, container);
+}
+
+void Encoder::fail(int code) {
+    file_.reset();
+    const std::string reason = ffmpeg_error(code);
+    if (settings_.path == to_stdout)
+        throw RunError(fmt::format(
+            "stdout: cannot write the film: {}; after {} frames, {}", reason, frames_,
+            code == AVERROR(EPIPE) ? "the program that reads it has ended" : "what was written plays"));
+    throw RunError(fmt::format("{}: cannot write the film: {}; {} frames were taken, what is on disk plays",
+                               name(), reason, frames_));
+}
+
+}  // namespace grainreel

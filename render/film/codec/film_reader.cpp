@@ -1,0 +1,47 @@
+#include "render/film/codec/film_reader.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/film/codec/remux.hpp"
+
+namespace grainreel {
+
+FilmReader::FilmReader(const std::filesystem::path& path)
+    : path_(path), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
+    AVFormatContext* context = nullptr;
+    check(avformat_open_input(&context, ffmpeg_url(path).c_str(), nullptr, nullptr));
+    file_.reset(context);
+    check(avformat_find_stream_info(context, nullptr));
+    const AVCodecParameters& parameters = *context->streams[0]->codecpar;
+    codec_.reset(avcodec_alloc_context3(avcodec_find_decoder(parameters.codec_id)));
+    check(codec_ && packet_ && frame_ ? 0 : AVERROR(ENOMEM));
+    check(avcodec_parameters_to_context(codec_.get(), &parameters));
+    check(avcodec_open2(codec_.get(), nullptr, nullptr));
+}
+
+AVFrame* FilmReader::next() {
+    int code = 0;
+    while ((code = avcodec_receive_frame(codec_.get(), frame_.get())) == AVERROR(EAGAIN))
+        if (!feed()) check(avcodec_send_packet(codec_.get(), nullptr));
+    if (code == AVERROR_EOF) return nullptr;
+    check(code);
+    return frame_.get();
+}
+
+// One more packet to the decoder; false when there is none.
+bool FilmReader::feed() {
+    const int code = av_read_frame(file_.get(), packet_.get());
+    if (code == AVERROR_EOF) return false;
+    check(code);
+    check(avcodec_send_packet(codec_.get(), packet_.get()));
+    av_packet_unref(packet_.get());
+    return true;
+}
+
+void FilmReader::check(int code) const {
+    if (code < 0)
+        throw RunError(fmt::format("{}: cannot be read back: {}", path_.string(), ffmpeg_error(code)));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,31 @@
+// Frames of a film file, one after another, as its decoder gives them.
+#pragma once
+
+#include <filesystem>
+
+#include "render/film/codec/ffmpeg_handles.hpp"
+
+namespace grainreel {
+
+class FilmReader {
+  public:
+    // Throws RunError when the file is no film.
+    explicit FilmReader(const std::filesystem::path& path);
+
+    // The next frame; null at the end. Valid until the next call. Throws RunError when the file is damaged.
+    AVFrame* next();
+
+    const AVCodecContext& codec() const { return *codec_; }
+
+  private:
+    void check(int code) const;
+    bool feed();
+
+    std::filesystem::path path_;
+    InputPtr file_;
+    CodecPtr codec_;
+    PacketPtr packet_;
+    AvFramePtr frame_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,112 @@
+#include "render/film/codec/remux.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "engine/base/error.hpp"
+#include "render/film/codec/ffmpeg_handles.hpp"
+
+namespace grainreel {
+namespace {
+
+int open_input(const std::filesystem::path& path, InputPtr& input) {
+    AVFormatContext* context = nullptr;
+    const int code = avformat_open_input(&context, ffmpeg_url(path).c_str(), nullptr, nullptr);
+    input.reset(context);
+    return code;
+}
+
+int open_output(const AVFormatContext& input, const std::filesystem::path& path,
+                const FilmContainer& container, OutputPtr& output) {
+    AVFormatContext* context = nullptr;
+    int code = avformat_alloc_output_context2(&context, nullptr, container.muxer, ffmpeg_url(path).c_str());
+    output.reset(context);
+    if (code < 0) return code;
+    const AVStream& from = *input.streams[0];
+    AVStream* to = avformat_new_stream(context, nullptr);
+    if (!to) return AVERROR(ENOMEM);
+    code = avcodec_parameters_copy(to->codecpar, from.codecpar);
+    if (code < 0) return code;
+    to->codecpar->codec_tag = 0;
+    to->time_base = from.time_base;
+    to->avg_frame_rate = from.avg_frame_rate;
+    av_dict_copy(&context->metadata, input.metadata, 0);
+    context->flags |= AVFMT_FLAG_BITEXACT;
+    AvOptions options;
+    for (const auto& [key, value] : container.complete) options.set(key, value);
+    code = avio_open(&context->pb, context->url, AVIO_FLAG_WRITE);
+    return code < 0 ? code : avformat_write_header(context, options.get());
+}
+
+int copy_packets(AVFormatContext& input, AVFormatContext& output) {
+    const PacketPtr packet(av_packet_alloc());
+    if (!packet) return AVERROR(ENOMEM);
+    // A fragmented file cannot say that its first picture comes some frames of coding order late; this one
+    // can.
+    std::int64_t start = AV_NOPTS_VALUE;
+    int code = 0;
+    while ((code = av_read_frame(&input, packet.get())) >= 0) {
+        if (start == AV_NOPTS_VALUE) start = packet->pts;
+        packet->pts -= start;
+        packet->dts -= start;
+        av_packet_rescale_ts(packet.get(), input.streams[0]->time_base, output.streams[0]->time_base);
+        packet->pos = -1;
+        code = av_write_frame(&output, packet.get());
+        av_packet_unref(packet.get());
+        if (code < 0) return code;
+    }
+    return code == AVERROR_EOF ? 0 : code;
+}
+
+int write_copy(const std::filesystem::path& from, const std::filesystem::path& to,
+               const FilmContainer& container) {
+    InputPtr input;
+    OutputPtr output;
+    int code = open_input(from, input);
+    if (code >= 0) code = open_output(*input, to, container, output);
+    if (code >= 0) code = copy_packets(*input, *output);
+    if (code >= 0) code = av_write_trailer(output.get());
+    if (code >= 0) code = avio_closep(&output->pb);
+    return code;
+}
+
+// A file or a folder; 0 or a negative error.
+int sync(const std::filesystem::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return AVERROR(errno);
+    const int code = ::fsync(descriptor) == 0 ? 0 : AVERROR(errno);
+    ::close(descriptor);
+    return code;
+}
+
+}  // namespace
+
+std::string ffmpeg_url(const std::filesystem::path& path) {
+    return "file:" + path.string();
+}
+
+int replace_synced(const std::filesystem::path& from, const std::filesystem::path& to) {
+    const int code = sync(from);
+    if (code < 0) return code;
+    std::error_code renamed;
+    std::filesystem::rename(from, to, renamed);
+    if (renamed) return AVERROR(renamed.value());
+    sync(std::filesystem::absolute(to).parent_path());  // the new name; without it the film is no worse off
+    return 0;
+}
+
+void remux_for_streaming(const std::filesystem::path& path, const FilmContainer& container) {
+    const std::filesystem::path part = path.string() + ".part";
+    int code = write_copy(path, part, container);
+    if (code >= 0) code = replace_synced(part, path);
+    if (code >= 0) return;
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw RunError(fmt::format("{}: cannot put the index in front: {}; the film on disk is whole and plays",
+                               path.string(), ffmpeg_error(code)));
+}
+
+}  // namespace grainreel

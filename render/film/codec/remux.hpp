@@ -1,0 +1,21 @@
+// From the fragments or clusters that survive a kill to an ordinary film with its index in front.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "render/film/codec/codec.hpp"
+
+namespace grainreel {
+
+// Copies the film's packets to `path`.part, syncs it and renames it over `path`. Throws RunError, naming the
+// file and the reason, and leaves the film as it grew.
+void remux_for_streaming(const std::filesystem::path& path, const FilmContainer& container);
+
+// Renames `from`, synced to disk, to `to`; a negative error of FFmpeg or 0.
+int replace_synced(const std::filesystem::path& from, const std::filesystem::path& to);
+
+// A path as FFmpeg wants it: a colon in a name must not look like a protocol.
+std::string ffmpeg_url(const std::filesystem::path& path);
+
+}  // namespace grainreel

@@ -1,0 +1,31 @@
+// What can be said of a film's file before it is made.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "render/film/sampling/sampler.hpp"
+
+namespace grainreel {
+
+// Bytes of a film of so many frames, good to a factor of two or three: by pixels, format and quality, and not
+// more than its cap.
+double estimated_film_size(const Film& film, std::int64_t frames);
+
+// At 30 a second such a film plays for four days; its schedule takes 160 MB.
+constexpr std::int64_t most_frames = 10'000'000;
+// Earlier moments that the pictures are exposed over or averaged from; their lists take 2 GB at worst.
+constexpr std::int64_t most_moments = 20'000'000;
+
+// Throws UserError when the film would have more of either; names the segment that makes most of them.
+void check_schedule(const Scene& scene, const std::vector<SegmentCount>& counts);
+
+// Throws UserError when film.max_size leaves so few bits for a pixel that no film could be read.
+void check_max_size(const Scene& scene, std::int64_t frames);
+
+// Words that the picture has no room for; where a film for a journal is not what the journals take.
+std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames);
+
+}  // namespace grainreel

@@ -1,0 +1,101 @@
+#include "render/film/files/picture_files.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "render/film/sampling/sampler.hpp"
+
+namespace grainreel {
+namespace {
+
+// A poster for whoever kills the run: of the first frame, and again each time the film has doubled.
+bool poster_in_passing(std::int64_t count) {
+    return count == 1 || (count >= 32 && std::has_single_bit(static_cast<std::uint64_t>(count)));
+}
+
+}  // namespace
+
+std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
+                              const std::string& playback) {
+    return {{"Title", title},
+            {"Scene", scene},
+            {"Time", fmt::format("{:.9g} s", frame.time)},
+            {"Drive phase", fmt::format("{:.9g}", frame.phase)},
+            {"Step", std::to_string(frame.step)},
+            {"Playback", playback},
+            {"Software", "grainreel"}};
+}
+
+PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
+    : folder_(options.folder),
+      name_(scene.name),
+      title_(scene.title),
+      frames_wanted_(options.frames || (options.film && scene.film.format == FilmFormat::png)),
+      transparent_(scene.film.transparent),
+      poster_time_(poster_time(scene.film, scene.run.duration)),
+      poster_done_(!options.film),
+      flashes_(scene.film.rate) {
+    if (frames_wanted_) {
+        std::error_code error;
+        std::filesystem::create_directories(folder_ / "frames", error);
+        if (error)
+            throw RunError(fmt::format("{}: cannot make the folder: {}", (folder_ / "frames").string(),
+                                       error.message()));
+    }
+    if (!options.film) return;
+    film_ = make_film_writer(scene, {folder_, options.to_stdout, options.encoder_threads});
+    if (!options.to_stdout) film_file_ = film_file_name(scene.film.format);
+    if (scene.film.sheet[0] > 0) sheet_ = std::make_unique<ContactSheet>(scene.film);
+}
+
+Picture PictureFiles::add(DrawnFrame drawn) {
+    if (count_ == 0) first_time_ = drawn.frame->time;
+    if (film_) film_->add(drawn.picture);
+    flashes_.add(drawn.picture);
+    if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", count_), drawn);
+    if (sheet_) sheet_->add(drawn.picture, drawn.frame->time);
+    ++count_;
+    if (!poster_done_) consider_poster(drawn);
+    std::swap(last_, drawn);
+    return std::move(drawn.picture);
+}
+
+void PictureFiles::consider_poster(const DrawnFrame& drawn) {
+    if (last_.frame && drawn.frame->time - first_time_ > poster_time_) {
+        close_poster();
+    } else if (poster_in_passing(count_)) {
+        write(folder_ / "poster.png", drawn);
+    }
+}
+
+std::vector<std::string> PictureFiles::notes() const {
+    std::vector<std::string> notes = film_ ? film_->notes() : std::vector<std::string>{};
+    if (film_ && flashes_.too_much_at())
+        notes.push_back(
+            fmt::format("the film flashes more than three times a second, first at {:.3g} s of it, which can "
+                        "set off seizures; slow it down (film.segment playback) or lock it to a phase",
+                        *flashes_.too_much_at()));
+    return notes;
+}
+
+void PictureFiles::close_poster() {
+    if (poster_done_ || !last_.frame) return;
+    poster_done_ = true;
+    write(folder_ / "poster.png", last_);
+}
+
+void PictureFiles::finish() {
+    if (sheet_ && count_ > 0)
+        write_png(folder_ / "sheet.png", sheet_->draw(last_.picture),
+                  {{"Title", title_}, {"Scene", name_}, {"Software", "grainreel"}});
+    if (film_) film_->finish();
+}
+
+void PictureFiles::write(const std::filesystem::path& path, const DrawnFrame& drawn) const {
+    write_png(path, drawn.picture, texts_of(name_, title_, *drawn.frame, drawn.playback), transparent_);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,22 @@
+// Pictures as PNG files that say what they show.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/draw/picture/picture.hpp"
+
+namespace grainreel {
+
+struct PngText {
+    std::string keyword;  // 1 to 79 Latin-1 characters
+    std::string text;     // UTF-8
+};
+
+// 8-bit sRGB, with alpha where that is asked for, written to `path`.part and renamed, so that a file with the
+// name is whole. Throws RunError naming the file and the reason.
+void write_png(const std::filesystem::path& path, const Picture& picture, const std::vector<PngText>& texts,
+               bool alpha = false);
+
+}  // namespace grainreel

@@ -1,0 +1,195 @@
+#include "render/film/production/film_maker.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "render/film/files/picture_files.hpp"
+#include "render/film/production/bounded_queue.hpp"
+
+namespace grainreel {
+namespace {
+
+using Watch = std::chrono::steady_clock;
+
+double seconds_since(Watch::time_point start) {
+    return std::chrono::duration<double>(Watch::now() - start).count();
+}
+
+// Deep enough that an uneven engine or encoder rarely makes the others wait; a picture is 8 MB at 1080p.
+constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
+
+// Where engine and film take turns: as many frames as 64 MB hold, since each turn begins and ends with a
+// stage that has nothing to do; and a patience that an engine which needs longer for a frame does not try.
+constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn = 32;
+constexpr std::chrono::milliseconds turn_patience(250);
+
+std::size_t frames_that_wait(const Scene& scene, const FilmOptions& options) {
+    if (!options.take_turns) return waiting_frames;
+    std::int64_t moments = 1;  // that a picture is exposed over
+    for (const FilmSegment& segment : scene.film.segments)
+        if (segment.exposure > 0) moments = std::max<std::int64_t>(moments, segment.exposures);
+    const std::int64_t fit =
+        turn_bytes / (bytes_a_grain * moments * std::max<std::int64_t>(1, scene.grains()));
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(fit, waiting_frames, longest_turn));
+}
+// Those in the queue, the one being drawn, the one being encoded, and the last one, kept for the poster.
+constexpr std::size_t pictures_in_all = waiting_pictures + 3;
+
+struct Order {
+    Frames frames;
+    std::string playback;
+};
+
+}  // namespace
+
+struct FilmMaker::Impl {
+    Impl(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer)
+        : files(scene, options),
+          make(std::move(make_drawer)),
+          frames(frames_that_wait(scene, options),
+                 options.take_turns ? turn_patience : std::chrono::milliseconds(0)) {
+        for (std::size_t i = 0; i < pictures_in_all; ++i) spare.push(Picture());
+        drawing = std::thread([this] { guarded(&Impl::draw_all); });
+        encoding = std::thread([this] { guarded(&Impl::encode_all); });
+    }
+
+    ~Impl() {
+        cancel();
+        join();
+    }
+
+    // Runs one stage; its failure stops the other one and is kept for the caller.
+    void guarded(void (Impl::*stage)()) {
+        try {
+            (this->*stage)();
+        } catch (const std::exception& error) {
+            fail(error.what());
+        } catch (...) {
+            fail("the film failed for an unknown reason");
+        }
+    }
+
+    void draw_all() {
+        const std::unique_ptr<Drawer> drawer = make();
+        gl = drawer->description();
+        note = drawer->note();
+        tell_drawer();
+        while (std::optional<Order> order = frames.pop()) {
+            std::optional<Picture> canvas = spare.pop();
+            if (!canvas) return;
+            const Watch::time_point start = Watch::now();
+            drawer->draw(order->frames, order->playback, *canvas);
+            draw_seconds += seconds_since(start);
+            pictures.push({std::move(*canvas), std::move(order->frames.front()), std::move(order->playback)});
+        }
+        pictures.close();
+    }
+
+    void encode_all() {
+        while (std::optional<DrawnFrame> drawn = pictures.pop()) {
+            const Watch::time_point start = Watch::now();
+            spare.push(files.add(std::move(*drawn)));
+            encode_seconds += seconds_since(start);
+            ++done;
+        }
+        const Watch::time_point start = Watch::now();
+        files.close_poster();
+        if (complete) files.finish();
+        encode_seconds += seconds_since(start);
+    }
+
+    void fail(const std::string& words) {
+        {
+            const std::scoped_lock lock(failure_mutex);
+            if (failure.empty()) failure = words;
+        }
+        tell_drawer();
+        cancel();
+    }
+
+    void tell_drawer() {
+        drawer_known = true;
+        drawer_known.notify_all();
+    }
+
+    void cancel() {
+        frames.cancel();
+        pictures.cancel();
+        spare.cancel();
+    }
+
+    void join() {
+        if (drawing.joinable()) drawing.join();
+        if (encoding.joinable()) encoding.join();
+    }
+
+    void throw_failure() {
+        const std::scoped_lock lock(failure_mutex);
+        if (!failure.empty()) throw RunError(failure);
+    }
+
+    PictureFiles files;  // the encoding thread's, once that runs
+    DrawerMaker make;
+    BoundedQueue<Order> frames;
+    BoundedQueue<DrawnFrame> pictures{waiting_pictures};
+    BoundedQueue<Picture> spare{pictures_in_all};
+    std::atomic<bool> complete = false;  // finish() was called: the film is to be closed, not abandoned
+    std::atomic<std::int64_t> done = 0;
+    std::mutex failure_mutex;
+    std::string failure;                     // of the stage that failed first; empty when none did
+    std::atomic<bool> drawer_known = false;  // it is made, or something failed
+    std::string gl, note;                    // of the drawer: read once it is known
+    // From here on: written by one thread, read after join().
+    double draw_seconds = 0, encode_seconds = 0, waited_seconds = 0;
+    std::thread drawing, encoding;
+};
+
+FilmMaker::FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer)
+    : impl_(std::make_unique<Impl>(scene, options, std::move(make_drawer))) {}
+
+FilmMaker::~FilmMaker() = default;
+
+void FilmMaker::take(Frames frames, std::string playback) {
+    GRAINREEL_CHECK(!impl_->complete && !frames.empty());
+    const Watch::time_point start = Watch::now();
+    const bool taken = impl_->frames.push({std::move(frames), std::move(playback)});
+    impl_->waited_seconds += seconds_since(start);
+    if (!taken) impl_->throw_failure();
+}
+
+std::string FilmMaker::drawer() {
+    impl_->drawer_known.wait(false);
+    impl_->throw_failure();
+    return impl_->gl;
+}
+
+FilmReport FilmMaker::finish() {
+    impl_->complete = true;
+    impl_->frames.close();
+    impl_->join();
+    impl_->throw_failure();
+    FilmReport report;
+    report.frames = impl_->done;
+    report.draw_seconds = impl_->draw_seconds;
+    report.encode_seconds = impl_->encode_seconds;
+    report.waited_seconds = impl_->waited_seconds;
+    report.gl = impl_->gl;
+    report.file = impl_->files.film_file();
+    report.pictures = impl_->files.has_frames();
+    report.sheet = impl_->files.has_sheet();
+    report.encoder = impl_->files.encoder();
+    report.notes = impl_->files.notes();
+    if (!impl_->note.empty()) report.notes.push_back(impl_->note);
+    return report;
+}
+
+std::int64_t FilmMaker::frames_done() const {
+    return impl_->done;
+}
+
+}  // namespace grainreel

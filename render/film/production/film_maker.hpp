@@ -1,0 +1,84 @@
+// The film's production line: frames go in on the engine's thread, a bounded queue, a drawing thread, another
+// bounded queue, an encoding thread. Nothing is dropped, nothing reordered.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/draw/picture/picture.hpp"
+#include "render/gl/provider.hpp"
+
+namespace grainreel {
+
+struct FilmOptions {
+    std::filesystem::path folder;  // movie.mp4 (or .webm, ...), poster.png, sheet.png and frames/ go here
+    bool film = true;              // the film, in its scene's format, and the pictures that stand for it
+    bool frames = false;           // frames/000000.png ...; always with the format png
+    bool to_stdout = false;        // the film goes to stdout in place of the folder: y4m only
+    int raster_threads = 1;
+    int encoder_threads = 1;
+    bool take_turns = false;  // with who calls take(), which then waits while queued pictures are made
+    gl::Provider gl = gl::Provider::automatic;
+    std::int64_t pictures = 0;  // planned; what an orbit that lasts all the film needs to know
+};
+
+struct FilmReport {
+    std::int64_t frames = 0;
+    double draw_seconds = 0, encode_seconds = 0;  // busy time of the two threads
+    double waited_seconds = 0;                    // the engine's, for a place in the queue
+    std::string gl;                               // context description
+    std::string file;                             // "movie.mp4"; empty without one
+    bool pictures = false;                        // frames/ is there
+    bool sheet = false;                           // sheet.png is there
+    std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty likewise
+    std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
+};
+
+// The frames that one picture shows: one, or one a panel, of the same moment.
+using Frames = std::vector<FramePtr>;
+
+// What turns frames into a picture: the Renderer, or a test's own. Made, used and destroyed on one thread.
+class Drawer {
+  public:
+    virtual ~Drawer() = default;
+    // Into an empty picture, or one that it has drawn before.
+    virtual void draw(const Frames& frames, const std::string& playback, Picture& into) = 0;
+    virtual std::string description() const = 0;
+    virtual std::string note() const { return {}; }  // what its user should know about it
+};
+using DrawerMaker = std::function<std::unique_ptr<Drawer>()>;
+
+class FilmMaker {
+  public:
+    // Creates the film's file and folder. Throws RunError when they cannot be written.
+    FilmMaker(const Scene& scene, const FilmOptions& options);  // draws with the Renderer
+    FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer);
+    ~FilmMaker();  // abandons what is queued; the film on disk still plays
+
+    // Waits until the drawer is made and says what it is. Throws RunError when it cannot be made.
+    std::string drawer();
+
+    // Takes one picture's frames with their caption; waits while the queue is full. Throws RunError when
+    // drawing or encoding failed (disk full), with the first failure's words.
+    void take(Frames frames, std::string playback);
+    void take(FramePtr frame, std::string playback) { take(Frames{std::move(frame)}, std::move(playback)); }
+
+    // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError likewise.
+    // Neither take() nor finish() may follow.
+    FilmReport finish();
+
+    std::int64_t frames_done() const;  // encoded so far
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel

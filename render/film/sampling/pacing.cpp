@@ -1,0 +1,98 @@
+#include "render/film/sampling/pacing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/film/sampling/sampler.hpp"
+
+namespace grainreel {
+namespace {
+
+// Turns and periods, of which a step is never less than 1e-7: what is closer is the same.
+constexpr double hair = 1e-9;
+
+double mean_interval(const std::vector<Frame>& moments) {
+    return (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
+}
+
+bool even(const std::vector<Frame>& moments) {
+    const double interval = mean_interval(moments);
+    for (std::size_t i = 1; i < moments.size(); ++i)
+        if (std::abs(moments[i].time - moments[i - 1].time - interval) > 1e-3 * interval) return false;
+    return interval > 0;
+}
+
+// Turns between two phases, the shorter way round.
+double turn_between(double a, double b) {
+    const double turns = a - b;
+    return std::abs(turns - std::round(turns));
+}
+
+bool same_phase(const std::vector<Frame>& moments) {
+    return std::all_of(moments.begin(), moments.end(), [&](const Frame& moment) {
+        return turn_between(moment.phase, moments.front().phase) < hair;
+    });
+}
+
+// Frames lie on steps, so the interval that was asked for is known to half a step at best: within that, the
+// plain factor is the one that was meant.
+double plain_factor(double playback, double tolerance) {
+    for (const double parts : {1.0, 2.0}) {  // 1/2, 1/3 ...; then 1/2.5 and the like
+        const double slower = std::round(parts / playback) / parts;
+        if (slower >= 1 && std::abs(playback * slower - 1) <= tolerance) return 1 / slower;
+    }
+    const double faster = std::round(playback);
+    return faster >= 1 && std::abs(playback / faster - 1) <= tolerance ? faster : playback;
+}
+
+double half_a_step(const std::vector<Frame>& moments) {
+    const auto steps = static_cast<double>(moments.back().step - moments.front().step);
+    return steps > 0 ? 0.5 * (moments.back().time - moments.front().time) / steps : 0;
+}
+
+}  // namespace
+
+std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Drive& drive, double rate) {
+    if (moments.size() < 2 || !even(moments)) return std::nullopt;
+    FilmSegment segment;
+    segment.duration = moments.back().time - moments.front().time;
+    const double interval = mean_interval(moments);
+    if (drive.present && same_phase(moments)) {
+        segment.kind = FilmSegment::Kind::locked;
+        segment.every = static_cast<int>(std::lround(interval * drive.frequency));
+        const double phase = std::round(moments.front().phase / hair) * hair;
+        segment.phase = phase < 1 ? phase : 0;
+        return segment;
+    }
+    segment.playback = plain_factor(interval * rate, half_a_step(moments) / interval + hair);
+    return segment;
+}
+
+std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive, double rate) {
+    if (moments.size() < 2) return {};
+    if (const auto segment = pacing_of(moments, drive, rate)) return playback_caption(*segment, drive, rate);
+    const double interval = mean_interval(moments);
+    if (interval <= 0) return {};
+    if (drive.present && same_phase(moments))
+        return fmt::format("on average 1 frame every {:.3g} periods, at phase {:.3g} (plays {:.3g}×)",
+                           interval * drive.frequency, moments.front().phase, interval * rate);
+    FilmSegment segment;
+    segment.playback = std::round(interval * rate * 100) / 100 > 0 ? std::round(interval * rate * 100) / 100
+                                                                   : interval * rate;
+    return "on average " + playback_caption(segment, drive, rate);
+}
+
+std::optional<std::string> pacing_warning(const std::vector<Frame>& moments, const Drive& drive) {
+    if (moments.size() < 2 || !drive.present || same_phase(moments)) return std::nullopt;
+    const double frames = 1 / mean_interval(moments), f = drive.frequency;  // a simulated second
+    if (frames >= least_frames_a_period * f * (1 - hair)) return std::nullopt;
+    return fmt::format(
+        "{:.3g} frames a period are drawn: the {:.4g} Hz drive will seem to move at {:.4g} Hz; take one "
+        "frame a "
+        "period with --every, or run the scene with an output.trajectory_interval of {:.3g} s or less",
+        frames / f, f, apparent_frequency(f, frames), 1 / (least_frames_a_period * f));
+}
+
+}  // namespace grainreel

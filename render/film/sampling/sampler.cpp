@@ -1,0 +1,255 @@
+#include "render/film/sampling/sampler.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/base/error.hpp"
+#include "render/film/files/film_limits.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr std::int64_t means_a_period = 16;
+constexpr double longest_exposure = 9e15;  // steps; up to there a double counts exactly
+
+std::vector<FilmSegment> segments_of(const Film& film) {
+    return film.segments.empty() ? std::vector<FilmSegment>(1) : film.segments;
+}
+
+// Ends of the segments in simulated time, s; none beyond `total`.
+std::vector<double> segment_ends(const std::vector<FilmSegment>& segments, double total) {
+    double given = 0;
+    for (const FilmSegment& s : segments) given += s.duration.value_or(0);
+    const double left = std::max(0.0, total - given);
+    std::vector<double> ends;
+    double end = 0;
+    for (const FilmSegment& s : segments) {
+        end += s.duration.value_or(left);
+        ends.push_back(std::min(end, total));
+    }
+    return ends;
+}
+
+// The shots of one segment, told without making them: they lie at first + k spacing, k = 0, 1, ...
+struct Stretch {
+    int segment = 0;
+    double start = 0;        // s, where it begins; motion
+    double frame = 0;        // s of simulated time a frame; motion
+    std::int64_t first = 0;  // step
+    std::int64_t every = 0;  // steps between shots; 0: those nearest to start + k frame
+    std::int64_t stop = 0;   // step that the segment does not reach
+    std::int64_t count = 0;  // shots, at most: motion may round two to one step
+};
+
+// Finer than half a step, every step is nearest to some frame's time.
+bool takes_every_step(double spacing) {
+    return spacing < 0.5;
+}
+
+Stretch motion_stretch(double playback, double rate, double start, std::int64_t stop, const Clock& clock) {
+    Stretch stretch;
+    stretch.start = start;
+    stretch.frame = playback / rate;
+    stretch.first = std::llround(start / clock.step);
+    stretch.stop = stop;
+    const double spacing = stretch.frame / clock.step;
+    if (takes_every_step(spacing)) stretch.every = 1;
+    const std::int64_t steps = std::max<std::int64_t>(0, stop - stretch.first);
+    const double reach = static_cast<double>(stop) - 0.5 - start / clock.step;
+    const double frames = takes_every_step(spacing) ? static_cast<double>(steps) : reach / spacing + 1;
+    stretch.count =
+        steps == 0 || frames > static_cast<double>(steps) ? steps : static_cast<std::int64_t>(frames);
+    return stretch;
+}
+
+Stretch locked_stretch(const FilmSegment& rule, std::int64_t start, std::int64_t stop, const Clock& clock) {
+    const std::int64_t period = clock.steps_per_period;
+    const double turns = rule.phase - clock.initial_phase;
+    const std::int64_t at = std::llround((turns - std::floor(turns)) * static_cast<double>(period));
+    Stretch stretch;
+    stretch.first = start + (((at - start) % period) + period) % period;
+    stretch.every = rule.every * period;
+    stretch.stop = stop;
+    stretch.count = stretch.first < stop ? (stop - 1 - stretch.first) / stretch.every + 1 : 0;
+    return stretch;
+}
+
+// Throws UserError when a segment is locked but the clock has no periods.
+std::vector<Stretch> stretches_of(const Scene& scene, const Clock& clock, std::int64_t steps) {
+    const std::vector<FilmSegment> segments = segments_of(scene.film);
+    const std::vector<double> ends = segment_ends(segments, clock.time(steps));
+    std::vector<Stretch> stretches;
+    double start = 0;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const bool last = i + 1 == segments.size();
+        // A segment hands its last step on to the next one; only the last keeps it.
+        const std::int64_t end = std::min<std::int64_t>(steps, std::llround(ends[i] / clock.step));
+        const std::int64_t stop = last ? end + 1 : end;
+        if (segments[i].kind == FilmSegment::Kind::motion) {
+            stretches.push_back(motion_stretch(segments[i].playback, scene.film.rate, start, stop, clock));
+        } else if (clock.steps_per_period > 0) {
+            stretches.push_back(locked_stretch(segments[i], std::llround(start / clock.step), stop, clock));
+        } else {
+            throw UserError(
+                fmt::format("{}: film segment {} is locked to the drive's phase, but nothing is driven; "
+                            "give the scene a drive, or make it a motion segment",
+                            scene.where(fmt::format("film.segment[{}]", i)), i + 1));
+        }
+        stretches.back().segment = static_cast<int>(i);
+        start = ends[i];
+    }
+    return stretches;
+}
+
+// A step that is not later than the last one taken is left out (slow motion finer than the step, or two
+// segments that meet).
+void make(const Stretch& stretch, const Clock& clock, std::vector<Shot>& shots) {
+    for (std::int64_t k = 0;; ++k) {
+        double at = static_cast<double>(stretch.first + k * stretch.every);
+        if (stretch.every == 0) at = (stretch.start + static_cast<double>(k) * stretch.frame) / clock.step;
+        if (at >= static_cast<double>(stretch.stop) - 0.5) return;
+        const std::int64_t step = std::llround(at);
+        if (shots.empty() || step > shots.back().step) shots.push_back({step, stretch.segment});
+    }
+}
+
+// Steps, or periods where pictures stay in phase, that a segment's shutter is open.
+std::int64_t exposed_span(const FilmSegment& segment, std::int64_t unit, const Clock& clock) {
+    const double span = segment.exposure / (clock.step * static_cast<double>(unit));
+    return std::llround(std::min(span, longest_exposure / static_cast<double>(unit)));
+}
+
+// Locked pictures stay in phase: the shutter opens once a period at most.
+std::int64_t exposed_unit(const FilmSegment& segment, const Clock& clock, int periods = 1) {
+    const bool locked = segment.kind == FilmSegment::Kind::locked && clock.steps_per_period > 0;
+    return locked ? periods * clock.steps_per_period : 1;
+}
+
+// "1/10", "1/2.5" or "0.35": whichever a reader takes in at a glance.
+std::string speed_words(double playback) {
+    const double slower = 1 / playback;
+    const double tenths = std::round(slower * 10) / 10;
+    if (std::abs(slower - tenths) < 1e-9 * slower) return fmt::format("1/{:g}", tenths);
+    return fmt::format("{:.3g}", playback);
+}
+
+std::string pace_words(const FilmSegment& segment, const Drive& drive, double film_rate) {
+    if (segment.kind == FilmSegment::Kind::motion) {
+        if (segment.playback == 1) return "real time";
+        if (segment.playback > 1) return fmt::format("time lapse, {:.4g}× speed", segment.playback);
+        return fmt::format("slow motion, {} speed", speed_words(segment.playback));
+    }
+    const std::string often =
+        segment.every == 1 ? "a period" : fmt::format("every {} periods", segment.every);
+    return fmt::format("1 frame {} at phase {:.3g} (plays {:.4g}×)", often, segment.phase,
+                       film_rate * segment.every / drive.frequency);
+}
+
+// What each picture shows when it is not one moment.
+std::string span_words(const FilmSegment& segment) {
+    if (segment.average == 1) return ", mean of a period";
+    if (segment.average > 1) return fmt::format(", mean of {} periods", segment.average);
+    if (segment.exposure > 0) return fmt::format(", exposed for {:.3g} s", segment.exposure);
+    return "";
+}
+
+}  // namespace
+
+std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate) {
+    return pace_words(segment, drive, film_rate) + span_words(segment);
+}
+
+std::vector<SegmentCount> count_film(const Scene& scene, const Clock& clock, std::int64_t steps) {
+    const std::vector<FilmSegment> segments = segments_of(scene.film);
+    std::vector<SegmentCount> counts;
+    for (const Stretch& stretch : stretches_of(scene, clock, steps)) {
+        const FilmSegment& rule = segments[counts.size()];
+        SegmentCount count;
+        count.shots = stretch.count;
+        if (rule.exposure > 0) {
+            const std::int64_t span = exposed_span(rule, exposed_unit(rule, clock), clock);
+            count.moments_a_shot =
+                std::max<std::int64_t>(0, std::min<std::int64_t>(rule.exposures, span) - 1);
+            count.exposures_a_shot = count.moments_a_shot;
+        } else if (rule.average > 0 && clock.steps_per_period > 0) {
+            count.moments_a_shot = means_a_period * rule.average + 1;
+        }
+        counts.push_back(count);
+    }
+    return counts;
+}
+
+std::vector<Shot> film_schedule(const Scene& scene, const Clock& clock, std::int64_t steps) {
+    check_schedule(scene, count_film(scene, clock, steps));
+    std::vector<Shot> shots;
+    for (const Stretch& stretch : stretches_of(scene, clock, steps)) make(stretch, clock, shots);
+    return shots;
+}
+
+FilmSegment spanning(FilmSegment segment, int periods) {
+    segment.every = std::lcm(segment.every, periods);
+    segment.average = (segment.average + periods - 1) / periods * periods;
+    return segment;
+}
+
+std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+                                        int periods) {
+    std::vector<std::int64_t> steps;
+    if (segment.exposure <= 0) return steps;
+    const std::int64_t unit = exposed_unit(segment, clock, periods);
+    const std::int64_t span = exposed_span(segment, unit, clock);
+    const std::int64_t count = std::min<std::int64_t>(segment.exposures, span);
+    for (std::int64_t k = count - 1; k > 0; --k) {
+        const double back = static_cast<double>(k) * static_cast<double>(span) / static_cast<double>(count);
+        steps.push_back(shot.step - unit * std::llround(back));
+    }
+    return steps;
+}
+
+std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+                                         int periods) {
+    std::vector<std::int64_t> steps;
+    const std::int64_t count = means_a_period * segment.average;
+    if (count == 0 || clock.steps_per_period == 0) return steps;
+    const std::int64_t span = spanning(segment, periods).average * clock.steps_per_period;
+    const double spacing = static_cast<double>(span) / static_cast<double>(count);
+    for (std::int64_t k = count; k >= 0; --k)
+        steps.push_back(shot.step - std::llround(static_cast<double>(k) * spacing));
+    return steps;
+}
+
+double poster_time(const Film& film, double duration) {
+    const std::vector<FilmSegment> segments = segments_of(film);
+    const std::vector<double> ends = segment_ends(segments, duration);
+    for (std::size_t i = segments.size(); i-- > 0;)
+        if (segments[i].kind == FilmSegment::Kind::locked) return ends[i];
+    return 0.8 * ends.back();
+}
+
+double apparent_frequency(double frequency, double frames) {
+    return std::abs(frequency - std::round(frequency / frames) * frames);
+}
+
+std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive) {
+    std::vector<std::string> warnings;
+    if (!drive.present || drive.frequency <= 0) return warnings;
+    const double f = drive.frequency;
+    const std::vector<FilmSegment> segments = segments_of(film);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        if (segments[i].kind == FilmSegment::Kind::locked) continue;
+        const double frames = film.rate / segments[i].playback;  // per simulated second
+        // A hair of tolerance: exactly 8 frames a period must not warn for rounding.
+        if (frames >= least_frames_a_period * f * (1 - 1e-12)) continue;
+        warnings.push_back(fmt::format(
+            "film segment {} shows {:.3g} frames a period: the {:.4g} Hz drive will seem to move "
+            "at {:.4g} Hz; "
+            "lock it to a phase, or set its playback to {:.3g} or less",
+            i + 1, frames / f, f, apparent_frequency(f, frames), film.rate / (least_frames_a_period * f)));
+    }
+    return warnings;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,31 @@
+// When a run writes its checkpoints.
+#pragma once
+
+#include <algorithm>
+
+#include "render/run/stage_times.hpp"
+
+namespace grainreel {
+
+// The next one 2 s after the first, then after 4 s, 8 s, ... 30 s: what a killed run loses is never much more
+// than what it has done. A checkpoint of a million grains takes its time; so they never cost more than a
+// fiftieth of the run.
+class CheckpointPace {
+  public:
+    // After one that took so long to write, s.
+    void saved(double cost) {
+        interval_ = std::min(longest, 2 * interval_);
+        cost_ = cost;
+        since_ = Stopwatch();
+    }
+    bool due() const { return due(since_.seconds()); }
+    // So long after the last one.
+    bool due(double seconds) const { return seconds > std::max(interval_, share * cost_); }
+
+  private:
+    static constexpr double longest = 30, share = 50;
+    double interval_ = 1, cost_ = 0;  // s, of wall time
+    Stopwatch since_;
+};
+
+}  // namespace grainreel

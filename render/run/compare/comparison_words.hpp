@@ -1,0 +1,23 @@
+// What the panels of a comparison say of time, and what is said of them beforehand.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/run/compare/comparison.hpp"
+
+namespace grainreel {
+
+// What a panel says of time in each segment of the film. The comparison has its sources and its instants.
+std::vector<std::string> playback_of(const ComparePanel& source, const Comparison& all);
+
+// What all panels say of it in one segment, in one line.
+std::string playback_of_all(const std::vector<Panel>& panels, std::size_t segment);
+
+// Drives that would seem to move at another frequency, in panels that show moments of a finished run.
+void warn_of_pace(Comparison& all);
+
+// What a film of one scene would show and this one does not.
+void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all);
+
+}  // namespace grainreel

@@ -1,0 +1,177 @@
+#include "render/run/film_run.hpp"
+
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/cli/report/record.hpp"
+#include "render/film/files/film_limits.hpp"
+#include "render/run/stop_signal.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr int signal_base = 128;
+
+std::int64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace
+
+FilmRun::FilmRun(const Options& options, Reporter& reporter) : options_(options), reporter_(reporter) {}
+
+FilmRun::~FilmRun() {
+    reporter_.keep_log(nullptr);
+}
+
+void FilmRun::check_film(const Scene& scene, std::int64_t frames) const {
+    if (options_.to_stdout && !(options_.film && scene.film.format == FilmFormat::y4m))
+        throw UserError("--out -: stdout takes a film in y4m alone; add --format y4m, or name a folder");
+    if (options_.film) check_max_size(scene, frames);
+}
+
+void FilmRun::make_folder(RunFolderRequest request) {
+    request.command = options_.command;
+    folder_.emplace(request);
+    log_.emplace(folder_->path() / "log.txt");
+    reporter_.keep_log(&*log_);
+}
+
+int FilmRun::run() {
+    bool stopped = false;
+    try {
+        stopped = !work();
+    } catch (const UserError& mistake) {
+        if (!begun_) {
+            reporter_.keep_log(nullptr);
+            folder_->discard();
+            throw;
+        }
+        failure_.note(mistake.what());
+    } catch (const std::exception& problem) {
+        failure_.note(problem.what());
+    }
+    if (stopped)
+        reporter_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
+    keep_state();
+    // What was asked to stop says so from here on: a second signal may end it while the film is finished.
+    if (stopped) close_record(stopped);
+    keep_state_before_exit(false);
+    if (in_a_hurry()) {
+        abandon_film();
+    } else {
+        close_film();
+    }
+    close_record(stopped);
+    if (record_.status == RunStatus::complete) folder_->remove_previous();
+    report_end();
+    std::fprintf(options_.to_stdout ? stderr : stdout, "%s\n", folder_->path().c_str());
+    return *record_.exit_status;
+}
+
+void FilmRun::settle_status(bool stopped) {
+    record_.status = failure_.any() ? RunStatus::failed
+                     : stopped      ? RunStatus::interrupted
+                                    : RunStatus::complete;
+    record_.exit_status = failure_.any() ? 1 : stopped ? signal_base + stop_signal() : 0;
+}
+
+void FilmRun::begin_record(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) reporter_.warning(warning);
+    describe_program(record_, options_.command);
+    record_.raster_threads = wants_pictures() ? threads_.raster : 0;
+    record_.encoder_threads = wants_pictures() ? threads_.encoder : 0;
+    record_.warnings = warnings;
+    write_run_json(folder_->path() / "run.json", record_);
+}
+
+void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
+    if (!wants_pictures()) return;
+    FilmOptions film;
+    film.folder = folder_->path();
+    film.film = options_.film;
+    film.frames = options_.frames;
+    film.to_stdout = options_.to_stdout;
+    film.raster_threads = threads_.raster;
+    film.encoder_threads = threads_.encoder;
+    film.take_turns = threads_.take_turns;
+    film.gl = options_.gl;
+    film.pictures = pictures_planned_;
+    film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
+                 : std::make_unique<FilmMaker>(scene, film);
+    record_.gl = film_->drawer();
+    reporter_.detail("drawn with " + record_.gl);
+}
+
+void FilmRun::close_film() {
+    if (!film_) return;
+    failure_.attempt([&] {
+        const auto timer = times_.during("finishing the film");
+        film_report_ = film_->finish();
+        for (const std::string& note : film_report_.notes) reporter_.info(note);
+    });
+    film_report_.frames = film_->frames_done();
+    times_.add("drawing (beside the engine)", film_report_.draw_seconds);
+    times_.add("encoding (beside the engine)", film_report_.encode_seconds);
+}
+
+// What is on disk of it plays; what is queued is not drawn any more.
+void FilmRun::abandon_film() {
+    if (!film_) return;
+    film_report_.frames = film_->frames_done();
+    film_.reset();
+    reporter_.info("the film was left as it is");
+}
+
+void FilmRun::close_record(bool stopped) {
+    settle_status(stopped);
+    conclude();
+    settle_status(stopped);
+    record_.error = failure_.what();
+    record_.finished = utc_now();
+    record_.film_frames = film_ ? film_->frames_done() : film_report_.frames;
+    record_.encoder = film_report_.encoder;
+    record_.peak_memory = peak_memory();
+    RunRecord now = record_;
+    for (const auto& time : times_.all()) now.wall_seconds.push_back(time);
+    now.wall_seconds.emplace_back("total", watch_.seconds());
+    failure_.attempt([&] { write_run_json(folder_->path() / "run.json", now); });
+    settle_status(stopped);
+}
+
+void FilmRun::report_end() {
+    const std::string folder = folder_->path().string();
+    if (failure_.any()) {
+        record_.exit_status = 1;
+        reporter_.error(failure_.what());
+        reporter_.info(fmt::format("what was made until then is in {}", folder));
+    } else if (record_.status == RunStatus::interrupted) {
+        reporter_.info(fmt::format("{}; what was made is in {}{}", stopped_text(), folder,
+                                   begun_ ? "" : " (still packing: no film)"));
+    }
+    if (begun_ && !failure_.any()) report_written();
+    if (!folder_->previous().empty()) {
+        reporter_.info(
+            fmt::format("the run that was to be replaced is kept in {}", folder_->previous().string()));
+    }
+}
+
+std::string FilmRun::film_files_text() const {
+    std::string text;
+    if (!film_report_.file.empty())
+        text += fmt::format("{} ({} frames), ", film_report_.file, film_report_.frames);
+    if (options_.to_stdout) text += fmt::format("to stdout {} frames, ", film_report_.frames);
+    if (options_.film) text += film_report_.sheet ? "poster.png, sheet.png, " : "poster.png, ";
+    if (film_report_.pictures) text += fmt::format("frames/ ({} pictures), ", film_report_.frames);
+    return text;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,80 @@
+// What every verb does that fills a folder with a film: folder, log, record, film, and an end that keeps what
+// there is, whatever happened.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/output/log.hpp"
+#include "engine/output/run_folder.hpp"
+#include "engine/output/run_json.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/cli/estimate/thread_plan.hpp"
+#include "render/cli/options/options.hpp"
+#include "render/cli/report/reporter.hpp"
+#include "render/film/production/film_maker.hpp"
+#include "render/run/first_failure.hpp"
+#include "render/run/stage_times.hpp"
+
+namespace grainreel {
+
+class FilmRun {
+  public:
+    virtual ~FilmRun();
+    FilmRun(const FilmRun&) = delete;
+    FilmRun& operator=(const FilmRun&) = delete;
+
+    // Returns the exit status: 0, 1 when it failed on its way (what it had is kept), 129, 130 or 143 when it
+    // was asked to stop. Throws UserError before anything is worth keeping; nothing is on disk then.
+    int run();
+
+  protected:
+    FilmRun(const Options& options, Reporter& reporter);
+
+    // The work itself, between the made folder and the closed film; false when asked to stop.
+    virtual bool work() = 0;
+    // After the work, whatever happened, and before the film is finished, which may take its time: what else
+    // is to be kept.
+    virtual void keep_state() {}
+    // What the record says of that. By then the record has its status. May be called twice.
+    virtual void conclude() {}
+    virtual std::string stopped_text() const = 0;  // "stopped at 0.10 of 0.20 s"
+    virtual void report_written() = 0;             // that which went well
+
+    bool wants_pictures() const { return options_.film || options_.frames; }
+    // What scene and options ask of the film's file. Throws UserError.
+    void check_film(const Scene& scene, std::int64_t frames) const;
+    // To be called when all that the user gave has been accepted.
+    void make_folder(RunFolderRequest request);
+    // Shows the warnings and writes run.json for the first time.
+    void begin_record(const std::vector<std::string>& warnings);
+    // draw: what makes pictures; none for the Renderer.
+    void open_film(const Scene& scene, DrawerMaker draw = {});
+    std::string film_files_text() const;  // "movie.mp4 (4 frames), poster.png, "
+
+    const Options& options_;
+    Reporter& reporter_;
+    Stopwatch watch_;
+    ThreadPlan threads_;
+    std::optional<RunFolder> folder_;
+    std::optional<RunLog> log_;
+    RunRecord record_;
+    StageTimes times_;
+    bool begun_ = false;  // from here a mistake is a failure, and what there is stays
+    std::unique_ptr<FilmMaker> film_;
+    std::int64_t pictures_planned_ = 0;
+    FilmReport film_report_;
+    FirstFailure failure_;
+
+  private:
+    void close_film();
+    void abandon_film();
+    void settle_status(bool stopped);
+    void close_record(bool stopped);
+    void report_end();
+};
+
+}  // namespace grainreel

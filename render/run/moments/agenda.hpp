@@ -1,0 +1,45 @@
+// Who wants which step: the film's shots, the trajectory and the measures, merged in order of time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "render/film/sampling/sampler.hpp"
+
+namespace grainreel {
+
+// A step at which the run stops to look.
+struct Stop {
+    std::int64_t step = 0;
+    std::vector<int> segments;  // of the film, one a picture to be taken; empty when the film wants none
+    bool trajectory = false;
+    bool measures = false;
+    bool moment = false;  // a later picture wants to know how the grains are now
+    bool strobe = false;  // one of the moments at which periods are compared
+};
+
+class Agenda {
+  public:
+    // Steps from `first` to `last`. Shots before `first` are left out; trajectory and measures come at
+    // the steps nearest to multiples of their interval (0: never), measures at `first` and `last` too.
+    // moments: steps. strobe_every: steps between moments at which periods are compared.
+    Agenda(std::vector<Shot> shots, double trajectory_every, double measures_every, std::int64_t first,
+           std::int64_t last, std::set<std::int64_t> moments = {}, std::int64_t strobe_every = 0);
+
+    // The next stop, in rising order of step; the last is at `last`. Empty after it.
+    std::optional<Stop> next();
+
+    std::int64_t shots() const { return static_cast<std::int64_t>(shots_.size()); }
+
+  private:
+    std::vector<Shot> shots_;
+    std::size_t shot_ = 0;
+    std::set<std::int64_t> moments_;
+    double trajectory_every_, measures_every_, strobe_every_;
+    std::int64_t first_, last_;
+    std::int64_t at_;  // steps below are done with
+};
+
+}  // namespace grainreel

@@ -1,0 +1,158 @@
+#include "render/run/movie_run.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/base/team.hpp"
+#include "render/cli/report/segregation_text.hpp"
+#include "render/film/files/film_limits.hpp"
+#include "render/run/stop_signal.hpp"
+
+namespace grainreel {
+
+namespace {
+
+std::vector<Shot> schedule(const Scene& scene, const Plan& plan, bool wanted) {
+    return wanted ? film_schedule(scene, plan.clock, plan.steps) : std::vector<Shot>();
+}
+
+ThreadPlan threads_for(const Scene& scene, bool film) {
+    const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
+    return plan_threads(processors, film, scene.grains());
+}
+
+}  // namespace
+
+MovieRun::MovieRun(const Options& options, Reporter& reporter, const Scene& scene, const Plan& plan)
+    : FilmRun(options, reporter),
+      shots_(schedule(scene, plan, wants_pictures())),
+      run_(scene, plan, threads_for(scene, wants_pictures()).engine) {
+    threads_ = threads_for(scene, wants_pictures());
+    check_film(scene, static_cast<std::int64_t>(shots_.size()));
+    make_folder({scene.name, options.base, options.out, options.force});
+}
+
+bool MovieRun::work() {
+    describe();
+    if (!pack()) return false;
+    begun_ = true;
+    keep_state_before_exit(true);
+    run_.start(std::move(shots_), run_.scene().film.segments);
+    pictures_planned_ = run_.shots();
+    open_film(run_.scene());
+    vibrating_.emplace();
+    const auto go_on = [this] {
+        show_progress();
+        tell_news();
+        return stop_signal() == 0;
+    };
+    while (const std::optional<SceneRun::Taken> shot = run_.next(go_on)) take(*shot);
+    tell_news();
+    return stop_signal() == 0;
+}
+
+void MovieRun::describe() {
+    const Scene& scene = run_.scene();
+    std::vector<std::string> warnings = run_.plan().warnings;
+    if (wants_pictures()) {
+        const std::vector<std::string> strobes = strobe_warnings(scene.film, scene.drive);
+        warnings.insert(warnings.end(), strobes.begin(), strobes.end());
+        const std::vector<std::string> limits =
+            film_warnings(scene, static_cast<std::int64_t>(shots_.size()));
+        warnings.insert(warnings.end(), limits.begin(), limits.end());
+    }
+    run_.describe(record_);
+    begin_record(warnings);
+    run_.use_folder(folder_->lock());
+    reporter_.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene.file, scene.grains(),
+                                 run_.plan().steps, run_.plan().clock.step, run_.plan().step_reason));
+    reporter_.detail(fmt::format("threads: engine {}, raster {}, encoder {}", run_.simulation().threads(),
+                                 threads_.raster, threads_.encoder));
+}
+
+bool MovieRun::pack() {
+    Stopwatch packing;
+    const auto watcher = [&](const PackingProgress& now) {
+        Progress progress;
+        const bool growing = now.stage == PackingProgress::Stage::growing;
+        progress.stage = growing ? Progress::Stage::growing : Progress::Stage::settling;
+        progress.done = now.done;
+        if (packing.seconds() > 0.5) {
+            progress.particle_steps_per_second = static_cast<double>(now.steps) *
+                                                 static_cast<double>(run_.scene().grains()) /
+                                                 packing.seconds();
+        }
+        progress.elapsed = watch_.seconds();
+        reporter_.progress(progress);
+        return stop_signal() == 0;
+    };
+    if (!run_.pack(watcher)) return false;
+    reporter_.detail(run_.packing_text());
+    if (const auto warning = run_.packing_warning()) reporter_.warning(*warning);
+    return stop_signal() == 0;
+}
+
+void MovieRun::take(const SceneRun::Taken& shot) {
+    const Scene& scene = run_.scene();
+    const auto timer = times_.during("waiting for the film");
+    for (const int segment : shot.segments) {
+        const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(segment));
+        film_->take(shot.frame, playback_caption(spanning(rule, shot.periods), scene.drive, scene.film.rate));
+    }
+}
+
+void MovieRun::tell_news() {
+    const std::vector<std::string> news = run_.news();
+    for (; told_ < news.size(); ++told_) {
+        reporter_.warning(news[told_]);
+        record_.warnings.push_back(news[told_]);
+    }
+}
+
+void MovieRun::show_progress() {
+    const Plan& plan = run_.plan();
+    Progress progress;
+    progress.stage = Progress::Stage::vibrating;
+    progress.done = run_.done();
+    progress.time = plan.clock.time(run_.simulation().step());
+    progress.end = plan.clock.time(plan.steps);
+    progress.particle_steps_per_second = run_.recent_speed();
+    progress.frames = film_ ? film_->frames_done() : 0;
+    progress.frames_planned = pictures_planned_;
+    progress.elapsed = watch_.seconds();
+    const double vibrating = vibrating_->seconds();
+    if (progress.done > 0 && vibrating > 1)
+        progress.remaining = vibrating * (1 - progress.done) / progress.done;
+    reporter_.progress(progress);
+}
+
+void MovieRun::keep_state() {
+    run_.close(failure_);
+}
+
+void MovieRun::conclude() {
+    run_.conclude(record_);
+    record_.wall_seconds = run_.times().all();
+}
+
+std::string MovieRun::stopped_text() const {
+    return fmt::format("stopped at {:.2f} of {:.2f} s", record_.simulated,
+                       run_.plan().clock.time(run_.plan().steps));
+}
+
+void MovieRun::report_written() {
+    reporter_.info(fmt::format("wrote {}: {}{}, log.txt", folder_->path().string(), film_files_text(),
+                               run_.files_text()));
+    report_segregation();
+    reporter_.info(fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s)",
+                               duration_text(watch_.seconds()), duration_text(run_.times().of("packing")),
+                               duration_text(run_.times().of("engine")), run_.speed() * 1e-6));
+}
+
+void MovieRun::report_segregation() const {
+    const Scene& scene = run_.scene();
+    const RunFiles& files = *run_.files();
+    if (scene.species.size() < 2 || !files.last_measures()) return;
+    reporter_.info(segregation_text(scene, *files.first_measures(), *files.last_measures()));
+}
+
+}  // namespace grainreel

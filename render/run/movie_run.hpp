@@ -1,0 +1,41 @@
+// One run of the verb `movie`, from the accepted scene to the closed files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/run/film_run.hpp"
+#include "render/run/scene_run.hpp"
+
+namespace grainreel {
+
+class MovieRun final : public FilmRun {
+  public:
+    // Throws UserError for what scene, plan or options get wrong; nothing is on disk then.
+    MovieRun(const Options& options, Reporter& reporter, const Scene& scene, const Plan& plan);
+
+  private:
+    bool work() override;
+    void keep_state() override;
+    void conclude() override;
+    std::string stopped_text() const override;
+    void report_written() override;
+
+    void describe();
+    bool pack();  // false when the run was asked to stop
+    void take(const SceneRun::Taken& shot);
+    void tell_news();
+    void show_progress();
+    void report_segregation() const;
+
+    std::vector<Shot> shots_;
+    SceneRun run_;
+    std::optional<Stopwatch> vibrating_;
+    std::size_t told_ = 0;  // lines of the run's news
+};
+
+}  // namespace grainreel

@@ -1,0 +1,53 @@
+#include "render/run/run_files.hpp"
+
+#include "engine/scene/bed.hpp"
+
+#include "build_info.hpp"
+
+namespace grainreel {
+
+namespace {
+
+std::vector<std::string> species_names(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Species& species : scene.species) names.push_back(species.name);
+    return names;
+}
+
+TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains) {
+    TrajectoryInfo info;
+    info.title = scene.title;
+    info.program_version = build_info::version;
+    info.species = species_names(scene);
+    info.capacity = grains;
+    info.orientation = scene.keeps_orientations();
+    info.cell_origin = extent_of(scene).low;
+    if (scene.container.periodic_depth) info.periodic_length.x() = scene.container.depth;
+    return info;
+}
+
+}  // namespace
+
+RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+                   std::size_t grains)
+    : measures_(folder / "measures.csv", species_names(scene)) {
+    if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
+    if (plan.trajectory_every == 0) return;
+    trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, grains));
+    if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, build_info::version);
+}
+
+void RunFiles::add_frame(const Frame& frame, const Simulation& simulation) {
+    const std::int64_t index = trajectory_->frames();
+    trajectory_->write(frame);
+    if (contacts_) contacts_->write(index, simulation.contacts());
+}
+
+void RunFiles::add_measures(const Measures& measures) {
+    measures_.write(measures);
+    if (table_) table_->add(values_of(measures));
+    if (!first_) first_ = measures;
+    last_ = measures;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,43 @@
+// The files of one run that grow while it goes on: trajectory, contacts, measures.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "engine/measure/measure_table.hpp"
+#include "engine/output/contacts_file.hpp"
+#include "engine/output/measures_csv.hpp"
+#include "engine/output/trajectory.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/run/simulation.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+class RunFiles {
+  public:
+    // grains: the most a frame can have. Throws RunError when a file cannot be made.
+    RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan, std::size_t grains);
+
+    // The frame, and the contacts of the same moment when the scene asks for them.
+    void add_frame(const Frame& frame, const Simulation& simulation);
+    void add_measures(const Measures& measures);
+
+    std::int64_t trajectory_frames() const { return trajectory_ ? trajectory_->frames() : 0; }
+    std::int64_t measures_rows() const { return measures_.rows(); }
+    // The rows again, for those who draw them; null unless the film has plots.
+    std::shared_ptr<const MeasureTable> measures() const { return table_; }
+    bool has_contacts() const { return contacts_.has_value(); }
+    const std::optional<Measures>& first_measures() const { return first_; }
+    const std::optional<Measures>& last_measures() const { return last_; }
+
+  private:
+    std::optional<TrajectoryWriter> trajectory_;
+    std::optional<ContactsWriter> contacts_;
+    MeasuresWriter measures_;
+    std::shared_ptr<MeasureTable> table_;
+    std::optional<Measures> first_, last_;
+};
+
+}  // namespace grainreel

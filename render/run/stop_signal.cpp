@@ -1,0 +1,61 @@
+#include "render/run/stop_signal.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+
+namespace grainreel {
+
+namespace {
+
+std::atomic<int> first_signal = 0;
+std::atomic<bool> state_to_keep = false, second_signal = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free);  // what a handler may touch
+
+extern "C" void on_stop(int signal) {
+    int none = 0;
+    const bool first = first_signal.compare_exchange_strong(none, signal);
+    // One closed terminal sends several SIGHUP, the kernel's and the shell's: they hurry nobody.
+    if (first || signal == SIGHUP) return;
+    const bool second = !second_signal.exchange(true);
+    if (!second || !state_to_keep) ::_exit(128 + signal);
+}
+
+// nohup and its like have the signal ignored before the program starts, and that holds.
+bool ignored(int signal) {
+    struct sigaction present {};
+    return sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+void ignore_write_signals() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void install_stop_handlers() {
+    struct sigaction action {};
+    action.sa_handler = on_stop;
+    action.sa_flags = SA_RESTART;  // files are being written: no call of theirs is to fail for it
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    if (!ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);
+}
+
+int stop_signal() {
+    return first_signal;
+}
+
+void keep_state_before_exit(bool keep) {
+    state_to_keep = keep;
+}
+
+bool in_a_hurry() {
+    return second_signal;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,73 @@
+#include "render/run/moments/agenda.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace grainreel {
+namespace {
+
+std::vector<Stop> all_of(Agenda agenda) {
+    std::vector<Stop> stops;
+    while (const std::optional<Stop> stop = agenda.next()) stops.push_back(*stop);
+    return stops;
+}
+
+TEST(Agenda, MergesThreeSchedulesIntoOneStopAStep) {
+    const std::vector<Stop> stops = all_of(Agenda({{0, 0}, {3, 0}, {6, 1}}, 6, 4, 0, 10));
+    std::vector<std::int64_t> steps, film, trajectory, measures;
+    for (const Stop& stop : stops) {
+        steps.push_back(stop.step);
+        if (!stop.segments.empty()) film.push_back(stop.step);
+        if (stop.trajectory) trajectory.push_back(stop.step);
+        if (stop.measures) measures.push_back(stop.step);
+    }
+    EXPECT_THAT(steps, testing::ElementsAre(0, 3, 4, 6, 8, 10));
+    EXPECT_THAT(film, testing::ElementsAre(0, 3, 6));
+    EXPECT_THAT(trajectory, testing::ElementsAre(0, 6));
+    EXPECT_THAT(measures, testing::ElementsAre(0, 4, 8, 10));  // the last step as well
+    EXPECT_THAT(stops[3].segments, testing::ElementsAre(1));
+}
+
+TEST(Agenda, SeveralPicturesOfOneStepAreAllTaken) {
+    const std::vector<Stop> stops = all_of(Agenda({{2, 0}, {2, 1}}, 0, 0, 0, 4));
+    ASSERT_EQ(stops.size(), 3u);
+    EXPECT_THAT(stops[1].segments, testing::ElementsAre(0, 1));
+}
+
+TEST(Agenda, ARunThatGoesOnKeepsItsClock) {
+    Agenda agenda({{0, 0}, {5, 0}, {9, 0}}, 4, 0, 5, 9);
+    EXPECT_EQ(agenda.shots(), 2);
+    const std::vector<Stop> stops = all_of(agenda);
+    ASSERT_EQ(stops.size(), 3u);
+    EXPECT_EQ(stops[0].step, 5);
+    EXPECT_TRUE(stops[0].measures);
+    EXPECT_FALSE(stops[0].trajectory);
+    EXPECT_EQ(stops[1].step, 8);
+    EXPECT_TRUE(stops[1].trajectory);
+    EXPECT_EQ(stops[2].step, 9);
+}
+
+// The step nearest to each multiple: nothing adds up.
+TEST(Agenda, AnIntervalOfStepsAndAPartDoesNotDrift) {
+    Agenda agenda({}, 2.4, 0, 0, 1000);
+    std::int64_t count = 0;
+    for (auto stop = agenda.next(); stop; stop = agenda.next()) {
+        if (!stop->trajectory) continue;
+        EXPECT_EQ(stop->step, std::llround(2.4 * static_cast<double>(count)));
+        ++count;
+    }
+    EXPECT_EQ(count, 417);  // 1000 / 2.4 = 416.7, and the first
+}
+
+TEST(Agenda, NothingWantedStillGoesToTheEnd) {
+    const std::vector<Stop> stops = all_of(Agenda({}, 0, 0, 0, 1000));
+    ASSERT_EQ(stops.size(), 2u);
+    EXPECT_EQ(stops[0].step, 0);
+    EXPECT_EQ(stops[1].step, 1000);
+    EXPECT_TRUE(stops[0].measures && stops[1].measures);
+}
+
+}  // namespace
+}  // namespace grainreel

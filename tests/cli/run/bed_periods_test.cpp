@@ -1,0 +1,175 @@
+// Films of a bed that lands in every second period of the drive.
+#include "render/run/moments/bed_periods.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/cli/program.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace test;
+using testing::HasSubstr, testing::Not;
+
+constexpr Clock kClock{1e-3, 80, 0};
+
+Scene scene_with(int periods) {
+    Scene scene;
+    scene.species.resize(1);
+    scene.species[0].count = 1;
+    scene.species[0].diameter.mean = 1;
+    scene.film.periods = periods;
+    return scene;
+}
+
+FilmSegment locked(int every) {
+    FilmSegment segment;
+    segment.kind = FilmSegment::Kind::locked;
+    segment.every = every;
+    return segment;
+}
+
+std::vector<std::int64_t> shown(const BedPeriods& bed, const FilmSegment& rule,
+                                const std::vector<Shot>& shots) {
+    std::vector<std::int64_t> steps;
+    for (const Shot& shot : shots)
+        if (bed.shows(rule, shot)) steps.push_back(shot.step);
+    return steps;
+}
+
+// A bed that repeats itself every second period.
+void run(BedPeriods& bed, int periods) {
+    for (std::int64_t step = 0; step < periods * kClock.steps_per_period; step += bed.every())
+        bed.note(step, std::sin(std::numbers::pi * kClock.cycles(step)));
+}
+
+TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
+    // The segment begins in period 3: what comes counts from there.
+    const std::vector<Shot> all{{250, 0}, {330, 0}, {410, 0}, {490, 0}, {570, 0}};
+    BedPeriods bed(scene_with(0), kClock, all, true);
+    EXPECT_THAT(bed.possible(), testing::ElementsAre(1, 2, 3, 4));
+    EXPECT_THAT(shown(bed, locked(1), all), testing::ElementsAre(250, 330, 410, 490, 570));
+    run(bed, 20);
+    EXPECT_EQ(bed.found(), 2);
+    EXPECT_THAT(shown(bed, locked(1), all), testing::ElementsAre(250, 410, 570));
+    EXPECT_THAT(shown(bed, FilmSegment{}, all), testing::SizeIs(5)) << "in motion";
+    ASSERT_EQ(bed.news().size(), 1u);
+    EXPECT_THAT(bed.news()[0], HasSubstr("only every 2 periods of the drive"));
+    EXPECT_THAT(bed.news()[0], HasSubstr("film.periods = 1"));
+    // One frame every second period is in step with the bed already.
+    const std::vector<Shot> second{{330, 0}, {490, 0}, {650, 0}};
+    BedPeriods bed_of_two(scene_with(0), kClock, second, true);
+    run(bed_of_two, 20);
+    EXPECT_THAT(shown(bed_of_two, locked(2), second), testing::ElementsAre(330, 490, 650));
+}
+
+// Films side by side, whose other panels may repeat themselves otherwise.
+TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
+    const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
+    BedPeriods bed(scene_with(0), kClock, all, false);
+    run(bed, 20);
+    EXPECT_EQ(bed.shown(), 2);
+    EXPECT_THAT(shown(bed, locked(1), all), testing::SizeIs(3));
+    EXPECT_THAT(bed.news().at(0), HasSubstr("locked frames jump"));
+}
+
+TEST(BedPeriods, AreThoseOfTheSceneWhereItSaysSo) {
+    const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}, {240, 0}, {320, 0}};
+    BedPeriods one(scene_with(1), kClock, all, true), three(scene_with(3), kClock, all, true);
+    run(one, 20), run(three, 20);
+    EXPECT_THAT(shown(one, locked(1), all), testing::SizeIs(5));
+    EXPECT_THAT(one.possible(), testing::ElementsAre(1));
+    EXPECT_THAT(shown(three, locked(1), all), testing::ElementsAre(0, 240));
+    EXPECT_EQ(one.found(), 2) << "it is recorded all the same";
+    EXPECT_THAT(one.news().at(0), HasSubstr("locked frames jump"));
+}
+
+const char* bed_scene = R"(
+[[species]]
+name = "grain"
+count = 40
+diameter = "4 mm"
+density = 2500
+[contact]
+restitution = 0.5
+friction = 0.4
+[container]
+shape = "box"
+width = "15 mm"
+depth = "15 mm"
+height = "60 mm"
+[drive]
+frequency = "25 Hz"
+g_level = 4.5
+[run]
+duration = "0.8 s"
+accuracy = "draft"
+[film]
+size = "320x240"
+[film.colour]
+by = "rise"
+[[film.segment]]
+kind = "locked"
+average = 1
+)";
+
+class DoubledBed : public testing::Test {
+  protected:
+    DoubledBed() { write_text(here / "bed.toml", bed_scene); }
+    Ended grainreel(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
+    std::ptrdiff_t pictures(const char* run) {
+        return std::distance(std::filesystem::directory_iterator(here / run / "frames"), {});
+    }
+    TemporaryFolder here;
+};
+
+// 20 periods: 21 frames at one a period. Ten periods are needed to know.
+TEST_F(DoubledBed, IsShownEverySecondPeriod) {
+    const Ended ended = grainreel({"movie", "bed.toml", "--frames", "--threads", "1", "--out", "found"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("only every 2 periods of the drive"));
+    EXPECT_THAT(text_of(here / "found/run.json"), HasSubstr("only every 2 periods of the drive"));
+    const auto found = pictures("found");
+    EXPECT_LT(found, 21);
+    EXPECT_GE(found, 11);
+    const std::string last = fmt::format("frames/{:06}.png", found - 1);
+    EXPECT_THAT(text_of(here / "found/frames/000002.png"), HasSubstr("1 frame a period"));
+    EXPECT_THAT(text_of(here / "found" / last), HasSubstr("1 frame every 2 periods"));
+    EXPECT_THAT(text_of(here / "found" / last), HasSubstr("mean of 2 periods"));
+
+    const Ended two = grainreel({"movie", "bed.toml", "--frames", "--threads", "2", "--out", "two"});
+    ASSERT_EQ(two.status, 0) << two.err;
+    EXPECT_EQ(pictures("two"), found);
+    EXPECT_EQ(text_of(here / "two/measures.csv"), text_of(here / "found/measures.csv"));
+    EXPECT_TRUE(text_of(here / "two" / last) == text_of(here / "found" / last)) << "not the same film";
+
+    const Ended one = grainreel({"movie", "bed.toml", "--frames", "--out", "one", "--set", "film.periods=1"});
+    ASSERT_EQ(one.status, 0) << one.err;
+    EXPECT_EQ(pictures("one"), 21);
+    EXPECT_EQ(text_of(here / "one/measures.csv"), text_of(here / "found/measures.csv"));
+}
+
+TEST_F(DoubledBed, IsDrawnAgainEverySecondPeriod) {
+    ASSERT_EQ(grainreel({"movie", "bed.toml", "--no-film", "--out", "run"}).status, 0);
+    const Ended ended = grainreel({"render", "run", "--frames", "--out", "again"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(pictures("again"), 11);
+    EXPECT_THAT(ended.err, HasSubstr("only every 2 periods of the drive"));
+    EXPECT_THAT(text_of(here / "again/frames/000000.png"), HasSubstr("1 frame every 2 periods"));
+    const Ended all = grainreel({"render", "run", "--frames", "--out", "all", "--set", "film.periods=1"});
+    ASSERT_EQ(all.status, 0) << all.err;
+    EXPECT_EQ(pictures("all"), 21);
+    EXPECT_THAT(all.err, Not(HasSubstr("only every")));
+    const Ended fourth = grainreel({"render", "run", "--frames", "--out", "fourth", "--every", "4"});
+    ASSERT_EQ(fourth.status, 0) << fourth.err;
+    EXPECT_EQ(pictures("fourth"), 6) << "every fourth is in step already";
+}
+
+}  // namespace
+}  // namespace grainreel

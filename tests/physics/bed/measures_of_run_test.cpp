@@ -1,0 +1,184 @@
+// Every number of a row of measures.csv against what frame and contacts say.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "engine/run/simulation.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "engine/state/container_faces.hpp"
+#include "tests/physics/world.hpp"
+
+namespace grainreel {
+namespace {
+
+const char* kBox = R"(
+[[species]]
+name = "small"
+count = 60
+diameter = { min = "4 mm", max = "5 mm" }
+density = 2500
+[[species]]
+name = "big"
+count = 9
+diameter = "9 mm"
+density = 1500
+[contact]
+law = "spring-dashpot"
+restitution = 0.8
+[container]
+shape = "box"
+width = "30 mm"
+depth = "30 mm"
+height = "90 mm"
+[drive]
+frequency = "20 Hz"
+g_level = 3
+[start]
+settle_limit = "0.05 s"
+[run]
+duration = "1 s"
+)";
+
+// A box that is shaken up and down, and what its walls have done.
+struct Watched {
+    explicit Watched(const std::string& friction)
+        : scene(read_scene_text(kBox, "box.toml", with_tested_precision({"contact.friction=" + friction}))),
+          plan(make_plan(scene)),
+          simulation(scene, plan, 1) {
+        simulation.pack();
+        start = simulation.measures();
+        power = wall_power();
+    }
+
+    // W, of the walls on the grains now: force on the grain times the wall's velocity.
+    double wall_power() const {
+        const std::vector<Face> faces = container_faces(scene.container, scene.drive);
+        const Vec3 velocity = simulation.frame().wall_velocity;
+        double sum = 0;
+        for (const auto& c : simulation.contacts())
+            if (c.second < 0) sum += (c.normal * faces[-1 - c.second].normal - c.tangential).dot(velocity);
+        return sum;
+    }
+    void run(std::int64_t steps) {
+        for (std::int64_t k = 0; k < steps; ++k) {
+            simulation.advance(simulation.step() + 1);
+            const double before = power;
+            power = wall_power();
+            work += 0.5 * (before + power) * plan.clock.step;
+        }
+    }
+
+    Scene scene;
+    Plan plan;
+    Simulation simulation;
+    Measures start;
+    double power = 0, work = 0;  // W, J
+};
+
+double sum_of_energies(const Measures& m) {
+    return m.kinetic + m.rotational + m.gravitational + m.elastic;
+}
+
+// J, of the linear springs between bodies that overlap; also the largest overlap over the smaller radius.
+std::pair<double, double> springs(const Watched& w, const Frame& f) {
+    const std::size_t kinds = w.scene.species.size();
+    double energy = 0, largest = 0;
+    const auto add = [&](double overlap, double radius, const PairPlan& pair) {
+        if (overlap <= 0) return;
+        energy += 0.5 * pair.loading_stiffness * overlap * overlap;
+        largest = std::max(largest, overlap / radius);
+    };
+    for (std::size_t i = 0; i < f.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+            add(f.radius[i] + f.radius[j] - (f.position[i] - f.position[j]).norm(),
+                std::min(f.radius[i], f.radius[j]), w.plan.grain[f.species[i] * kinds + f.species[j]]);
+        for (const Face& face : container_faces(w.scene.container, w.scene.drive))
+            add(f.radius[i] - distance_to(face, f.wall_offset, f.position[i]).distance, f.radius[i],
+                w.plan.wall[f.species[i]]);
+    }
+    return {energy, largest};
+}
+
+void expect_grains(const Watched& w, const Frame& f, const Measures& m) {
+    double kinetic = 0, rotational = 0, gravitational = 0, mass = 0;
+    Vec3 centre = Vec3::Zero();
+    std::vector<Vec3> centres(2, Vec3::Zero());
+    std::vector<double> counts(2, 0);
+    for (std::size_t i = 0; i < f.size(); ++i) {
+        const double r = f.radius[i];
+        const double own = w.scene.species[f.species[i]].density * 4 / 3 * std::numbers::pi * r * r * r;
+        kinetic += 0.5 * own * f.velocity[i].squaredNorm();
+        rotational += 0.5 * 0.4 * own * r * r * f.spin[i].squaredNorm();
+        gravitational += own * 9.81 * f.position[i].z();
+        mass += own;
+        centre += own * f.position[i];
+        centres[f.species[i]] += f.position[i];
+        counts[f.species[i]] += 1;
+    }
+    EXPECT_NEAR(m.kinetic, kinetic, 1e-9 * kinetic);
+    EXPECT_NEAR(m.rotational, rotational, 1e-9 * rotational);
+    EXPECT_NEAR(m.gravitational, gravitational, 1e-9 * gravitational);
+    EXPECT_LT((m.centre_of_mass - centre / mass).norm(), 1e-12);
+    for (std::size_t s = 0; s < 2; ++s) {
+        EXPECT_LT((m.species_centre[s] - centres[s] / counts[s]).norm(), 1e-12) << s;
+        EXPECT_NEAR(m.species_height[s], centres[s].z() / counts[s] - f.floor_offset.z(), 1e-12) << s;
+    }
+}
+
+void expect_order(const Frame& f, const Measures& m) {
+    std::vector<double> heights;
+    for (const Vec3& x : f.position) heights.push_back(x.z() - f.floor_offset.z());
+    std::vector<double> sorted = heights;
+    std::sort(sorted.begin(), sorted.end());
+    const double bed = sorted[static_cast<std::size_t>(0.95 * static_cast<double>(f.size() - 1))];
+    double above = 0, pairs = 0, in_top = 0, big = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+        if (f.species[i] != 1) continue;
+        big += 1;
+        in_top += heights[i] > 0.75 * bed;
+        for (std::size_t j = 0; j < f.size(); ++j) {
+            if (f.species[j] != 0) continue;
+            pairs += 1;
+            above += heights[i] > heights[j] ? 1 : 0;
+        }
+    }
+    EXPECT_NEAR(m.height_difference, (m.species_height[1] - m.species_height[0]) / bed, 1e-12);
+    EXPECT_NEAR(m.big_above_small, above / pairs, 1e-12);
+    EXPECT_NEAR(m.big_in_top_quarter, in_top / big, 1e-12);
+}
+
+TEST(MeasuresOfARun, AreThoseOfFrameAndContacts) {
+    for (const char* friction : {"0", "0.5"}) {
+        SCOPED_TRACE(friction);
+        Watched w(friction);
+        w.run(3 * w.plan.clock.steps_per_period / 4);
+        const Frame f = w.simulation.frame();
+        const Measures m = w.simulation.measures();
+        EXPECT_EQ(m.step, f.step);
+        EXPECT_EQ(m.time, f.time);
+        EXPECT_EQ(m.phase, f.phase);
+        EXPECT_EQ(m.cycles, f.cycles);
+        EXPECT_NE(f.floor_offset.z(), 0);
+        EXPECT_EQ(m.floor_position, f.floor_offset.z());
+        expect_grains(w, f, m);
+        expect_order(f, m);
+        const auto [elastic, largest_overlap] = springs(w, f);
+        // Friction's springs come on top.
+        if (friction == std::string("0"))
+            EXPECT_NEAR(m.elastic, elastic, 1e-6 * elastic);
+        else
+            EXPECT_GT(m.elastic, elastic);
+        EXPECT_NEAR(m.largest_overlap, largest_overlap, 1e-6 * largest_overlap);
+        double carrying = 0;
+        for (const auto& c : w.simulation.contacts()) carrying += c.second >= 0 ? 2 : 1;
+        EXPECT_NEAR(m.contact_number, carrying / static_cast<double>(f.size()), 1e-12);
+        EXPECT_GT(std::abs(w.work), 1e-6);
+        EXPECT_NEAR(m.wall_work, w.work, 1e-3 * std::abs(w.work));
+        EXPECT_NEAR(m.lost, sum_of_energies(w.start) + m.wall_work - sum_of_energies(m),
+                    1e-9 * sum_of_energies(m));
+        EXPECT_GT(m.lost, 0);
+    }
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,140 @@
+// After how many periods a bed repeats itself: made series, and a ball on a shaken plate.
+#include "engine/measure/period_multiple.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/random.hpp"
+#include "engine/run/simulation.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "tests/physics/world.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double kDiameter = 1;
+constexpr int kPhases = PeriodMultiple::kPhases;
+
+// height(t): t in periods.
+template <class Height>
+int multiple_of(int periods, const Height& height, std::int64_t first = 0) {
+    PeriodMultiple multiple(kDiameter);
+    for (std::int64_t n = first; n < first + periods * kPhases; ++n)
+        multiple.add(n, height(static_cast<double>(n) / kPhases));
+    return multiple.value();
+}
+
+double wave(double t, double period) {
+    return std::sin(2 * std::numbers::pi * t / period);
+}
+
+TEST(PeriodMultiple, IsThePeriodOfASeries) {
+    EXPECT_EQ(multiple_of(40, [](double t) { return wave(t, 1); }), 1);
+    EXPECT_EQ(multiple_of(40, [](double) { return 3.0; }), 1);
+    for (const int periods : {2, 3, 4})
+        for (const int first : {0, 3, 1001})
+            EXPECT_EQ(multiple_of(
+                          40, [&](double t) { return wave(t, 1) + 0.3 * wave(t, periods); }, first),
+                      periods);
+    EXPECT_EQ(multiple_of(40, [](double t) { return wave(t, 1) + wave(t, 5); }), 1) << "too long to be seen";
+}
+
+// A tenth of a grain: sin of period 2 changes by twice its amplitude, root mean square sqrt(2) times it.
+TEST(PeriodMultiple, DoesNotSeeWhatIsSmallAgainstAGrain) {
+    const auto series = [](double amplitude) {
+        return [amplitude](double t) { return wave(t, 1) + amplitude * wave(t, 2); };
+    };
+    EXPECT_EQ(multiple_of(40, series(0.9 * 0.1 / std::numbers::sqrt2)), 1);
+    EXPECT_EQ(multiple_of(40, series(1.1 * 0.1 / std::numbers::sqrt2)), 2);
+}
+
+TEST(PeriodMultiple, IsOneForDriftAndNoise) {
+    Random random(3, Stream::centres);
+    EXPECT_EQ(multiple_of(60, [](double t) { return wave(t, 1) + 0.5 * t; }), 1);
+    EXPECT_EQ(multiple_of(200, [&](double t) { return wave(t, 1) + random.uniform(); }), 1);
+    EXPECT_EQ(multiple_of(
+                  200, [&](double t) { return wave(t, 1) + wave(t, 2) + 0.3 * random.uniform() + 0.01 * t; }),
+              2);
+}
+
+TEST(PeriodMultiple, IsKnownAfterAsManyPeriodsAsItSays) {
+    constexpr int wanted = PeriodMultiple::kWindow + PeriodMultiple::kMost + PeriodMultiple::kConfirm - 1;
+    const auto doubled = [](double t) { return wave(t, 2); };
+    EXPECT_EQ(multiple_of(wanted - 1, doubled), 1);
+    EXPECT_EQ(multiple_of(wanted, doubled), 2);
+    // After a change it takes as many, and those that another multiple has to hold longer.
+    const auto stops = [](double t) { return wave(t, t < 40 ? 2 : 1); };
+    EXPECT_EQ(multiple_of(40, stops), 2);
+    constexpr int more = PeriodMultiple::kChange - PeriodMultiple::kConfirm;
+    EXPECT_EQ(multiple_of(40 + more, stops), 2);
+    EXPECT_EQ(multiple_of(40 + wanted + more, stops), 1);
+}
+
+// A period of two, in which every second pair differs a little, or a few periods slip, is one of two.
+TEST(PeriodMultiple, StaysThroughASlipAndASmallModulation) {
+    EXPECT_EQ(multiple_of(60, [](double t) { return wave(t, 2) + 0.2 * wave(t, 4); }), 2);
+    EXPECT_EQ(multiple_of(60, [](double t) { return wave(t, 2) + wave(t, 4); }), 4);
+    PeriodMultiple multiple(kDiameter);
+    for (std::int64_t n = 0; n < 60 * kPhases; ++n) {
+        const double t = static_cast<double>(n) / kPhases;
+        multiple.add(n, wave(t, 2) + (t > 30 && t < 35 ? wave(t, 4) : 0));
+        if (t > 12) {
+            ASSERT_EQ(multiple.value(), 2) << t;
+        }
+    }
+}
+
+TEST(PeriodMultiple, BeginsAnewAfterAGap) {
+    PeriodMultiple multiple(kDiameter);
+    for (std::int64_t n = 0; n < 8 * kPhases; ++n) multiple.add(n, wave(static_cast<double>(n) / kPhases, 2));
+    for (std::int64_t n = 40 * kPhases + 3; n < 49 * kPhases; ++n)
+        multiple.add(n, wave(static_cast<double>(n) / kPhases, 2));
+    EXPECT_EQ(multiple.value(), 1) << "eight periods and eight are not sixteen";
+}
+
+// A ball on a sine plate lands once a period from g_level = pi (1 - e) / (1 + e) on, and its period doubles
+// at g_level^2 = [pi (1 - e) / (1 + e)]^2 + [2 (1 + e^2) / (1 + e)^2]^2 (docs/validation.md): 3.07 for e =
+// 0.1.
+TEST(PeriodMultiple, OfABallOnAPlateIsTwoAboveTheFirstDoubling) {
+    constexpr double e = 0.1;
+    const double doubling =
+        std::hypot(std::numbers::pi * (1 - e) / (1 + e), 2 * (1 + e * e) / std::pow(1 + e, 2));
+    for (const auto& [g_level, expected] : {std::pair{0.9 * doubling, 1}, {1.04 * doubling, 2}}) {
+        const Scene scene = read_scene_text(R"(
+[[species]]
+name = "ball"
+diameter = "4 mm"
+density = 2500
+[contact]
+restitution = 0.1
+friction = 0
+[container]
+shape = "box"
+width = "20 mm"
+depth = "20 mm"
+height = "90 mm"
+[drive]
+frequency = "25 Hz"
+[[grain]]
+species = "ball"
+position = ["0 mm", "0 mm", "2 mm"]
+[run]
+duration = "2.4 s"
+)",
+                                            "ball.toml", {"drive.g_level=" + std::to_string(g_level)});
+        const Plan plan = make_plan(scene);
+        Simulation simulation(scene, plan, 1);
+        simulation.pack();
+        PeriodMultiple multiple(1e-3);
+        for (std::int64_t n = 0; n < 60 * kPhases; ++n) {
+            simulation.advance(n * plan.clock.steps_per_period / kPhases);
+            multiple.add(n, simulation.centre_height());
+        }
+        EXPECT_EQ(multiple.value(), expected) << g_level;
+    }
+}
+
+}  // namespace
+}  // namespace grainreel
