@@ -1,6 +1,6 @@
 // A vector whose memory, when it is large, comes in pages of 2 MiB where the system has them: arrays of a
 // large bed are read at many places at once, and the processor finds few small pages without looking them up
-// in memory. 5 to 10 % of a step of a million grains (docs/performance.md).
+// in memory. 5 to 10 % of a step of a million grains (docs/notes/performance.md).
 #pragma once
 
 #include <cstddef>

@@ -59,7 +59,7 @@ void wait_while(const std::atomic<int>& value, int old) {
 
 // Asks for short turns on the processor where others want it too: who waits at every step for a thread that
 // waits for its turn gets none of the good of long ones. From Linux 6.12 on; earlier ones take no notice.
-// (docs/performance.md, "Beside other programs".)
+// (docs/notes/performance.md, "Beside other programs".)
 void ask_for_short_turns() {
 #if defined(SYS_sched_getattr) && defined(SYS_sched_setattr)
     constexpr std::uint64_t kTurn = 100'000, kForItselfOnly = 1;  // ns; SCHED_FLAG_RESET_ON_FORK

@@ -6,10 +6,10 @@
 // float), since an overlap at rest is smaller than a float's last place; as the recent convention asks,
 // cell_lengths is 0 where nothing is periodic.
 //
-// docs/scenes.md lists all dimensions and variables. Numbers of a frame that need 64 bits are doubles:
-// classic NetCDF has no such integer. Grains may appear and vanish: a frame's grains fill the first places,
-// the rest hold id -1 and the format's fill value, by which OVITO knows where a frame ends. Every frame has a
-// checksum of its moment and pose and one of its grains.
+// docs/reference/scenes.md lists all dimensions and variables. Numbers of a frame that need 64 bits are
+// doubles: classic NetCDF has no such integer. Grains may appear and vanish: a frame's grains fill the first
+// places, the rest hold id -1 and the format's fill value, by which OVITO knows where a frame ends. Every
+// frame has a checksum of its moment and pose and one of its grains.
 #pragma once
 
 #include <filesystem>

@@ -16,7 +16,7 @@ namespace {
 constexpr double alarming_overlap =
     0.05;  // over the smaller diameter; 1 % is the usual aim for most contacts
 constexpr double alarming_size_ratio = 10;
-// docs/stability.md has what each of these costs.
+// docs/reference/stability.md has what each of these costs.
 constexpr double alarming_turn = 0.05;      // of a period that a contact with a moving wall lasts
 constexpr double alarming_flight = 0.2;     // of a diameter that a grain flies while a contact lasts
 constexpr double fewest_last_places = 100;  // of a position, in the overlap of a grain at rest

@@ -154,7 +154,7 @@ struct Start {
 // How the step is made; see engine/step/forces/scheme.hpp.
 enum class Integrator { velocity_verlet, leapfrog, position_verlet, forest_ruth, gear };
 
-// What stiffness, step and corrections are by default; docs/accuracy.md has what each costs.
+// What stiffness, step and corrections are by default; docs/reference/accuracy.md has what each costs.
 enum class Accuracy { draft, standard, reference };
 
 // Mixed: contact laws, their histories and relative motion in single precision, all else in double.
@@ -231,7 +231,7 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-enum class FilmFormat { mp4, webm, av1, gif, ffv1, png, y4m };  // docs/films.md says what each is
+enum class FilmFormat { mp4, webm, av1, gif, ffv1, png, y4m };  // docs/guide/films.md says what each is
 
 // Where the words of a frame are: beside the picture, or over it on plates. automatic: over it with a camera
 // that the user frames.

@@ -1,7 +1,8 @@
 // Which grain is seen in the middle of each pixel: exact spheres, met by the pixel's line of sight.
 //
 // This runs on the processor's vector units, not in OpenGL: the depth of a sphere is known only pixel by
-// pixel, which costs a software rasteriser its early depth test. docs/rendering.md has the measurements.
+// pixel, which costs a software rasteriser its early depth test. docs/notes/rendering.md has the
+// measurements.
 #pragma once
 
 #include <cstdint>

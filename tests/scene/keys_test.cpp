@@ -13,7 +13,7 @@
 namespace grainreel {
 namespace {
 
-const std::string page = GRAINREEL_SOURCE "/docs/scenes.md";
+const std::string page = GRAINREEL_SOURCE "/docs/reference/scenes.md";
 const std::string begin_mark = "<!-- table of keys: generated from engine/scene/keys/keys.cpp, begin -->\n";
 const std::string end_mark = "<!-- table of keys: end -->\n";
 
@@ -37,7 +37,7 @@ TEST(Keys, DocsTellWhatTheReaderKnows) {
         return;
     }
     EXPECT_EQ(text.substr(start, end - start), key_table_markdown())
-        << "docs/scenes.md is not what engine/scene/keys/keys.cpp says; write it anew with\n"
+        << "docs/reference/scenes.md is not what engine/scene/keys/keys.cpp says; write it anew with\n"
            "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=Keys.DocsTellWhatTheReaderKnows";
 }
 
@@ -50,7 +50,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
          {"gravity = 0\n", "normal_damping = 2634\n", "friction = 0.5\n", "duration = 0.1\n"})
         box = with(box, line, "");
     const std::string from_file =
-        wedge_text + "[start]\nmethod = \"file\"\nfile = \"" GRAINREEL_SOURCE "/docs/scenes.md\"\n";
+        wedge_text + "[start]\nmethod = \"file\"\nfile = \"" GRAINREEL_SOURCE "/docs/reference/scenes.md\"\n";
     std::string exact = exact_text;
     for (const char* line : {"gravity = 0\n", "velocity = [0, 0, \"10 cm/s\"]\n",
                              "velocity = [0, \"0.5 m/s\", 0]\n", "spin = [0, 0, \"60 rad/s\"]\n"})

@@ -331,7 +331,7 @@ TEST(PlanWarnings, WordForWord) {
                 HasSubstr("the largest grain is 11.1 times the smallest"));
 }
 
-// Failures that no health check sees (docs/stability.md).
+// Failures that no health check sees (docs/reference/stability.md).
 TEST(PlanWarnings, OfSilentFailures) {
     const auto of = [&](std::vector<std::string> sets) {
         sets.insert(sets.begin(), "species.small.count=1000");

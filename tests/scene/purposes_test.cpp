@@ -29,7 +29,7 @@ std::string complaint(const std::string& text, const std::vector<std::string>& s
 }
 
 TEST(Purposes, TheTableOfTheDocsIsThePrograms) {
-    std::ifstream file(GRAINREEL_SOURCE "/docs/films.md");
+    std::ifstream file(GRAINREEL_SOURCE "/docs/guide/films.md");
     std::ostringstream text;
     text << file.rdbuf();
     for (const Purpose& p : purposes()) {

@@ -1,4 +1,5 @@
-// What films are made for, and the defaults that fit. docs/films.md has the same table with its reasons.
+// What films are made for, and the defaults that fit. docs/guide/films.md has the same table with its
+// reasons.
 #pragma once
 
 #include <array>

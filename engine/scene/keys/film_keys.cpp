@@ -59,7 +59,7 @@ Key ids(std::string path, const char* about) {
 
 void add_shows(Keys& keys) {
     keys.push_back(choice("film.colour.by", all_of(grain_value_words), literal("\"species\""),
-                          "What a grain's colour stands for; see docs/colours.md."));
+                          "What a grain's colour stands for; see docs/guide/colours.md."));
     keys.push_back(choice("film.colour.map", all_of(colour_map_words),
                           note("viridis; vik for what has two signs"),
                           "All three are safe for the colour-blind; vik runs from blue over white to red."));
@@ -117,7 +117,7 @@ void add_film(Keys& keys) {
     keys.push_back(choice("film.for", purpose_names(), note("none"),
                           "Defaults for what the film is for: size, rate, format, quality, max_size."));
     keys.push_back(choice("film.format", all_of(film_format_words), literal("\"mp4\""),
-                          "mp4 is H.264, webm VP9, ffv1 lossless; docs/films.md compares them."));
+                          "mp4 is H.264, webm VP9, ffv1 lossless; docs/guide/films.md compares them."));
     keys.push_back(entry("film.transparent", KeyKind::flag, literal("false"),
                          "png and ffv1 only: alpha in place of the background."));
     keys.push_back(

@@ -177,7 +177,7 @@ void add_run(Keys& keys) {
     keys.push_back(
         choice("run.accuracy", all_of(accuracy_words), literal("\"standard\""),
                "Defaults of overlap and steps a contact: 2 % and 0.7 times, 1 % and once, 0.3 % and "
-               "4 times; docs/accuracy.md has the errors."));
+               "4 times; docs/reference/accuracy.md has the errors."));
     keys.push_back(quantity("run.step", Dimension::time, positive, note("chosen by the plan"),
                             "With a drive shortened so that a multiple of 8 steps makes a period."));
     keys.push_back(quantity("run.overlap", Dimension::number, {0, 0.1, true, false},

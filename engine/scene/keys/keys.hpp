@@ -1,5 +1,5 @@
 // The one list of keys that a scene file may have. The reader, the search for the nearest key and the table
-// in docs/scenes.md all live on it.
+// in docs/reference/scenes.md all live on it.
 #pragma once
 
 #include <limits>
@@ -67,7 +67,7 @@ std::string advice_for_unknown_key(std::string_view path);
 // "[drive]", "[[species]]", "the top level": the table that a path lies in, as a scene would write it.
 std::string table_of(std::string_view path);
 
-// The table of all keys in Markdown, as in docs/scenes.md.
+// The table of all keys in Markdown, as in docs/reference/scenes.md.
 std::string key_table_markdown();
 
 }  // namespace grainreel

@@ -4,7 +4,7 @@
 // before the next refresh. The same table serves grains at walls.
 //
 // Why not one list of all near pairs, whose histories stay where they are: a law wants what touches side by
-// side, and packing that anew each step cost a third of the contact pass (docs/performance.md).
+// side, and packing that anew each step cost a third of the contact pass (docs/notes/performance.md).
 #pragma once
 
 #include <cstdint>

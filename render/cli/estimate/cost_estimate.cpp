@@ -17,7 +17,7 @@ namespace grainreel {
 namespace {
 
 // A step of a grain in the shipped scenes, shaken, over one of the lattice; and what a step costs besides, in
-// grains. Measured by processor time (docs/performance.md).
+// grains. Measured by processor time (docs/notes/performance.md).
 constexpr double bed_over_lattice = 0.31;
 constexpr double grains_of_a_step = 20;
 // Two threads gain half of what they could with so many grains: they wait for each other once a step.

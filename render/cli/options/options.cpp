@@ -81,9 +81,9 @@ std::string joined(const std::vector<std::string>& words) {
 void add_file_keys(CLI::App& verb, Options& options) {
     add_key(verb, options, "--for", "film.for", "WHAT",
             "Defaults of size, rate, format, quality and cap for " + joined(purpose_names()) +
-                " (docs/films.md); what is set elsewhere wins");
+                " (docs/guide/films.md); what is set elsewhere wins");
     add_key(verb, options, "--format", "film.format", "FORMAT",
-            joined(all_of(film_format_words)) + " (docs/films.md) [mp4]");
+            joined(all_of(film_format_words)) + " (docs/guide/films.md) [mp4]");
     add_key(verb, options, "--max-size", "film.max_size", "SIZE",
             "Largest file, as in 10MB; of mp4, webm and gif");
     add_key(verb, options, "--sheet", "film.sheet", "CxR",
@@ -114,7 +114,7 @@ void add_scene_keys(CLI::App& verb, Options& options) {
 }
 
 void add_scene(CLI::App& verb, Options& options) {
-    verb.add_option("SCENE", options.scene, "The scene, a TOML file; docs/scenes.md lists its keys")
+    verb.add_option("SCENE", options.scene, "The scene, a TOML file; docs/reference/scenes.md lists its keys")
         ->required()
         ->type_name("FILE");
     add_scene_keys(verb, options);

@@ -263,9 +263,9 @@ TEST_F(DamagedRun, AnEarlierVersionsTrajectoryIsDrawnWithANote) {
     EXPECT_THAT(film.err, HasSubstr("run/trajectory.nc: has no checksums"));
 }
 
-// docs/scenes.md is where a reader of the files looks.
+// docs/reference/scenes.md is where a reader of the files looks.
 TEST_F(DamagedRun, TheDocumentationListsEveryVariable) {
-    const std::string docs = text_of(fs::path(GRAINREEL_SOURCE) / "docs/scenes.md");
+    const std::string docs = text_of(fs::path(GRAINREEL_SOURCE) / "docs/reference/scenes.md");
     const std::size_t trajectory = docs.find("## The contents of trajectory.nc");
     const std::size_t contacts = docs.find("## The contents of contacts.nc");
     ASSERT_LT(trajectory, contacts);

@@ -95,8 +95,8 @@ TEST(PeriodMultiple, BeginsAnewAfterAGap) {
 }
 
 // A ball on a sine plate lands once a period from g_level = pi (1 - e) / (1 + e) on, and its period doubles
-// at g_level^2 = [pi (1 - e) / (1 + e)]^2 + [2 (1 + e^2) / (1 + e)^2]^2 (docs/validation.md): 3.07 for e =
-// 0.1.
+// at g_level^2 = [pi (1 - e) / (1 + e)]^2 + [2 (1 + e^2) / (1 + e)^2]^2 (docs/reference/validation.md): 3.07
+// for e = 0.1.
 TEST(PeriodMultiple, OfABallOnAPlateIsTwoAboveTheFirstDoubling) {
     constexpr double e = 0.1;
     const double doubling =

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Draws the pictures of docs/gallery.md: one run of the default scene, drawn again and again.
-#   docs/gallery/make.sh [GRAINREEL] [FOLDER FOR RUNS]
+# Draws the pictures of docs/guide/gallery.md: one run of the default scene, drawn again and again.
+#   docs/figures/gallery/make.sh [GRAINREEL] [FOLDER FOR RUNS]
 # Takes half a minute. Each picture's command is printed before it runs.
 set -euo pipefail
-root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
+root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../.." && pwd)
 grainreel=${1:-$root/build/release/grainreel} work=${2:-$root/output/gallery}
-here=$root/docs/gallery
+here=$root/docs/figures/gallery
 mkdir -p "$work"
 
 run() { echo "grainreel $*"; "$grainreel" "$@" --quiet --force > /dev/null; }
