@@ -39,6 +39,12 @@ bool is_same_file(int file, const fs::path& path) {
            open.st_ino == named.st_ino;
 }
 
+// An absolute path, relative to where we are when the one that was given is.
+fs::path as_given(const fs::path& path, const fs::path& given) {
+    std::error_code error;
+    return given.is_absolute() ? path : fs::proximate(path, error);
+}
+
 bool lock(int file, int kind) {
     while (::flock(file, kind | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) return false;
@@ -119,14 +125,41 @@ FolderLock::~FolderLock() {
 FolderLock::FolderLock(FolderLock&& other) noexcept
     : folder_(std::move(other.folder_)), file_(std::exchange(other.file_, -1)) {}
 
-void FolderLock::check_there() const {
+bool FolderLock::is_there() const {
     std::error_code error;
-    const bool there =
-        file_ >= 0 ? is_same_file(file_, folder_ / lock_name) : fs::is_directory(folder_, error);
-    if (!there)
+    return file_ >= 0 ? is_same_file(file_, folder_ / lock_name) : fs::is_directory(folder_, error);
+}
+
+std::optional<fs::path> FolderLock::place() const {
+    if (file_ < 0) return std::nullopt;
+    std::error_code error;
+    // Where the system knows the open file now; of a removed one it gives a name that does not exist.
+    const fs::path file = fs::read_symlink(fmt::format("/proc/self/fd/{}", file_), error);
+    if (error || file.filename() != lock_name || !is_same_file(file_, file)) return std::nullopt;
+    return file.parent_path();
+}
+
+void FolderLock::check_there() const {
+    if (is_there()) return;
+    const std::string name = folder_.string();
+    if (const std::optional<fs::path> now = place())
+        throw RunError(fmt::format("{}: the run's folder was renamed to {} while the run went on", name,
+                                   as_given(*now, folder_).string()));
+    std::error_code error;
+    if (fs::exists(folder_, error))
         throw RunError(
-            fmt::format("{}: the run's folder is gone: it was removed or renamed while the run went on",
-                        folder_.string()));
+            fmt::format("{}: this is no longer the run's folder: it was removed or replaced while the run "
+                        "went on; nothing more was written there",
+                        name));
+    throw RunError(
+        fmt::format("{}: the run's folder is gone: it was removed or renamed while the run went on", name));
+}
+
+bool FolderLock::follow() {
+    if (is_there()) return true;
+    const std::optional<fs::path> now = place();
+    if (now) folder_ = as_given(*now, folder_);
+    return now.has_value();
 }
 
 }  // namespace grainreel

@@ -23,10 +23,16 @@ class FolderLock {
 
     const std::filesystem::path& folder() const { return folder_; }
     void renamed(const std::filesystem::path& folder) { folder_ = folder; }
-    // Throws RunError when the folder is no longer there under its name: it was removed, or renamed.
+    // Whether the folder of that name is the one that was locked.
+    bool is_there() const;
+    // Throws RunError when it is not, and says what became of it: it was removed, renamed or replaced.
     void check_there() const;
+    // Takes the name that the folder has now. False when it is gone: nothing may be written under its name
+    // then.
+    bool follow();
 
   private:
+    std::optional<std::filesystem::path> place() const;  // of the locked file's folder, absolute
     FolderLock(std::filesystem::path folder, int file) : folder_(std::move(folder)), file_(file) {}
 
     std::filesystem::path folder_;

@@ -180,7 +180,6 @@ void RunFolder::adopt(const fs::path& path) {
     ::close(log);
     lock_ = locked(path);
     adopted_ = true;
-    path_ = path;
 }
 
 RunFolder::Lock RunFolder::locked(const fs::path& path) const {
@@ -203,7 +202,6 @@ bool RunFolder::make(const fs::path& path) {
         cannot_make(path, error);
     }
     lock_ = locked(path);
-    path_ = path;
     return true;
 }
 
@@ -239,14 +237,15 @@ void RunFolder::remove_previous() {
 }
 
 void RunFolder::discard() {
+    if (!lock_->is_there()) return;
     std::error_code ignored;
     if (adopted_) {
-        for (const fs::directory_entry& entry : fs::directory_iterator(path_, ignored))
+        for (const fs::directory_entry& entry : fs::directory_iterator(path(), ignored))
             fs::remove_all(entry.path(), ignored);
         return;
     }
-    fs::remove_all(path_, ignored);
-    put_back(path_);
+    fs::remove_all(path(), ignored);
+    put_back(path());
 }
 
 }  // namespace grainreel

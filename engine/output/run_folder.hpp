@@ -28,8 +28,10 @@ class RunFolder {
     // a panel's folder in it, and when the folder cannot be made or written.
     explicit RunFolder(const RunFolderRequest& request);
 
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return lock_->folder(); }
     const FolderLock& lock() const { return *lock_; }
+    // Takes the name that the folder has now; false when it is gone.
+    bool follow() { return lock_->follow(); }
 
     // Where the run that is being replaced waits; empty when there is none.
     const std::filesystem::path& previous() const { return previous_; }
@@ -38,7 +40,7 @@ class RunFolder {
     void remove_previous();
 
     // The new run never began: its folder is removed, or emptied when it was there before, and the previous
-    // run is put back.
+    // run is put back. A folder of that name that somebody else has put there is left alone.
     void discard();
 
   private:
@@ -51,7 +53,6 @@ class RunFolder {
     Lock locked(const std::filesystem::path& path) const;  // UserError when another process has it
 
     std::string command_;
-    std::filesystem::path path_;
     std::filesystem::path previous_;
     Lock lock_, previous_lock_;
     bool adopted_ = false;  // the folder was there before, empty

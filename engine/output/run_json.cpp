@@ -125,7 +125,7 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"panels", r.panels},
         {"wall_s", table(r.wall_seconds)},
         {"written",
-         {{"film_frames", r.film_frames},
+         {{"film_frames", r.film_frames ? Json(*r.film_frames) : Json(nullptr)},
           {"trajectory_frames", r.trajectory_frames},
           {"measures_rows", r.measures_rows}}},
         {"peak_memory_bytes", r.peak_memory},

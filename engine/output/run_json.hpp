@@ -51,7 +51,8 @@ struct RunRecord {
 
     std::vector<std::pair<std::string, double>> wall_seconds;  // by stage
     double particle_steps_per_second = 0;                      // of vibration, time in the engine alone
-    std::int64_t film_frames = 0, trajectory_frames = 0, measures_rows = 0;
+    std::optional<std::int64_t> film_frames = 0;               // none while the film is being closed
+    std::int64_t trajectory_frames = 0, measures_rows = 0;
     std::int64_t peak_memory = 0;  // bytes
     std::vector<std::string> warnings;
 };

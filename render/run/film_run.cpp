@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/cli/report/record.hpp"
+#include "render/cli/report/result.hpp"
 #include "render/film/files/film_limits.hpp"
 #include "render/run/stop_signal.hpp"
 
@@ -55,26 +56,48 @@ int FilmRun::run() {
             folder_->discard();
             throw;
         }
+        note_folder();
         failure_.note(mistake.what());
     } catch (const std::exception& problem) {
+        note_folder();
         failure_.note(problem.what());
     }
     if (stopped)
         reporter_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
+    find_folder();
     keep_state();
-    // What was asked to stop says so from here on: a second signal may end it while the film is finished.
+    // What was asked to stop says so from here on: a third signal may end it while the film is finished.
     if (stopped) close_record(stopped);
-    keep_state_before_exit(false);
-    if (in_a_hurry()) {
-        abandon_film();
-    } else {
-        close_film();
-    }
+    close_film();
+    find_folder();
     close_record(stopped);
     if (record_.status == RunStatus::complete) folder_->remove_previous();
     report_end();
-    std::fprintf(options_.to_stdout ? stderr : stdout, "%s\n", folder_->path().c_str());
+    if (has_folder_) {
+        if (options_.to_stdout)
+            std::fprintf(stderr, "%s\n", folder_->path().c_str());
+        else
+            print_result(folder_->path().string() + "\n");
+    }
     return *record_.exit_status;
+}
+
+void FilmRun::mark_begun() {
+    begun_ = true;
+    keep_before_exit();
+}
+
+// A folder that is gone is why anything else failed.
+void FilmRun::note_folder() {
+    failure_.attempt([&] { folder_->lock().check_there(); });
+}
+
+// Where the folder is now. Its film is left before its name changes: the film's threads use the old one.
+void FilmRun::find_folder() {
+    if (folder_->lock().is_there()) return;
+    note_folder();
+    close_film();
+    has_folder_ = folder_->follow();
 }
 
 void FilmRun::settle_status(bool stopped) {
@@ -105,6 +128,7 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     film.take_turns = threads_.take_turns;
     film.gl = options_.gl;
     film.pictures = pictures_planned_;
+    film.check_folder = [this] { folder_->lock().check_there(); };
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
                  : std::make_unique<FilmMaker>(scene, film);
     record_.gl = film_->drawer();
@@ -115,20 +139,14 @@ void FilmRun::close_film() {
     if (!film_) return;
     failure_.attempt([&] {
         const auto timer = times_.during("finishing the film");
-        film_report_ = film_->finish();
+        film_report_ = film_->finish([this] { return in_a_hurry() || !folder_->lock().is_there(); });
+        if (!film_report_.complete) reporter_.info("the film was left as it is");
         for (const std::string& note : film_report_.notes) reporter_.info(note);
     });
     film_report_.frames = film_->frames_done();
+    film_.reset();
     times_.add("drawing (beside the engine)", film_report_.draw_seconds);
     times_.add("encoding (beside the engine)", film_report_.encode_seconds);
-}
-
-// What is on disk of it plays; what is queued is not drawn any more.
-void FilmRun::abandon_film() {
-    if (!film_) return;
-    film_report_.frames = film_->frames_done();
-    film_.reset();
-    reporter_.info("the film was left as it is");
 }
 
 void FilmRun::close_record(bool stopped) {
@@ -137,13 +155,14 @@ void FilmRun::close_record(bool stopped) {
     settle_status(stopped);
     record_.error = failure_.what();
     record_.finished = utc_now();
-    record_.film_frames = film_ ? film_->frames_done() : film_report_.frames;
+    record_.film_frames = film_report_.frames;
+    if (film_) record_.film_frames.reset();  // what of it is on disk shows when it is closed
     record_.encoder = film_report_.encoder;
     record_.peak_memory = peak_memory();
     RunRecord now = record_;
     for (const auto& time : times_.all()) now.wall_seconds.push_back(time);
     now.wall_seconds.emplace_back("total", watch_.seconds());
-    failure_.attempt([&] { write_run_json(folder_->path() / "run.json", now); });
+    if (has_folder_) failure_.attempt([&] { write_run_json(folder_->path() / "run.json", now); });
     settle_status(stopped);
 }
 
@@ -152,7 +171,7 @@ void FilmRun::report_end() {
     if (failure_.any()) {
         record_.exit_status = 1;
         reporter_.error(failure_.what());
-        reporter_.info(fmt::format("what was made until then is in {}", folder));
+        if (has_folder_) reporter_.info(fmt::format("what was made until then is in {}", folder));
     } else if (record_.status == RunStatus::interrupted) {
         reporter_.info(fmt::format("{}; what was made is in {}{}", stopped_text(), folder,
                                    begun_ ? "" : " (still packing: no film)"));
@@ -169,7 +188,8 @@ std::string FilmRun::film_files_text() const {
     if (!film_report_.file.empty())
         text += fmt::format("{} ({} frames), ", film_report_.file, film_report_.frames);
     if (options_.to_stdout) text += fmt::format("to stdout {} frames, ", film_report_.frames);
-    if (options_.film) text += film_report_.sheet ? "poster.png, sheet.png, " : "poster.png, ";
+    if (film_report_.poster) text += "poster.png, ";
+    if (film_report_.sheet) text += "sheet.png, ";
     if (film_report_.pictures) text += fmt::format("frames/ ({} pictures), ", film_report_.frames);
     return text;
 }

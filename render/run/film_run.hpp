@@ -49,6 +49,8 @@ class FilmRun {
     void check_film(const Scene& scene, std::int64_t frames) const;
     // To be called when all that the user gave has been accepted.
     void make_folder(RunFolderRequest request);
+    // From here a mistake is a failure, and what there is stays, also at a second signal.
+    void mark_begun();
     // Shows the warnings and writes run.json for the first time.
     void begin_record(const std::vector<std::string>& warnings);
     // draw: what makes pictures; none for the Renderer.
@@ -63,18 +65,21 @@ class FilmRun {
     std::optional<RunLog> log_;
     RunRecord record_;
     StageTimes times_;
-    bool begun_ = false;  // from here a mistake is a failure, and what there is stays
     std::unique_ptr<FilmMaker> film_;
     std::int64_t pictures_planned_ = 0;
     FilmReport film_report_;
     FirstFailure failure_;
 
   private:
+    void note_folder();
+    void find_folder();
     void close_film();
-    void abandon_film();
     void settle_status(bool stopped);
     void close_record(bool stopped);
     void report_end();
+
+    bool begun_ = false;
+    bool has_folder_ = true;  // false once somebody has removed or replaced it
 };
 
 }  // namespace grainreel

@@ -34,8 +34,7 @@ MovieRun::MovieRun(const Options& options, Reporter& reporter, const Scene& scen
 bool MovieRun::work() {
     describe();
     if (!pack()) return false;
-    begun_ = true;
-    keep_state_before_exit(true);
+    mark_begun();
     run_.start(std::move(shots_), run_.scene().film.segments);
     pictures_planned_ = run_.shots();
     open_film(run_.scene());

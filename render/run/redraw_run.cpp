@@ -88,7 +88,7 @@ RedrawRun::RedrawRun(const Options& options, Reporter& reporter, const FinishedR
 }
 
 bool RedrawRun::work() {
-    begun_ = true;
+    mark_begun();
     const std::optional<FilmSegment> segment = pacing_of(moments_, scene_.drive, scene_.film.rate);
     std::vector<std::string> warnings = run_.warnings();
     if (run_.periods() > 1 && scene_.film.periods == 0)

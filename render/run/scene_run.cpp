@@ -152,6 +152,7 @@ void SceneRun::add_what_the_film_needs(Frame& frame) {
 }
 
 void SceneRun::save_checkpoint() {
+    folder_->check_there();
     const auto timer = times_.during("writing");
     const Stopwatch writing;
     simulation_.save_checkpoint(path_of("checkpoint.grs"));
@@ -159,7 +160,7 @@ void SceneRun::save_checkpoint() {
 }
 
 void SceneRun::close(FirstFailure& failure) {
-    if (!packed_) return;
+    if (!packed_ || !folder_->is_there()) return;
     failure.attempt([&] {
         if (files_ && files_->last_measures() && files_->last_measures()->step != simulation_.step())
             add_measures();

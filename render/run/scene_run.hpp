@@ -52,7 +52,8 @@ class SceneRun {
     std::vector<std::string> news() const;
     // To the next shot, keeping on the way what is to be kept. None at the end, or when told to stop.
     std::optional<Taken> next(const GoOn& go_on);
-    // Of a run that was packed, in whatever state: last row of measures, end state, checkpoint.
+    // Of a run that was packed, in whatever state: last row of measures, end state, checkpoint. Nothing when
+    // its folder is gone.
     void close(FirstFailure& failure);
 
     const Scene& scene() const { return scene_; }

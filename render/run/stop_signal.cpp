@@ -10,7 +10,8 @@ namespace grainreel {
 namespace {
 
 std::atomic<int> first_signal = 0;
-std::atomic<bool> state_to_keep = false, second_signal = false;
+std::atomic<bool> something_to_keep = false, second_signal = false;
+std::string words_at_once;  // set before any handler is
 static_assert(std::atomic<bool>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free);  // what a handler may touch
 
@@ -20,7 +21,10 @@ extern "C" void on_stop(int signal) {
     // One closed terminal sends several SIGHUP, the kernel's and the shell's: they hurry nobody.
     if (first || signal == SIGHUP) return;
     const bool second = !second_signal.exchange(true);
-    if (!second || !state_to_keep) ::_exit(128 + signal);
+    if (second && something_to_keep) return;
+    [[maybe_unused]] const ssize_t ignored =
+        ::write(STDERR_FILENO, words_at_once.data(), words_at_once.size());
+    ::_exit(128 + signal);
 }
 
 // nohup and its like have the signal ignored before the program starts, and that holds.
@@ -36,7 +40,8 @@ void ignore_write_signals() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void install_stop_handlers() {
+void install_stop_handlers(const std::string& last_words) {
+    words_at_once = last_words;
     struct sigaction action {};
     action.sa_handler = on_stop;
     action.sa_flags = SA_RESTART;  // files are being written: no call of theirs is to fail for it
@@ -50,8 +55,8 @@ int stop_signal() {
     return first_signal;
 }
 
-void keep_state_before_exit(bool keep) {
-    state_to_keep = keep;
+void keep_before_exit() {
+    something_to_keep = true;
 }
 
 bool in_a_hurry() {

@@ -42,6 +42,7 @@ void become_program(const std::vector<std::string>& words, const Program::Settin
     const std::filesystem::path cache = std::filesystem::temp_directory_path() / "grainreel-test-cache";
     ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
     for (const std::string& variable : setting.environment) ::putenv(const_cast<char*>(variable.c_str()));
+    ::signal(SIGHUP, setting.hang_up_ignored ? SIG_IGN : SIG_DFL);
     limit(RLIMIT_FSIZE, setting.file_size_limit);
     limit(RLIMIT_AS, setting.memory_limit);
     limit(RLIMIT_CPU, static_cast<rlim_t>(setting.seconds_limit));
@@ -56,8 +57,9 @@ void become_program(const std::vector<std::string>& words, const Program::Settin
 
 Program::Program(const std::vector<std::string>& words, const Setting& setting)
     : out_(stream_file("out")), err_(stream_file("err")) {
+    const char* out = setting.out.empty() ? out_.c_str() : setting.out.c_str();
     process_ = ::fork();
-    if (process_ == 0) become_program(words, setting, out_.c_str(), err_.c_str());
+    if (process_ == 0) become_program(words, setting, out, err_.c_str());
 }
 
 Program::~Program() {

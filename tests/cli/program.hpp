@@ -18,11 +18,13 @@ struct Ended {
 class Program {
   public:
     struct Setting {
-        std::filesystem::path folder = ".";    // to run in
-        std::vector<std::string> environment;  // NAME=value, beside the test's own
-        std::size_t file_size_limit = 0;       // bytes, of every file it writes; 0: none
-        std::size_t memory_limit = 0;          // bytes, of its addresses; 0: none
-        int seconds_limit = 0;                 // s, of processor time, then SIGXCPU ends it; 0: none
+        std::filesystem::path folder = ".";      // to run in
+        std::vector<std::string> environment{};  // NAME=value, beside the test's own
+        std::size_t file_size_limit = 0;         // bytes, of every file it writes; 0: none
+        std::size_t memory_limit = 0;            // bytes, of its addresses; 0: none
+        int seconds_limit = 0;                   // s, of processor time, then SIGXCPU ends it; 0: none
+        bool hang_up_ignored = false;            // SIGHUP, as under nohup; whatever the test itself inherits
+        std::filesystem::path out{};             // takes stdout in place of Ended::out
     };
 
     // Starts the program with these words after its name.

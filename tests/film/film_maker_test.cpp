@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "engine/base/error.hpp"
+#include "render/film/files/work_folder.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 
@@ -161,6 +162,84 @@ TEST_F(FilmMakerTest, WithoutFinishTheFilmPlaysAndHasAPoster) {
     EXPECT_GE(static_cast<std::int64_t>(played.frames.size()), done);
     expect_steps_in_order(played);
     EXPECT_EQ(poster_grey(), grey_of(static_cast<std::int64_t>(played.frames.size()) - 1));
+}
+
+// Left while pictures wait: what was encoded by then is in the film, and the report counts it.
+TEST_F(FilmMakerTest, WhoIsInAHurryLeavesAFilmOfTheLengthThatIsTold) {
+    for (const FilmFormat format : {FilmFormat::mp4, FilmFormat::gif, FilmFormat::png}) {
+        Scene scene = small_scene();
+        scene.film.format = format;
+        std::atomic<bool> hurry = false;
+        FilmMaker maker(scene, options(), painting([&](const Frame& frame) {
+                            // The last picture is drawn when it is no longer wanted.
+                            if (frame.step == 39) {
+                                hurry = true;
+                                std::this_thread::sleep_for(std::chrono::milliseconds(300));
+                            }
+                            const int grey = grey_of(frame.step);
+                            return flat(96, 64, grey, grey, grey);
+                        }));
+        for (int i = 0; i < 40; ++i) maker.take(frame_at(i), "");
+        const FilmReport report = maker.finish([&] { return hurry.load(); });
+        EXPECT_FALSE(report.complete);
+        EXPECT_GE(report.frames, 1);
+        EXPECT_LT(report.frames, 40);
+        EXPECT_TRUE(report.poster);
+        EXPECT_FALSE(report.sheet);
+        EXPECT_EQ(report.file, format == FilmFormat::mp4   ? "movie.mp4"
+                               : format == FilmFormat::gif ? "movie.work/spool.mkv"
+                                                           : "");
+        if (format == FilmFormat::png) {
+            const auto files = std::filesystem::directory_iterator(folder / "frames");
+            EXPECT_EQ(std::distance(begin(files), end(files)), report.frames);
+            continue;
+        }
+        EXPECT_THAT(report.encoder, HasSubstr(format == FilmFormat::mp4 ? "libx264" : "ffv1"));
+        const FilmFile left = read_film(folder / report.file);
+        EXPECT_EQ(static_cast<std::int64_t>(left.frames.size() + left.pictures.size()), report.frames);
+    }
+}
+
+TEST_F(FilmMakerTest, WhoIsInNoHurryGetsAWholeFilm) {
+    FilmMaker maker(small_scene(), options(), greys());
+    for (int i = 0; i < 20; ++i) maker.take(frame_at(i), "");
+    const FilmReport report = maker.finish([] { return false; });
+    EXPECT_TRUE(report.complete);
+    EXPECT_TRUE(report.poster);
+    EXPECT_THAT(film().frames, SizeIs(20));
+}
+
+// The folder is somebody else's now: no file is made there, and none replaced.
+TEST_F(FilmMakerTest, AFolderThatIsNoLongerOursGetsNoFiles) {
+    FilmOptions o = options(true, true);
+    std::atomic<bool> lost = false;
+    o.check_folder = [&] {
+        if (lost) throw RunError("the folder was renamed");
+    };
+    FilmMaker maker(small_scene(), o, greys());
+    for (int i = 0; i < 5; ++i) maker.take(frame_at(i), "");
+    while (maker.frames_done() < 5) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    lost = true;
+    maker.take(frame_at(5), "");
+    try {
+        maker.finish();
+        ADD_FAILURE() << "no error";
+    } catch (const RunError& error) {
+        EXPECT_STREQ(error.what(), "the folder was renamed");
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder / "frames" / "000004.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "frames" / "000005.png"));
+}
+
+TEST_F(FilmMakerTest, AWorkFolderOfAnotherFilmIsLeftAlone) {
+    {
+        const WorkFolder work(folder / "movie.mp4");
+        std::filesystem::rename(folder / "movie.work", folder / "renamed");
+        std::filesystem::create_directory(folder / "movie.work");
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder / "movie.work"));
+    { const WorkFolder work(folder / "movie.mp4"); }
+    EXPECT_FALSE(std::filesystem::exists(folder / "movie.work"));
 }
 
 TEST_F(FilmMakerTest, NothingTakenIsNoReasonToHang) {

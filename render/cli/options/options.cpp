@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,6 +18,7 @@
 #include "engine/scene/text/units.hpp"
 #include "engine/scene/text/words.hpp"
 #include "render/cli/options/option_groups.hpp"
+#include "render/cli/report/result.hpp"
 #include "render/cli/report/version.hpp"
 
 namespace grainreel {
@@ -303,7 +305,9 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {
-        app.exit(help);  // prints to stdout
+        std::ostringstream text;
+        app.exit(help, text, text);
+        print_result(text.str());
         return std::nullopt;
     } catch (const CLI::ParseError& mistake) {
         check_verb(app, argc > 1 ? argv[1] : "");

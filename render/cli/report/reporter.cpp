@@ -35,6 +35,8 @@ int terminal_width() {
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
+constexpr const char* wipe = "\r\033[K";  // of the terminal's line
+
 void put(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
@@ -70,20 +72,26 @@ void Reporter::error(const std::string& text) {
 }
 
 void Reporter::print(const char* kind, const char* colour, const std::string& text) {
+    clear();
+    put(line(kind, colour, text));
+}
+
+std::string Reporter::line(const char* kind, const char* colour, const std::string& text) const {
     if (options_.form == ReporterOptions::Form::json) {
         const nlohmann::ordered_json object = {{"event", kind}, {"text", text}};
-        put(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-        return;
+        return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     }
-    clear();
     const bool plain = *colour == '\0';
-    if (plain) {
-        put(text + "\n");
-    } else if (coloured_) {
-        put(std::string(colour) + kind + ":\033[0m " + text + "\n");
-    } else {
-        put(std::string(kind) + ": " + text + "\n");
-    }
+    if (plain) return text + "\n";
+    if (coloured_) return std::string(colour) + kind + ":\033[0m " + text + "\n";
+    return std::string(kind) + ": " + text + "\n";
+}
+
+std::string Reporter::last_words() const {
+    if (options_.quiet) return "";
+    const bool line_may_be_shown = terminal_ && options_.form == ReporterOptions::Form::automatic;
+    return (line_may_be_shown ? wipe : "") +
+           line("info", "", "stopped at once: what was not yet on disk is lost");
 }
 
 bool Reporter::due(const Progress& now, Watch::time_point time) const {
@@ -114,7 +122,7 @@ void Reporter::progress(const Progress& progress) {
 }
 
 void Reporter::clear() {
-    if (line_shown_) put("\r\033[K");
+    if (line_shown_) put(wipe);
     line_shown_ = false;
 }
 

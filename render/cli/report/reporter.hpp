@@ -33,6 +33,8 @@ class Reporter {
 
     // As often as the caller likes: shows it when it is time to.
     void progress(const Progress& progress);
+    // What a signal handler is to write when it ends the program at once; empty when only errors are shown.
+    std::string last_words() const;
     // Takes the progress line off the terminal.
     void clear();
 
@@ -40,6 +42,7 @@ class Reporter {
     using Watch = std::chrono::steady_clock;
     bool due(const Progress& progress, Watch::time_point now) const;
     void print(const char* kind, const char* colour, const std::string& text);
+    std::string line(const char* kind, const char* colour, const std::string& text) const;
 
     ReporterOptions options_;
     bool terminal_ = false, coloured_ = false;

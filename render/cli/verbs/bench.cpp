@@ -1,7 +1,6 @@
 #include "render/cli/verbs/bench.hpp"
 
 #include <algorithm>
-#include <iostream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/bench/bench_run.hpp"
 #include "engine/vector/instructions.hpp"
+#include "render/cli/report/result.hpp"
 #include "render/cli/report/share_watcher.hpp"
 #include "render/cli/verbs/bench_render.hpp"
 
@@ -94,9 +94,9 @@ int run_bench(const Options& options, Reporter& reporter) {
         reporter.info("stopped; nothing was measured to its end");
         return signal_base + stop_signal();
     }
-    std::cout << (options.json ? as_json(outcome.report)
-                               : as_table(outcome.report, options.bench_request.quick))
-              << std::endl;
+    print_result(
+        (options.json ? as_json(outcome.report) : as_table(outcome.report, options.bench_request.quick)) +
+        "\n");
     return 0;
 }
 

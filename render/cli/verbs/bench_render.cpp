@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include "engine/base/text_file.hpp"
 #include "engine/bench/peers_bed.hpp"
 #include "engine/bench/settled_bed.hpp"
+#include "render/cli/report/result.hpp"
 #include "render/cli/report/share_watcher.hpp"
 #include "render/draw/container/container_drawing.hpp"
 #include "render/draw/picture/renderer.hpp"
@@ -262,14 +262,14 @@ int bench_render(const Options& options, Reporter& reporter) {
                       {"coverage", covered},
                       {"ms_per_frame", ms}};
     if (options.json) {
-        std::cout << all.dump(2) << std::endl;
+        print_result(all.dump(2) + "\n");
         return 0;
     }
-    std::cout << fmt::format(
+    print_result(fmt::format(
         "{} grains, {}x{}, {}, {} threads, coverage {:.2f}; ms a frame (median of {}):\n", bed.grains.size(),
-        scene.film.width, scene.film.height, renderer.gl_description(), threads, covered, totals.size());
+        scene.film.width, scene.film.height, renderer.gl_description(), threads, covered, totals.size()));
     for (const auto& [name, value] : ms.items())
-        std::cout << fmt::format("{:>12}{:>9.2f}\n", name, value.get<double>());
+        print_result(fmt::format("{:>12}{:>9.2f}\n", name, value.get<double>()));
     return 0;
 }
 

@@ -4,13 +4,13 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <iostream>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/chart/chart.hpp"
+#include "render/cli/report/result.hpp"
 #include "render/cli/report/share_watcher.hpp"
 
 namespace grainreel {
@@ -57,7 +57,7 @@ int make_chart(const Options& options, Reporter& reporter) {
             fmt::format("gnuplot is missing or failed, so there are tables but no pictures; install "
                         "gnuplot-nox and run it on {} in the folder",
                         commands));
-    std::cout << request.folder.string() << std::endl;
+    print_result(request.folder.string() + "\n");
     return 0;
 }
 

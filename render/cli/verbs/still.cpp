@@ -1,11 +1,11 @@
 #include "render/cli/verbs/still.hpp"
 
-#include <cstdio>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "render/cli/report/result.hpp"
 #include "render/draw/camera/camera_path.hpp"
 #include "render/draw/picture/renderer.hpp"
 #include "render/film/files/film_limits.hpp"
@@ -87,7 +87,7 @@ int draw_still(const Options& options, Reporter& reporter, const FinishedRun& ru
               run.scene().film.transparent);
     reporter.info(fmt::format("wrote {}: frame {} of {}, at {:.6g} s", path.string(), index + 1,
                               run.moments().size(), frame.time));
-    std::printf("%s\n", path.c_str());
+    print_result(path.string() + "\n");
     return 0;
 }
 

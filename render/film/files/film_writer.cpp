@@ -31,6 +31,10 @@ std::string film_file_name(FilmFormat format) {
     return format == FilmFormat::png ? "" : fmt::format("movie.{}", codec_of(format).extension);
 }
 
+std::string left_film_name(FilmFormat format) {
+    return format == FilmFormat::gif ? GifFilm::spool_name() : film_file_name(format);
+}
+
 std::unique_ptr<FilmWriter> make_film_writer(const Scene& scene, const FilmWriterOptions& options) {
     if (scene.film.format == FilmFormat::png) return nullptr;
     const EncoderSettings settings = encoder_settings(scene, options);

@@ -35,6 +35,8 @@ struct FilmWriterOptions {
 
 // "movie.webm"; empty for a film of PNG pictures, which has no file of its own.
 std::string film_file_name(FilmFormat format);
+// The same of a film whose writer was left without finish(): of a GIF, what it was to be made from.
+std::string left_film_name(FilmFormat format);
 
 // Creates the film's file. Null for a film of PNG pictures. Throws RunError.
 std::unique_ptr<FilmWriter> make_film_writer(const Scene& scene, const FilmWriterOptions& options);

@@ -32,6 +32,8 @@ class GifFilm final : public FilmWriter {
 
     std::string description() const override { return description_; }
     std::vector<std::string> notes() const override { return {}; }
+    // Beside the GIF: the exact copy, which is all there is without finish().
+    static const char* spool_name() { return "movie.work/spool.mkv"; }
 
   private:
     std::int64_t write(const GifColours& colours, const std::filesystem::path& path);

@@ -31,6 +31,7 @@ std::vector<PngText> texts_of(const std::string& scene, const std::string& title
 
 PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
     : folder_(options.folder),
+      check_folder_(options.check_folder),
       name_(scene.name),
       title_(scene.title),
       frames_wanted_(options.frames || (options.film && scene.film.format == FilmFormat::png)),
@@ -47,17 +48,20 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
     }
     if (!options.film) return;
     film_ = make_film_writer(scene, {folder_, options.to_stdout, options.encoder_threads});
-    if (!options.to_stdout) film_file_ = film_file_name(scene.film.format);
+    if (!options.to_stdout) {
+        film_file_ = film_file_name(scene.film.format);
+        left_file_ = left_film_name(scene.film.format);
+    }
     if (scene.film.sheet[0] > 0) sheet_ = std::make_unique<ContactSheet>(scene.film);
 }
 
 Picture PictureFiles::add(DrawnFrame drawn) {
     if (count_ == 0) first_time_ = drawn.frame->time;
+    if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", frames()), drawn);
     if (film_) film_->add(drawn.picture);
-    flashes_.add(drawn.picture);
-    if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", count_), drawn);
-    if (sheet_) sheet_->add(drawn.picture, drawn.frame->time);
     ++count_;
+    flashes_.add(drawn.picture);
+    if (sheet_) sheet_->add(drawn.picture, drawn.frame->time);
     if (!poster_done_) consider_poster(drawn);
     std::swap(last_, drawn);
     return std::move(drawn.picture);
@@ -67,7 +71,7 @@ void PictureFiles::consider_poster(const DrawnFrame& drawn) {
     if (last_.frame && drawn.frame->time - first_time_ > poster_time_) {
         close_poster();
     } else if (poster_in_passing(count_)) {
-        write(folder_ / "poster.png", drawn);
+        write_poster(drawn);
     }
 }
 
@@ -84,17 +88,31 @@ std::vector<std::string> PictureFiles::notes() const {
 void PictureFiles::close_poster() {
     if (poster_done_ || !last_.frame) return;
     poster_done_ = true;
-    write(folder_ / "poster.png", last_);
+    write_poster(last_);
+}
+
+void PictureFiles::write_poster(const DrawnFrame& drawn) {
+    write(folder_ / "poster.png", drawn);
+    poster_written_ = true;
 }
 
 void PictureFiles::finish() {
+    check_folder_();
     if (sheet_ && count_ > 0)
         write_png(folder_ / "sheet.png", sheet_->draw(last_.picture),
                   {{"Title", title_}, {"Scene", name_}, {"Software", "grainreel"}});
     if (film_) film_->finish();
+    complete_ = true;
+}
+
+void PictureFiles::leave() {
+    film_file_ = left_file_;
+    left_encoder_ = encoder();
+    film_.reset();
 }
 
 void PictureFiles::write(const std::filesystem::path& path, const DrawnFrame& drawn) const {
+    check_folder_();
     write_png(path, drawn.picture, texts_of(name_, title_, *drawn.frame, drawn.playback), transparent_);
 }
 

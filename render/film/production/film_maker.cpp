@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -27,6 +28,7 @@ constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
 // stage that has nothing to do; and a patience that an engine which needs longer for a frame does not try.
 constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn = 32;
 constexpr std::chrono::milliseconds turn_patience(250);
+constexpr std::chrono::milliseconds glance(50);  // how often who is in a hurry is asked
 
 std::size_t frames_that_wait(const Scene& scene, const FilmOptions& options) {
     if (!options.take_turns) return waiting_frames;
@@ -55,7 +57,10 @@ struct FilmMaker::Impl {
                  options.take_turns ? turn_patience : std::chrono::milliseconds(0)) {
         for (std::size_t i = 0; i < pictures_in_all; ++i) spare.push(Picture());
         drawing = std::thread([this] { guarded(&Impl::draw_all); });
-        encoding = std::thread([this] { guarded(&Impl::encode_all); });
+        encoding = std::thread([this] {
+            guarded(&Impl::encode_all);
+            tell_end();
+        });
     }
 
     ~Impl() {
@@ -95,12 +100,35 @@ struct FilmMaker::Impl {
             const Watch::time_point start = Watch::now();
             spare.push(files.add(std::move(*drawn)));
             encode_seconds += seconds_since(start);
-            ++done;
         }
         const Watch::time_point start = Watch::now();
+        const bool whole = complete;
+        if (!whole) files.leave();
         files.close_poster();
-        if (complete) files.finish();
+        if (whole) files.finish();
         encode_seconds += seconds_since(start);
+    }
+
+    // Until the film has ended, one way or the other.
+    void wait_for_end(const std::function<bool()>& in_a_hurry) {
+        std::unique_lock lock(end_mutex);
+        const auto has_ended = [this] { return ended; };
+        while (!ended) {
+            if (in_a_hurry && in_a_hurry()) {
+                complete = false;
+                cancel();
+                end_told.wait(lock, has_ended);
+            }
+            end_told.wait_for(lock, glance, has_ended);
+        }
+    }
+
+    void tell_end() {
+        {
+            const std::scoped_lock lock(end_mutex);
+            ended = true;
+        }
+        end_told.notify_all();
     }
 
     void fail(const std::string& words) {
@@ -139,7 +167,9 @@ struct FilmMaker::Impl {
     BoundedQueue<DrawnFrame> pictures{waiting_pictures};
     BoundedQueue<Picture> spare{pictures_in_all};
     std::atomic<bool> complete = false;  // finish() was called: the film is to be closed, not abandoned
-    std::atomic<std::int64_t> done = 0;
+    std::mutex end_mutex;
+    std::condition_variable end_told;
+    bool ended = false;  // the encoding thread has done all it will
     std::mutex failure_mutex;
     std::string failure;                     // of the stage that failed first; empty when none did
     std::atomic<bool> drawer_known = false;  // it is made, or something failed
@@ -168,19 +198,22 @@ std::string FilmMaker::drawer() {
     return impl_->gl;
 }
 
-FilmReport FilmMaker::finish() {
+FilmReport FilmMaker::finish(const std::function<bool()>& in_a_hurry) {
     impl_->complete = true;
     impl_->frames.close();
+    impl_->wait_for_end(in_a_hurry);
     impl_->join();
     impl_->throw_failure();
     FilmReport report;
-    report.frames = impl_->done;
+    report.complete = impl_->files.complete();
+    report.frames = impl_->files.frames();
     report.draw_seconds = impl_->draw_seconds;
     report.encode_seconds = impl_->encode_seconds;
     report.waited_seconds = impl_->waited_seconds;
     report.gl = impl_->gl;
     report.file = impl_->files.film_file();
     report.pictures = impl_->files.has_frames();
+    report.poster = impl_->files.has_poster();
     report.sheet = impl_->files.has_sheet();
     report.encoder = impl_->files.encoder();
     report.notes = impl_->files.notes();
@@ -189,7 +222,7 @@ FilmReport FilmMaker::finish() {
 }
 
 std::int64_t FilmMaker::frames_done() const {
-    return impl_->done;
+    return impl_->files.frames();
 }
 
 }  // namespace grainreel

@@ -27,16 +27,19 @@ struct FilmOptions {
     bool take_turns = false;  // with who calls take(), which then waits while queued pictures are made
     gl::Provider gl = gl::Provider::automatic;
     std::int64_t pictures = 0;  // planned; what an orbit that lasts all the film needs to know
+    // Called before a file is made in the folder or replaced there; throws RunError when that may not be.
+    std::function<void()> check_folder = [] {};
 };
 
 struct FilmReport {
-    std::int64_t frames = 0;
+    bool complete = false;                        // not left as it was
+    std::int64_t frames = 0;                      // in the film
     double draw_seconds = 0, encode_seconds = 0;  // busy time of the two threads
     double waited_seconds = 0;                    // the engine's, for a place in the queue
     std::string gl;                               // context description
     std::string file;                             // "movie.mp4"; empty without one
     bool pictures = false;                        // frames/ is there
-    bool sheet = false;                           // sheet.png is there
+    bool poster = false, sheet = false;           // poster.png, sheet.png are there
     std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty likewise
     std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
 };
@@ -71,8 +74,9 @@ class FilmMaker {
     void take(FramePtr frame, std::string playback) { take(Frames{std::move(frame)}, std::move(playback)); }
 
     // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError likewise.
-    // Neither take() nor finish() may follow.
-    FilmReport finish();
+    // Neither take() nor finish() may follow. in_a_hurry: asked now and then; once it is true what is queued
+    // is thrown away and the film left as it grew, which plays.
+    FilmReport finish(const std::function<bool()>& in_a_hurry = {});
 
     std::int64_t frames_done() const;  // encoded so far
 

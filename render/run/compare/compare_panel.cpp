@@ -78,8 +78,12 @@ bool LivePanel::finish(const SceneRun::GoOn& go_on) {
     return go_on();
 }
 
+void LivePanel::keep_state() {
+    if (folder_ && folder_->follow()) run_.close(failed_);
+}
+
 void LivePanel::close(RunStatus status, int exit_status, FirstFailure& failure) {
-    if (!folder_) return;
+    if (!folder_ || !folder_->is_there()) return;
     run_.conclude(record_);
     for (std::string& line : run_.news()) record_.warnings.push_back(std::move(line));
     record_.status = failed_.any()                 ? RunStatus::failed

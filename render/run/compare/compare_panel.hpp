@@ -62,7 +62,7 @@ class LivePanel final : public ComparePanel {
     FramePtr next(const SceneRun::GoOn& go_on) override;
     bool finish(const SceneRun::GoOn& go_on) override;
     std::vector<std::string> news() const override { return run_.news(); }
-    void keep_state() override { run_.close(failed_); }
+    void keep_state() override;
     void close(RunStatus status, int exit_status, FirstFailure& failure) override;
 
   private:

@@ -44,8 +44,7 @@ bool CompareRun::work() {
     if (!for_all(Progress::Stage::growing, frames,
                  [](ComparePanel& panel, FramePtr&) { return panel.pack(go_on); }))
         return false;
-    begun_ = true;
-    keep_state_before_exit(true);
+    mark_begun();
     const std::vector<FilmSegment>& segments = all_.film.film.segments;
     for (const auto& source : all_.sources) source->start(all_.instants, segments);
     pictures_planned_ = static_cast<std::int64_t>(all_.instants.size());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
@@ -87,9 +88,7 @@ TEST_F(StoppedMovie, ASecondHangUpLeavesTheGoodOrder) {
 }
 
 TEST_F(StoppedMovie, GoesOnUnderNohup) {
-    const auto before = ::signal(SIGHUP, SIG_IGN);  // what the program inherits
-    Program program(long_run({"--no-film"}), {here.path(), {}});
-    ::signal(SIGHUP, before);
+    Program program(long_run({"--no-film"}), {.folder = here.path(), .hang_up_ignored = true});
     ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 1; }));
     program.send(SIGHUP);
     const std::size_t then = frames_on_disk();
@@ -146,9 +145,52 @@ TEST_F(StoppedMovie, ASecondSignalWhilePackingStopsAtOnce) {
     program.send(SIGINT);
     program.send(SIGTERM);
     program.send(SIGCONT);
-    const int status = program.wait().status;
-    EXPECT_TRUE(status == 130 || status == 143) << status;
+    const Ended ended = program.wait();
+    EXPECT_TRUE(ended.status == 130 || ended.status == 143) << ended.status;
+    EXPECT_THAT(ended.err, HasSubstr("stopped at once: what was not yet on disk is lost\n"));
     EXPECT_EQ(record()["status"], "running");
+}
+
+// The first signal has stopped the run, and the film is being finished. One thread: engine and film take
+// turns, so that many pictures wait to be drawn.
+TEST_F(StoppedMovie, ASecondSignalWhilePicturesWaitLeavesTheFilmAndTellsItsLength) {
+    for (const char* format : {"mp4", "gif"}) {
+        Program program(long_run({"--size", "960x540", "--threads", "1", "--frames", "--format", format}),
+                        {here.path(), {}});
+        ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/frames/000001.png"); }));
+        program.send(SIGINT);
+        ASSERT_TRUE(wait_until(program, [&] { return record()["status"] == "interrupted"; }));
+        EXPECT_EQ(record()["written"]["film_frames"], nullptr);  // not known before it is closed
+        program.send(SIGINT);
+        const Ended ended = program.wait();
+        EXPECT_EQ(ended.status, 130);
+        EXPECT_THAT(ended.err, HasSubstr("the film was left as it is"));
+        EXPECT_THAT(ended.err, HasSubstr("what was made is in run"));
+        EXPECT_EQ(record()["exit_status"], 130);
+        const std::string film = std::string(format) == "mp4" ? "movie.mp4" : "movie.work/spool.mkv";
+        const int frames = record()["written"]["film_frames"].get<int>();
+        EXPECT_GE(frames, 1);
+        EXPECT_EQ(decoded_pictures(here / "run" / film), frames);
+        EXPECT_THAT(ended.err, HasSubstr(fmt::format("wrote run: {} ({} frames), ", film, frames)));
+        EXPECT_EQ(read_grain_table(here / "run/final.csv").size(), 50u);
+        fs::remove_all(here / "run");
+    }
+}
+
+TEST_F(StoppedMovie, AThirdSignalWhilePicturesWaitEndsAtOnceAndSaysSo) {
+    Program program(long_run({"--size", "960x540", "--threads", "1"}), {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/poster.png"); }));
+    program.send(SIGINT);
+    ASSERT_TRUE(wait_until(program, [&] { return record()["status"] == "interrupted"; }));
+    program.send(SIGSTOP);  // so that the last two come together
+    program.send(SIGINT);
+    program.send(SIGTERM);
+    program.send(SIGCONT);
+    const Ended ended = program.wait();
+    EXPECT_TRUE(ended.status == 130 || ended.status == 143) << ended.status;
+    EXPECT_THAT(ended.err, HasSubstr("stopped at once: what was not yet on disk is lost\n"));
+    EXPECT_EQ(record()["status"], "interrupted");
+    EXPECT_EQ(record()["written"]["film_frames"], nullptr);
 }
 
 TEST_F(StoppedMovie, ACheckpointIsThereFromTheStart) {
@@ -240,6 +282,79 @@ TEST_F(StoppedMovie, AFolderThatIsGoneEndsTheRun) {
         EXPECT_EQ(ended.status, 1);
         EXPECT_THAT(ended.err, HasSubstr("run: the run's folder is gone: it was removed or renamed"));
         EXPECT_FALSE(fs::exists(here / "run"));
+    }
+}
+
+// Its files go on where it is now; the folder that somebody else has put in its place is left alone.
+TEST_F(StoppedMovie, AFolderThatIsRenamedAndReplacedEndsTheRun) {
+    for (const bool film : {true, false}) {
+        Program program(
+            long_run(film ? std::vector<std::string>{"--frames"} : std::vector<std::string>{"--no-film"}),
+            {here.path(), {}});
+        ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 3; }));
+        program.send(SIGSTOP);
+        fs::rename(here / "run", here / "moved");
+        fs::create_directory(here / "run");
+        write_text(here / "run/.lock", "of another");
+        program.send(SIGCONT);
+        const Ended ended = program.wait();
+        EXPECT_EQ(ended.status, 1);
+        const std::string message = "run: the run's folder was renamed to moved while the run went on";
+        EXPECT_THAT(ended.err, HasSubstr("error: " + message + "\n"));
+        EXPECT_THAT(ended.err, HasSubstr("what was made until then is in moved\n"));
+        EXPECT_EQ(ended.out, "moved\n");
+        EXPECT_EQ(text_of(here / "run/.lock"), "of another");
+        fs::remove(here / "run/.lock");
+        EXPECT_TRUE(fs::is_empty(here / "run"));
+        const auto told = nlohmann::json::parse(text_of(here / "moved/run.json"));
+        EXPECT_EQ(told["status"], "failed");
+        EXPECT_EQ(told["error"], message);
+        EXPECT_EQ(read_grain_table(here / "moved/final.csv").size(), 50u);
+        EXPECT_TRUE(fs::exists(here / "moved/checkpoint.grs"));
+        EXPECT_FALSE(fs::exists(here / "moved/.lock"));
+        if (film) {
+            EXPECT_EQ(decoded_pictures(here / "moved/movie.mp4"), told["written"]["film_frames"].get<int>());
+        }
+        fs::remove_all(here / "run");
+        fs::remove_all(here / "moved");
+    }
+}
+
+TEST_F(StoppedMovie, AFolderThatIsRemovedAndMadeAnewIsLeftAlone) {
+    Program program(long_run(), {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 3; }));
+    program.send(SIGSTOP);
+    fs::rename(here / "run", here / "moved");
+    fs::create_directory(here / "run");
+    fs::remove_all(here / "moved");
+    program.send(SIGCONT);
+    const Ended ended = program.wait();
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_THAT(ended.err, HasSubstr("error: run: this is no longer the run's folder: it was removed or "
+                                     "replaced while the run went on; nothing more was written there\n"));
+    EXPECT_EQ(ended.out, "");
+    EXPECT_TRUE(fs::is_empty(here / "run"));
+    EXPECT_FALSE(fs::exists(here / "moved"));
+}
+
+// Each panel of a comparison has a folder of its own.
+TEST_F(StoppedMovie, AComparisonThatIsRenamedKeepsItsPanels) {
+    Program program({"compare", scene.string(), scene.string(), "--duration", "3600 s", "--out", "run",
+                     "--size", "640x360", "--captions", "a|b"},
+                    {here.path(), {}});
+    ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/fifty-2/trajectory.nc"); }));
+    program.send(SIGSTOP);
+    fs::rename(here / "run", here / "moved");
+    fs::create_directory(here / "run");
+    program.send(SIGCONT);
+    const Ended ended = program.wait();
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_THAT(ended.err, HasSubstr("the run's folder was renamed to moved"));
+    EXPECT_TRUE(fs::is_empty(here / "run"));
+    for (const char* panel : {"fifty", "fifty-2"}) {
+        EXPECT_EQ(read_grain_table(here / "moved" / panel / "final.csv").size(), 50u);
+        const auto told = nlohmann::json::parse(text_of(here / "moved" / panel / "run.json"));
+        EXPECT_TRUE(told["status"] == "failed" || told["status"] == "interrupted") << told["status"];
     }
 }
 

@@ -1,0 +1,33 @@
+#include "render/cli/report/result.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+namespace {
+
+int first_error = 0;  // errno of the first failure
+
+void note_error() {
+    if (first_error == 0) first_error = errno != 0 ? errno : EIO;
+}
+
+}  // namespace
+
+void print_result(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
+}
+
+void close_results() {
+    if (std::fflush(stdout) != 0) note_error();
+    if (first_error != 0)
+        throw RunError(fmt::format("stdout: cannot be written: {}", std::strerror(first_error)));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,15 @@
+// What the program prints as its result: the folder it made, a plan, figures, help. Goes to stdout; all else
+// that it says goes to stderr (reporter.hpp).
+#pragma once
+
+#include <string_view>
+
+namespace grainreel {
+
+// Keeps in mind when it cannot be written.
+void print_result(std::string_view text);
+
+// To be called once, at the end. Throws RunError when some of what was printed did not get there.
+void close_results();
+
+}  // namespace grainreel

@@ -1,0 +1,48 @@
+// What the program prints as its result, where it cannot be written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+// Every write to /dev/full fails: the disk is full.
+TEST(Result, ThatCannotBeWrittenIsAFailure) {
+    const TemporaryFolder here;
+    const std::string scene = write_small_scene(here.path()).string();
+    const std::vector<std::vector<std::string>> commands{
+        {"--version"},
+        {"--help"},
+        {"movie", "--help"},
+        {"check", scene},
+        {"movie", scene, "--no-film", "--out", "run"},
+        {"movie", scene, "--no-film", "--progress", "json", "--out", "run2"},
+        {"render", "run", "--at", "0", "--out", "still.png"},
+        {"render", "run", "--size", "640x360", "--out", "again"},
+        {"compare", "run", "run2", "--size", "640x360", "--out", "both"},
+        {"bench", "gas", "--quick", "--json", "--particles", "500", "--threads", "1"}};
+    for (const std::vector<std::string>& words : commands) {
+        const Ended ended = run_program(words, {.folder = here.path(), .out = "/dev/full"});
+        EXPECT_EQ(ended.status, 1) << words[0];
+        EXPECT_THAT(ended.err, HasSubstr("stdout: cannot be written: No space left on device")) << words[0];
+    }
+    EXPECT_EQ(nlohmann::json::parse(text_of(here / "run/run.json"))["status"], "complete");
+}
+
+TEST(Result, AMistakeStaysAMistake) {
+    const TemporaryFolder here;
+    const Ended ended = run_program({"check", "missing.toml"}, {.folder = here.path(), .out = "/dev/full"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, HasSubstr("missing.toml"));
+}
+
+}  // namespace
+}  // namespace grainreel
