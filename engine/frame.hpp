@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/state/body.hpp"
 
 namespace grainreel {
 
@@ -23,9 +24,14 @@ struct Frame {
     double cycles = 0;  // periods since the drive started
     double phase = 0;   // turns in [0, 1)
 
-    // Where walls and floor are, against their rest position; m and m/s.
-    Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
-    Vec3 floor_offset{0, 0, 0}, floor_velocity{0, 0, 0};
+    // Where the bodies are, by their numbers (engine/state/body.hpp): container, floor, planes of the scene.
+    std::vector<BodyPose> bodies = std::vector<BodyPose>(kFirstPlaneBody);
+    BodyPose& container() { return bodies[kContainerBody]; }
+    const BodyPose& container() const { return bodies[kContainerBody]; }
+    BodyPose& floor() { return bodies[kFloorBody]; }
+    const BodyPose& floor() const { return bodies[kFloorBody]; }
+    // At rest where a frame that was made by hand does not say.
+    BodyPose body(std::size_t number) const { return number < bodies.size() ? bodies[number] : BodyPose(); }
 
     // One entry a grain, in order of id. SI units.
     std::vector<std::int32_t> id;

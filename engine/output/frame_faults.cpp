@@ -16,6 +16,7 @@ constexpr double largest_radius = 1e3;  // m
 constexpr double fastest = 1e6;         // m/s
 constexpr double fastest_spin = 1e12;   // rad/s
 constexpr double float_room = 1e-4;     // of a unit quaternion stored as floats
+constexpr double double_room = 1e-9;    // of one stored as doubles
 
 bool within(double value, double limit) {
     return std::abs(value) <= limit;  // false for NaN
@@ -54,11 +55,15 @@ std::optional<std::string> moment_fault(const Frame& f) {
     if (!within(f.time, longest_time)) return fmt::format("its time is {:.3g} s", f.time);
     if (!within(f.cycles, most_cycles)) return fmt::format("it is {} periods after the start", f.cycles);
     if (!(f.phase >= 0 && f.phase <= 1)) return fmt::format("its phase is {:.3g} turns", f.phase);
-    for (const Vec3* offset : {&f.wall_offset, &f.floor_offset})
-        if (!within(*offset, farthest)) return fmt::format("a wall is {} m off", vector_text(*offset));
-    for (const Vec3* velocity : {&f.wall_velocity, &f.floor_velocity})
-        if (!within(*velocity, fastest))
-            return fmt::format("a wall has the velocity {} m/s", vector_text(*velocity));
+    for (const BodyPose& body : f.bodies) {
+        if (!within(body.place, farthest)) return fmt::format("a wall is {} m off", vector_text(body.place));
+        if (!within(body.velocity, fastest))
+            return fmt::format("a wall has the velocity {} m/s", vector_text(body.velocity));
+        if (!within(body.spin, fastest_spin))
+            return fmt::format("a wall has the spin {} rad/s", vector_text(body.spin));
+        if (!within(body.rotation.norm() - 1, double_room))
+            return "a wall has a rotation that is no unit quaternion";
+    }
     return std::nullopt;
 }
 

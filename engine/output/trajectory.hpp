@@ -26,7 +26,8 @@ struct TrajectoryInfo {
     std::string title;
     std::string program_version;
     std::vector<std::string> species;
-    std::size_t capacity = 0;  // the most grains a frame can have
+    std::size_t capacity = 0;         // the most grains a frame can have
+    std::vector<std::string> planes;  // names of the bodies beyond container and floor
     bool orientation = false;
     bool checksums = true;          // false in a file of an earlier version: there damage may look like data
     Vec3 cell_origin{0, 0, 0};      // m

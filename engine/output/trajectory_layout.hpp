@@ -47,6 +47,13 @@ inline constexpr std::array grain_variables{
     TrajectoryVariable{"velocities", NC_FLOAT, "spatial", "meter/second"},
     TrajectoryVariable{"spin", NC_FLOAT, "spatial", "radian/second"}};
 
+// Of every body beyond container and floor, in files that have some; in `frame_checksum` behind the others.
+inline constexpr std::array body_variables{
+    TrajectoryVariable{"body_place", NC_DOUBLE, "spatial", "meter"},
+    TrajectoryVariable{"body_rotation", NC_DOUBLE, "quaternion", ""},
+    TrajectoryVariable{"body_velocity", NC_DOUBLE, "spatial", "meter/second"},
+    TrajectoryVariable{"body_spin", NC_DOUBLE, "spatial", "radian/second"}};
+
 // Only when asked for.
 inline constexpr TrajectoryVariable orientation_variable{"orientation", NC_FLOAT, "quaternion", ""};
 

@@ -18,6 +18,7 @@ namespace grainreel {
 
 namespace {
 
+constexpr std::size_t most_planes = 1000;
 constexpr double most_steps = 9007199254740992;  // 2^53: beyond, doubles leave out whole numbers
 
 // Another program's file may follow the same convention; what counts is that nothing is missing.
@@ -59,12 +60,24 @@ struct TrajectoryReader::Impl {
         info.program_version = file.text_attribute(NC_GLOBAL, "programVersion");
         info.capacity = file.length("atom");
         info.orientation = file.has_variable(orientation_variable.name);
+        if (file.has_variable(body_variables.front().name)) read_planes();
         std::istringstream names(file.text_attribute(file.find_variable("type"), "species"));
         for (std::string name; std::getline(names, name);) info.species.push_back(name);
         info.checksums = file.has_variable(frame_checksum) && file.has_variable(grain_checksum);
         if (frames == 0) return;
         file.get(file.find_variable("cell_origin"), {0, 0}, {1, 3}, info.cell_origin.data());
         file.get(file.find_variable("cell_lengths"), {0, 0}, {1, 3}, info.periodic_length.data());
+    }
+
+    // How many they are says the dimension; names are for people.
+    void read_planes() {
+        const std::size_t planes = file.length("body");
+        if (planes > most_planes)
+            throw UserError(fmt::format("{}: says that it has {} walls beside the container's; copy it again",
+                                        source, planes));
+        std::istringstream names(file.text_attribute(file.find_variable("body_place"), "names"));
+        info.planes.resize(planes);
+        for (std::string& name : info.planes) std::getline(names, name);
     }
 
     [[noreturn]] void damaged(std::size_t frame, const std::string& what) const {
@@ -103,6 +116,7 @@ struct TrajectoryReader::Impl {
         std::size_t grains = 0;
     };
     Moment read_moment(std::size_t index) const;
+    void read_bodies(std::size_t index, Frame& frame, Checksum& sum) const;
     void read_grains(std::size_t index, std::size_t n, Frame& frame) const;
 
     std::string source;  // for messages
@@ -122,9 +136,11 @@ TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t i
     frame.phase = number();
     const double step = number();
     const int count = read<int>(*variable++, index, 0, 1, sum).front();
-    for (Vec3* pose : {&frame.wall_offset, &frame.wall_velocity, &frame.floor_offset, &frame.floor_velocity})
+    for (Vec3* pose : {&frame.container().place, &frame.container().velocity, &frame.floor().place,
+                       &frame.floor().velocity})
         *pose = vector();
     for (; variable != frame_variables.end(); ++variable) read<double>(*variable, index, 0, 3, sum);  // cell
+    read_bodies(index, frame, sum);
     check_sum(frame_checksum, index, sum);
     if (auto fault = moment_fault(frame)) damaged(index, *fault);
     if (!(std::abs(step) <= most_steps)) damaged(index, fmt::format("its step is {:.3g}", step));
@@ -133,6 +149,18 @@ TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t i
                                    info.capacity));
     frame.step = std::llround(step);
     return {std::move(frame), static_cast<std::size_t>(count)};
+}
+
+// Files of earlier versions have none.
+void TrajectoryReader::Impl::read_bodies(std::size_t index, Frame& frame, Checksum& sum) const {
+    const std::size_t planes = info.planes.size();
+    if (planes == 0) return;
+    auto variable = body_variables.begin();
+    const auto next = [&](std::size_t width) { return read<double>(*variable++, index, planes, width, sum); };
+    const std::vector<double> place = next(3), rotation = next(4), velocity = next(3), spin = next(3);
+    for (std::size_t b = 0; b < planes; ++b)
+        frame.bodies.push_back(
+            {Vec3(&place[3 * b]), Quaternion(&rotation[4 * b]), Vec3(&velocity[3 * b]), Vec3(&spin[3 * b])});
 }
 
 // The first n of what is x, y, z, x, y, z ...

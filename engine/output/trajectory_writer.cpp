@@ -32,10 +32,12 @@ struct TrajectoryWriter::Impl {
 
     void define();
     void define_dimensions();
-    void define_variable(const TrajectoryVariable& variable, bool of_grains);
+    void define_bodies();
+    void define_variable(const TrajectoryVariable& variable, const char* of);
     void write_labels();
     Checksum begin_sum() const { return begin_checksum(frames, places, info.species, info.orientation); }
     void write_pose(const Frame& frame);
+    void write_bodies(const Frame& frame, Checksum& sum);
     void write_grains(const Frame& frame);
     void write_sum(const char* variable, const Checksum& sum);
 
@@ -62,9 +64,10 @@ void TrajectoryWriter::Impl::define() {
     variables["spatial"] = file.variable("spatial", NC_CHAR, {dimensions["spatial"]});
     variables["cell_spatial"] = file.variable("cell_spatial", NC_CHAR, {dimensions["cell_spatial"]});
     variables["cell_angular"] = file.variable("cell_angular", NC_CHAR, {cell_angular, dimensions["label"]});
-    for (const TrajectoryVariable& variable : frame_variables) define_variable(variable, false);
-    for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, true);
-    if (info.orientation) define_variable(orientation_variable, true);
+    for (const TrajectoryVariable& variable : frame_variables) define_variable(variable, nullptr);
+    if (!info.planes.empty()) define_bodies();
+    for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, "atom");
+    if (info.orientation) define_variable(orientation_variable, "atom");
     file.attribute(variables["type"], "species", fmt::format("{}", fmt::join(info.species, "\n")));
     for (const char* sum : {frame_checksum, grain_checksum})
         variables[sum] = file.variable(sum, NC_INT, {dimensions["frame"], dimensions["checksum"]});
@@ -78,12 +81,19 @@ void TrajectoryWriter::Impl::define_dimensions() {
         dimensions[three] = file.dimension(three, 3);
     dimensions["label"] = file.dimension("label", 5);
     dimensions["checksum"] = file.dimension("checksum", 2);
-    if (info.orientation) dimensions["quaternion"] = file.dimension("quaternion", 4);
+    if (info.orientation || !info.planes.empty()) dimensions["quaternion"] = file.dimension("quaternion", 4);
+    if (!info.planes.empty()) dimensions["body"] = file.dimension("body", info.planes.size());
 }
 
-void TrajectoryWriter::Impl::define_variable(const TrajectoryVariable& variable, bool of_grains) {
+void TrajectoryWriter::Impl::define_bodies() {
+    for (const TrajectoryVariable& variable : body_variables) define_variable(variable, "body");
+    file.attribute(variables["body_place"], "names", fmt::format("{}", fmt::join(info.planes, "\n")));
+}
+
+// of: "atom" or "body"; null for one of the frame itself.
+void TrajectoryWriter::Impl::define_variable(const TrajectoryVariable& variable, const char* of) {
     std::vector<int> shape{dimensions["frame"]};
-    if (of_grains) shape.push_back(dimensions["atom"]);
+    if (of != nullptr) shape.push_back(dimensions[of]);
     if (variable.dimension != nullptr) shape.push_back(dimensions[variable.dimension]);
     variables[variable.name] = file.variable(variable.name, variable.type, shape, variable.units);
 }
@@ -110,11 +120,35 @@ void TrajectoryWriter::Impl::write_pose(const Frame& frame) {
     for (const double* number : {&frame.time, &frame.cycles, &frame.phase, &step}) put(number, 1);
     put(&count, 1);
     const Vec3 angles(90, 90, 90);
-    for (const Vec3& vector : {frame.wall_offset, frame.wall_velocity, frame.floor_offset,
-                               frame.floor_velocity, info.cell_origin, info.periodic_length, angles})
+    for (const Vec3& vector : {frame.container().place, frame.container().velocity, frame.floor().place,
+                               frame.floor().velocity, info.cell_origin, info.periodic_length, angles})
         put(vector.data(), 3);
     GRAINREEL_CHECK(variable == frame_variables.end());
+    if (!info.planes.empty()) write_bodies(frame, sum);
     write_sum(frame_checksum, sum);
+}
+
+void TrajectoryWriter::Impl::write_bodies(const Frame& frame, Checksum& sum) {
+    const std::size_t count = info.planes.size();
+    const TrajectoryVariable* variable = body_variables.data();
+    const auto put = [&](std::size_t width, const auto& of) {
+        std::vector<double> rows;
+        for (std::size_t b = kFirstPlaneBody; b < frame.bodies.size(); ++b) {
+            const auto& numbers = of(frame.bodies[b]);
+            rows.insert(rows.end(), numbers.data(), numbers.data() + width);
+        }
+        file.put(variables[variable->name], {frames, 0, 0}, {1, count, width}, rows.data());
+        sum.add(rows.data(), rows.size());
+        ++variable;
+    };
+    put(
+        3, [](const BodyPose& pose) -> const auto& { return pose.place; });
+    put(
+        4, [](const BodyPose& pose) -> const auto& { return pose.rotation.coeffs(); });
+    put(
+        3, [](const BodyPose& pose) -> const auto& { return pose.velocity; });
+    put(
+        3, [](const BodyPose& pose) -> const auto& { return pose.spin; });
 }
 
 // of(grain, component) gives the values; places without a grain get `fill`.
@@ -167,6 +201,7 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::write(const Frame& frame) {
     GRAINREEL_CHECK(!impl_->info.orientation || frame.orientation.size() == frame.size());
+    GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.planes.size());
     if (frame.size() > impl_->info.capacity) {
         throw RunError(
             fmt::format("{}: a frame of {} grains in a file with places for {}; give TrajectoryInfo a "

@@ -48,6 +48,7 @@ struct Simulation::Impl {
           plan(p),
           team(threads > 0 ? threads : usable_processors()),
           around(make_surroundings(s, p)),
+          bodies(bodies_of(s.drive, s.walls)),
           limits(health_limits(s, p)) {
         if (scene.start.method != Start::Method::layers) take_grains();
     }
@@ -56,6 +57,7 @@ struct Simulation::Impl {
     Plan plan;
     Team team;
     Surroundings around;
+    std::vector<Body> bodies;
     Grains grains;
     std::unique_ptr<StepLoop> loop;
     std::int64_t step = 0;
@@ -212,13 +214,7 @@ Frame Simulation::frame() const {
     f.time = m.plan.clock.time(m.step);
     f.cycles = m.plan.clock.cycles(m.step);
     f.phase = m.plan.clock.phase(m.step);
-    const Pose pose = m.around.motion.at(m.step);
-    f.floor_offset = pose.offset;
-    f.floor_velocity = pose.velocity;
-    if (m.scene.drive.moves == Drive::Moves::container) {
-        f.wall_offset = pose.offset;
-        f.wall_velocity = pose.velocity;
-    }
+    f.bodies = poses_of(m.bodies, m.around.motion.at(m.step));
     const Grains& g = m.grains;
     std::vector<std::int32_t> by_id(g.size());
     std::iota(by_id.begin(), by_id.end(), 0);

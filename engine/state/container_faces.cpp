@@ -44,18 +44,17 @@ std::vector<Face> container_faces(const Container& container, const Drive& drive
     faces.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
     add_side_walls(container, faces);
     if (container.lid) faces.push_back(plane("lid", {0, 0, container.height}, {0, 0, -1}));
-    for (Face& face : faces) {
-        face.moves = drive.present && (drive.moves == Drive::Moves::container || face.name == "floor");
-    }
+    const std::vector<Body> bodies = bodies_of(drive, {});
+    for (Face& face : faces) face.body = bodies[face.name == "floor" ? kFloorBody : kContainerBody];
     return faces;
 }
 
 std::vector<Face> free_faces(const std::vector<FreeWall>& walls) {
     std::vector<Face> faces;
-    for (const FreeWall& wall : walls) {
-        faces.push_back(plane(wall.name, wall.point, wall.normal));
-        faces.back().moves = wall.moves;
-        faces.back().velocity = wall.velocity;
+    const std::vector<Body> bodies = bodies_of({}, walls);
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+        faces.push_back(plane(walls[w].name, walls[w].point, walls[w].normal));
+        faces.back().body = bodies[kFirstPlaneBody + w];
     }
     return faces;
 }

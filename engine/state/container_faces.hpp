@@ -7,30 +7,21 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/body.hpp"
 
 namespace grainreel {
-
-// Where what the drive moves is: its displacement from rest and its velocity, both at the same time level.
-struct Pose {
-    Vec3 offset{0, 0, 0};    // m
-    Vec3 velocity{0, 0, 0};  // m/s
-    double time = 0;         // s, since the start of the motion
-};
 
 struct Face {
     enum class Kind { plane, cylinder };
     Kind kind = Kind::plane;
-    std::string name;        // "floor", "left slant", ... for messages
-    Vec3 point{0, 0, 0};     // m, on the plane; on the axis of a cylinder (vertical)
-    Vec3 normal{0, 0, 1};    // unit, into the container; unused by a cylinder
-    double radius = 0;       // m, of a cylinder
-    bool moves = false;      // follows the drive
-    Vec3 velocity{0, 0, 0};  // m/s, steady, on top of it
+    std::string name;      // "floor", "left slant", ... for messages
+    Vec3 point{0, 0, 0};   // m, on the plane; on the axis of a cylinder (vertical)
+    Vec3 normal{0, 0, 1};  // unit, into the container; unused by a cylinder
+    double radius = 0;     // m, of a cylinder
+    Body body;             // that it belongs to
 
-    Vec3 displacement(const Pose& pose) const {
-        return (moves ? pose.offset : Vec3(0, 0, 0)) + pose.time * velocity;
-    }
-    Vec3 velocity_at(const Pose& pose) const { return (moves ? pose.velocity : Vec3(0, 0, 0)) + velocity; }
+    Vec3 displacement(const Pose& drive) const { return body.place_at(drive); }
+    Vec3 velocity_at(const Pose& drive) const { return body.velocity_at(drive); }
 };
 
 struct FaceDistance {
@@ -47,8 +38,8 @@ inline FaceDistance distance_to(const Face& face, const Vec3& offset, const Vec3
     return {face.radius - out, Vec3(-from.x() / out, -from.y() / out, 0)};
 }
 
-// The faces of a scene's container at rest; `moves` follows the scene's drive. Front and back are left out
-// when the depth is periodic, the lid when the top is open (the walls then go on upwards without end).
+// The faces of a scene's container at rest; their bodies follow the scene's drive. Front and back are left
+// out when the depth is periodic, the lid when the top is open (the walls then go on upwards without end).
 std::vector<Face> container_faces(const Container& container, const Drive& drive);
 
 // The scene's own planes, [[wall]].

@@ -124,7 +124,10 @@ void FinishedRun::read_moments() {
                         name, trajectory_.frames(), trajectory_.uncounted()));
     places_.resize(trajectory_.frames());
     std::iota(places_.begin(), places_.end(), std::size_t{0});
-    keep_those([&](std::size_t place) { moments_.push_back(trajectory_.read_moment(place)); });
+    keep_those([&](std::size_t place) {
+        moments_.push_back(trajectory_.read_moment(place));
+        add_planes(scene_.walls, moments_.back().time, moments_.back().bodies);
+    });
 }
 
 void FinishedRun::leave_out_damaged() {
@@ -266,7 +269,9 @@ void FinishedRun::read_measures_of_run() {
 }
 
 Frame FinishedRun::grains(std::size_t index) const {
-    return trajectory_.read(places_.at(index));
+    Frame frame = trajectory_.read(places_.at(index));
+    add_planes(scene_.walls, frame.time, frame.bodies);
+    return frame;
 }
 
 std::optional<std::size_t> FinishedRun::before_these_periods(std::size_t index) const {

@@ -20,6 +20,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains) {
     info.program_version = build_info::version;
     info.species = species_names(scene);
     info.capacity = grains;
+    for (const FreeWall& wall : scene.walls) info.planes.push_back(wall.name);
     info.orientation = scene.keeps_orientations();
     info.cell_origin = extent_of(scene).low;
     if (scene.container.periodic_depth) info.periodic_length.x() = scene.container.depth;

@@ -18,10 +18,10 @@ inline Frame made_frame(int grains, int number, bool orientation = false) {
     f.time = number / 3.0;
     f.cycles = number / 7.0;
     f.phase = f.cycles - std::floor(f.cycles);
-    f.wall_offset = vector_of(number + 0.1);
-    f.wall_velocity = vector_of(number + 0.2);
-    f.floor_offset = vector_of(number + 0.3);
-    f.floor_velocity = vector_of(number + 0.4);
+    f.container().place = vector_of(number + 0.1);
+    f.container().velocity = vector_of(number + 0.2);
+    f.floor().place = vector_of(number + 0.3);
+    f.floor().velocity = vector_of(number + 0.4);
     for (int i = 0; i < grains; ++i) {
         f.id.push_back(2 * i + 1);  // ids need not be dense
         f.species.push_back(i % 3);

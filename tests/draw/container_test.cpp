@@ -55,7 +55,7 @@ TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
             const Vec3 offset = scene.drive.amplitude * std::sin(2 * pi * phase) * scene.drive.direction;
             Frame frame = frame_of({});
             frame.phase = phase;
-            frame.wall_offset = frame.floor_offset = offset;
+            frame.container().place = frame.floor().place = offset;
             const Picture& picture = renderer.draw(frame, "");
             const Vec3 drawn = exaggerate * offset;
             EXPECT_NEAR(floor_edge(picture, view.port),
@@ -66,6 +66,28 @@ TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
     }
 }
 
+// A plane is drawn where the frame says that its body is, whatever its velocity would make of the time.
+TEST(ContainerPicture, APlaneIsWhereItsBodyIs) {
+    Scene scene = level_box();
+    FreeWall plane;
+    plane.point = Vec3(0, 0, 0.03);
+    plane.normal = Vec3(0, 0.5, 1).normalized();
+    plane.velocity = Vec3(0, 0, 0.5);
+    scene.walls = {plane};
+    Frame frame = frame_of({});
+    frame.time = 0.1;
+    frame.bodies.resize(kFirstPlaneBody + 1);
+    frame.bodies.back().place = Vec3(0, 0, 0.01);
+    Scene higher = scene;
+    higher.walls[0].point += frame.bodies.back().place;
+    Frame at_rest = frame;
+    at_rest.bodies.back() = {};
+    Renderer one(scene, 1), other(higher, 1);
+    const Picture moved = one.draw(frame, ""), rests = one.draw(at_rest, "");
+    EXPECT_EQ(moved.rgba, other.draw(at_rest, "").rgba);
+    EXPECT_NE(moved.rgba, rests.rgba);
+}
+
 // Seen from the container, an exaggerated grain is where it is.
 TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
     Scene scene = level_box();
@@ -73,9 +95,9 @@ TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
     const View view = view_of(scene);
     const Vec3 offset(0, 0, 0.006), resting(0, 0.01, 0.02);
     Frame frame = frame_of({{resting + offset, 0.012, 1}});
-    frame.wall_offset = frame.floor_offset = offset;
+    frame.container().place = frame.floor().place = offset;
     Frame empty = frame_of({});
-    empty.wall_offset = empty.floor_offset = offset;
+    empty.container().place = empty.floor().place = offset;
     Renderer renderer(scene, 1);
     const Picture without = renderer.draw(empty, "");
     const Extent seen = changed(without, renderer.draw(frame, ""), view.port, 60);
@@ -114,7 +136,7 @@ TEST(ContainerPicture, TheGhostRests) {
         }
         for (const double offset : {-0.006, 0.004, 0.006}) {
             Frame frame = frame_of({});
-            frame.wall_offset = frame.floor_offset = {0, 0, offset};
+            frame.container().place = frame.floor().place = {0, 0, offset};
             const Picture without = one.draw(frame, "");
             const test::Extent seen = changed(without, other.draw(frame, ""), view.port, 12);
             EXPECT_GT(seen.count, 200);
@@ -142,7 +164,7 @@ Scene seen_from_lid_height(Container::Shape shape, double above) {
 
 Frame moved_to(double height, const std::vector<Ball>& balls) {
     Frame frame = frame_of(balls);
-    frame.wall_offset = frame.floor_offset = {0, 0, height};
+    frame.container().place = frame.floor().place = {0, 0, height};
     return frame;
 }
 
@@ -190,7 +212,7 @@ TEST(ContainerPicture, AFloorThatMovesAloneLeavesTheLid) {
     Renderer renderer(scene, 1);
     Frame frame = frame_of({});
     const Picture rest = renderer.draw(frame, "");
-    frame.floor_offset = {0, 0, -0.006};
+    frame.floor().place = {0, 0, -0.006};
     const Picture& lowered = renderer.draw(frame, "");
     EXPECT_EQ(lid_edge(rest, view.port), lid_edge(lowered, view.port));
     EXPECT_NEAR(floor_edge(lowered, view.port) - floor_edge(rest, view.port),
@@ -204,7 +226,7 @@ TEST(ContainerPicture, FollowingHoldsTheContainerStill) {
     Renderer renderer(scene, 1);
     Frame frame = frame_of({});
     const double rest = lid_edge(renderer.draw(frame, ""), view.port);
-    frame.wall_offset = frame.floor_offset = {0, 0, 0.006};
+    frame.container().place = frame.floor().place = {0, 0, 0.006};
     EXPECT_EQ(lid_edge(renderer.draw(frame, ""), view.port), rest);
 }
 

@@ -104,7 +104,7 @@ TEST(Context, ARendererThatGoesTakesNothingFromTheOneInUse) {
     Renderer one(wedge(), 1, Provider::osmesa), other(wedge(), 1, Provider::osmesa);
     gone->draw(heap(), "");
     Frame moved = heap();
-    moved.wall_offset = {0, 0, 0.03};
+    moved.container().place = {0, 0, 0.03};
     const Picture expected = other.draw(moved, "");
     one.draw(heap(), "");
     gone.reset();

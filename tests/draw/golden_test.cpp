@@ -104,7 +104,7 @@ Frame bed() {
     frame.time = 0.8125;
     frame.cycles = 16.25;
     frame.phase = 0.25;
-    frame.wall_offset = frame.floor_offset = {0, 0, 0.002};
+    frame.container().place = frame.floor().place = {0, 0, 0.002};
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Vec3& at = frame.position[i];
         frame.velocity[i] = 4 * Vec3(0, -(at.z() - 0.05), at.y());  // a roll

@@ -69,8 +69,8 @@ TEST(Pictures, WhatMovesLeavesNothingBehind) {
     for (const double offset : {0.0, 0.03, 0.03, -0.01, 0.0})
         for (const Frame* grains : {&full, &empty}) {
             frames.push_back(*grains);
-            frames.back().wall_offset = {0, 0, offset};
-            frames.back().floor_offset = {0, 0.5 * offset, 0.2 * offset};
+            frames.back().container().place = {0, 0, offset};
+            frames.back().floor().place = {0, 0.5 * offset, 0.2 * offset};
         }
     std::vector<Picture> alone;
     for (const Frame& frame : frames) alone.push_back(Renderer(scene, 1).draw(frame, ""));
@@ -433,7 +433,7 @@ TEST(Overlay, TheDialShowsWhereTheFloorIs) {
     const auto row = [&](double phase, double offset) {
         Frame frame = frame_of({});
         frame.phase = phase;
-        frame.floor_offset = offset * scene.drive.direction;
+        frame.floor().place = offset * scene.drive.direction;
         return floor_dot_row(scene, Renderer(scene, 1).draw(frame, ""));
     };
     scene.drive.ramp = 2;

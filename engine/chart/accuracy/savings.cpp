@@ -54,7 +54,7 @@ void shake(Bench& bench) {
     bench.plan.clock.steps_per_period = 50000000;
     bench.around.motion = WallMotion(drive, bench.plan.clock);
     bench.plan.moving_walls = true;
-    for (Face& face : bench.around.faces) face.moves = true;
+    for (Face& face : bench.around.faces) face.body.driven = true;
 }
 
 // Every second grain is of another species, with contacts of its own.

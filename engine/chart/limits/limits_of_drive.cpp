@@ -23,7 +23,7 @@ std::unique_ptr<Bench> on_a_plate(const PairPlan& pair, int steps_a_period, doub
     drive.amplitude = g_level * gravity / std::pow(2 * pi * frequency, 2);
     drive.ramp = ramp;
     bench.add_floor();
-    bench.around.faces[0].moves = true;
+    bench.around.faces[0].body.driven = true;
     bench.around.motion = WallMotion(drive, bench.plan.clock);
     bench.around.gravity = {0, 0, -gravity};
     return whole;

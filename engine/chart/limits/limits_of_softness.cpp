@@ -35,7 +35,7 @@ double measured_gain(int count, double omega) {
     drive.amplitude = 0.02 * gravity / (omega * omega);
     drive.ramp = ramp;
     bench.add_floor();
-    bench.around.faces[0].moves = true;
+    bench.around.faces[0].body.driven = true;
     bench.around.motion = WallMotion(drive, bench.plan.clock);
     bench.around.gravity = {0, 0, -gravity};
     double z = -bench_radius;
@@ -110,7 +110,7 @@ double rebound_measured(double natural, double omega, double phase) {
     drive.phase = bench.plan.clock.initial_phase;
     drive.ramp = 0;
     bench.add_floor();
-    bench.around.faces[0].moves = true;
+    bench.around.faces[0].body.driven = true;
     bench.around.motion = WallMotion(drive, bench.plan.clock);
     bench.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -speed));
     bench.start();

@@ -115,7 +115,7 @@ double share_listed(double way, int steps) {
     for (int k = 0; k < 300; ++k)
         bench.add(anywhere(half), anywhere(speed), {k % 5 == 0 ? bench_radius : 0.4 * bench_radius});
     bench.add_plane(Vec3(0, 0, -half), Vec3(0, 0, 1));
-    bench.around.faces[0].velocity = {0, 0, speed};
+    bench.around.faces[0].body.velocity = {0, 0, speed};
     bench.start();
     double least = 1;
     for (int k = 0; k < steps; ++k) {

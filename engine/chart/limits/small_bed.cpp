@@ -70,7 +70,7 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const double share = 1 / static_cast<double>(frame.size());
             result.temperature += share * (frame.velocity[i] - mean).squaredNorm() / 3;
-            result.height += share * (frame.position[i].z() - frame.floor_offset.z());
+            result.height += share * (frame.position[i].z() - frame.floor().place.z());
         }
         result.contacts += simulation.measures().contact_number;
         ++looks;

@@ -115,7 +115,7 @@ SiloLoad load_of(const SiloColumn& column) {
     bench.grains = crowd(cylinder, grains, column.seed);
     for (Motion& m : bench.grains.motion) m.velocity.setZero();
     const double speed = sinking * std::sqrt(gravity * diameter);
-    bench.around.faces[0].velocity = Vec3(0, 0, -speed);
+    bench.around.faces[0].body.velocity = Vec3(0, 0, -speed);
     bench.around.motion = WallMotion(Drive(), bench.plan.clock);
     bench.around.gravity = Vec3(0, 0, -gravity);
     bench.start();

@@ -16,9 +16,8 @@ class Exaggeration {
     const Frame& shown(const Frame& frame) {
         if (factor_ == 1) return frame;
         shown_ = frame;
-        for (Vec3& position : shown_.position) position += (factor_ - 1) * frame.wall_offset;
-        shown_.wall_offset *= factor_;
-        shown_.floor_offset *= factor_;
+        for (Vec3& position : shown_.position) position += (factor_ - 1) * frame.container().place;
+        for (BodyPose& body : shown_.bodies) body.place *= factor_;
         return shown_;
     }
 

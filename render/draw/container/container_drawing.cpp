@@ -44,16 +44,16 @@ void draw_container(const Scene& scene, const Views& views, const Frame& frame, 
     shapes.behind.clear();
     shapes.before.clear();
     shapes.over.clear();
-    const Sketches sketches{{views, palette, picture_height, frame.wall_offset},
-                            {views, palette, picture_height, frame.floor_offset},
+    const Sketches sketches{{views, palette, picture_height, frame.container().place},
+                            {views, palette, picture_height, frame.floor().place},
                             {views, palette, picture_height, Vec3(0, 0, 0)}};
     if (scene.container.shape == Container::Shape::cylinder)
         draw_cylinder(scene.container, sketches, shapes);
     else if (scene.container.shape != Container::Shape::none)
         draw_prism(scene.container, sketches, shapes);
-    for (const FreeWall& wall : scene.walls) {  // inside, so over the container's far walls
-        const Vec3 offset = (wall.moves ? frame.floor_offset : Vec3(0, 0, 0)) + frame.time * wall.velocity;
-        draw_free_wall(wall, scene, {views, palette, picture_height, offset}, shapes);
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {  // inside, so over the container's far walls
+        const Vec3 offset = frame.body(kFirstPlaneBody + w).place;
+        draw_free_wall(scene.walls[w], scene, {views, palette, picture_height, offset}, shapes);
     }
     draw_lab_marks(scene, sketches, azimuth_of(views.at_rest), shapes.behind);
     if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.over);

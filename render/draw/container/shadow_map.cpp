@@ -61,7 +61,7 @@ void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
     const bool round = container_.shape == Container::Shape::cylinder;
     const double half_depth = round ? half : 0.5 * container_.depth;
     for (const double z : {low_plate_, 0.5 * low_plate_, 0.0}) {
-        const Eigen::Vector2d at = fall(Vec3(0, 0, z) + frame.floor_offset, to_key);
+        const Eigen::Vector2d at = fall(Vec3(0, 0, z) + frame.floor().place, to_key);
         for (int j = 0; j < kSide; ++j)
             for (int i = 0; i < kSide; ++i) {
                 const double x = (i + 0.5 - at.x()) * cell, y = (j + 0.5 - at.y()) * cell;

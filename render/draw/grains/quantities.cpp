@@ -27,7 +27,7 @@ void Quantities::start_from(const Frame& frame) {
     if (by_ != GrainValue::start_height) return;
     start_id_ = frame.id;
     start_height_.clear();
-    for (const Vec3& position : frame.position) start_height_.push_back((position - frame.floor_offset).z());
+    for (const Vec3& position : frame.position) start_height_.push_back((position - frame.floor().place).z());
 }
 
 double Quantities::start_height_of(std::int32_t id) const {

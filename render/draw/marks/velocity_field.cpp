@@ -24,7 +24,7 @@ std::vector<FieldCell> velocity_field(const Scene& scene, const Frame& frame) {
     std::vector<FieldCell> cells(static_cast<std::size_t>(across) * upward);
     std::vector<double> mass(cells.size(), 0);
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        const Vec3 at = frame.position[i] - frame.wall_offset - extent.low;
+        const Vec3 at = frame.position[i] - frame.container().place - extent.low;
         const int column = static_cast<int>(std::floor(at.y() / side)),
                   row = static_cast<int>(std::floor(at.z() / side));
         if (column < 0 || column >= across || row < 0 || row >= upward) continue;
@@ -44,7 +44,7 @@ std::vector<FieldCell> velocity_field(const Scene& scene, const Frame& frame) {
         cell.velocity /= mass[c];
         cell.centre_of_mass /= mass[c];
         const auto column = static_cast<double>(c % across), row = static_cast<double>(c / across);
-        cell.middle = extent.low + frame.wall_offset;
+        cell.middle = extent.low + frame.container().place;
         cell.middle += Vec3(0.5 * extent.size().x(), (column + 0.5) * side, (row + 0.5) * side);
         filled.push_back(cell);
     }

@@ -14,7 +14,7 @@ namespace {
 double share_of_stroke(const Drive& drive, const Frame& frame) {
     if (drive.amplitude <= 0) return 0;
     const double middle = drive.ramp > 0 ? 0 : -std::sin(2 * std::numbers::pi * drive.phase);
-    return frame.floor_offset.dot(drive.direction) / drive.amplitude - middle;
+    return frame.floor().place.dot(drive.direction) / drive.amplitude - middle;
 }
 
 // Pixels from the dial's upper left corner. Of a drive that goes up and down the bar stands at the right, of

@@ -132,7 +132,7 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
         });
     // The hand is drawn where the drive is; before the drive there is none.
     const double angle = frame.time < 0 ? -1 : frame.phase;
-    const double stroke = frame.floor_offset.dot(scene_.drive.direction);
+    const double stroke = frame.floor().place.dot(scene_.drive.direction);
     if (plan_.has_dial && (!written_ || angle != angle_ || stroke != stroke_))
         renew(picture, plan_.dial_part, [&](cairo_t* on) {
             dial_block({on, type_, palette_}, scene_.drive, &frame, plan_.radius, plan_.dial.x, plan_.dial.y,

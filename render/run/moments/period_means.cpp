@@ -35,8 +35,7 @@ std::vector<std::int64_t> PeriodMeans::steps_of(const Shot& shot, int periods) c
 }
 
 void PeriodMeans::keep(const Frame& frame) {
-    if (moments_.wants(frame.step))
-        moments_.keep(frame.step, {frame.position, frame.wall_offset, frame.floor_offset});
+    if (moments_.wants(frame.step)) moments_.keep(frame.step, {frame.position, frame.bodies});
 }
 
 void PeriodMeans::fill(Frame& frame, int periods) {
@@ -54,16 +53,15 @@ void PeriodMeans::leave_out(std::int64_t step) {
 // Leaves the frame as it is when grains have come or gone.
 void PeriodMeans::average(Frame& frame, const std::vector<std::int64_t>& steps) const {
     // The first of the steps closes the span; the mean is over the others.
-    const Moment now{frame.position, frame.wall_offset, frame.floor_offset};
+    const Moment now{frame.position, frame.bodies};
     std::vector<Vec3> ways(frame.size(), Vec3::Zero());
-    Vec3 wall = Vec3::Zero(), floor = Vec3::Zero();
+    std::vector<Vec3> places(now.bodies.size(), Vec3::Zero());
     for (std::size_t k = 1; k < steps.size(); ++k) {
         const Moment* then = moments_.at(std::max(steps[k], first_));
         if (!then || then->position.size() != frame.size()) return;
         for (std::size_t i = 0; i < ways.size(); ++i)
             ways[i] += way(now.position[i], then->position[i], depth_);
-        wall += then->wall;
-        floor += then->floor;
+        for (std::size_t b = 0; b < places.size(); ++b) places[b] += then->bodies[b].place;
     }
     const Moment* before = moments_.at(std::max(steps.front(), first_));
     if (!before || before->position.size() != frame.size()) return;
@@ -74,10 +72,10 @@ void PeriodMeans::average(Frame& frame, const std::vector<std::int64_t>& steps) 
         frame.position[i].x() = nearest_image(frame.position[i].x(), depth_);
         frame.velocity[i] = way(before->position[i], now.position[i], depth_) / span;
     }
-    frame.wall_offset = share * wall;
-    frame.floor_offset = share * floor;
-    frame.wall_velocity = (now.wall - before->wall) / span;
-    frame.floor_velocity = (now.floor - before->floor) / span;
+    for (std::size_t b = 0; b < places.size(); ++b) {
+        frame.bodies[b].place = share * places[b];
+        frame.bodies[b].velocity = (now.bodies[b].place - before->bodies[b].place) / span;
+    }
 }
 
 }  // namespace grainreel

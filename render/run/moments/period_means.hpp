@@ -27,7 +27,7 @@ class PeriodMeans {
     // Copies them, when the step is one of those.
     void keep(const Frame& frame);
     // Positions become means over the periods up to the frame, a multiple of `periods`, velocities how far
-    // that time has moved things, of grains, walls and floor. Forgets what no later picture wants.
+    // that time has moved things, of grains and bodies. Forgets what no later picture wants.
     void fill(Frame& frame, int periods);
     // The picture at that step is not taken.
     void leave_out(std::int64_t step);
@@ -35,7 +35,7 @@ class PeriodMeans {
   private:
     struct Moment {
         std::vector<Vec3> position;
-        Vec3 wall{0, 0, 0}, floor{0, 0, 0};
+        std::vector<BodyPose> bodies;
     };
     std::vector<std::int64_t> steps_of(const Shot& shot, int periods) const;
     void average(Frame& frame, const std::vector<std::int64_t>& steps) const;

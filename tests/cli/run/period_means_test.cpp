@@ -25,7 +25,7 @@ Frame frame_at(std::int64_t step, const Vec3& position, const Vec3& wall = Vec3:
     frame.id = {0};
     frame.position = {position};
     frame.velocity = {Vec3(9, 9, 9)};
-    frame.wall_offset = frame.floor_offset = wall;
+    frame.container().place = frame.floor().place = wall;
     return frame;
 }
 
@@ -48,8 +48,8 @@ TEST(PeriodMeans, LeaveTheDriftAlone) {
     const Vec3 expected = drift * (kClock.time(kShot) - 0.5 * 47 * 50 * kClock.step);
     EXPECT_LT((now.position[0] - expected).norm(), 1e-15);
     EXPECT_LT((now.velocity[0] - drift).norm(), 1e-13);
-    EXPECT_LT(now.wall_offset.norm(), 1e-15);
-    EXPECT_LT(now.wall_velocity.norm(), 1e-13);
+    EXPECT_LT(now.container().place.norm(), 1e-15);
+    EXPECT_LT(now.container().velocity.norm(), 1e-13);
 }
 
 // A bed that repeats itself every second period: means of one period become means of two.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <netcdf.h>
 
+#include <cmath>
 #include <thread>
 
 #include "engine/base/error.hpp"
@@ -45,10 +46,7 @@ void expect_same(const Frame& got, const Frame& wanted) {
     EXPECT_EQ(got.time, wanted.time);
     EXPECT_EQ(got.cycles, wanted.cycles);
     EXPECT_EQ(got.phase, wanted.phase);
-    EXPECT_EQ(got.wall_offset, wanted.wall_offset);
-    EXPECT_EQ(got.wall_velocity, wanted.wall_velocity);
-    EXPECT_EQ(got.floor_offset, wanted.floor_offset);
-    EXPECT_EQ(got.floor_velocity, wanted.floor_velocity);
+    EXPECT_EQ(got.bodies, wanted.bodies);
     EXPECT_EQ(got.id, wanted.id);
     EXPECT_EQ(got.species, wanted.species);
     EXPECT_EQ(got.radius, wanted.radius);
@@ -79,6 +77,38 @@ TEST(Trajectory, ReadsBackWhatWasWritten) {
     EXPECT_EQ(reader.info().cell_origin, made_info(5).cell_origin);
     EXPECT_EQ(reader.info().periodic_length, made_info(5).periodic_length);
     for (std::size_t i = 0; i < 3; ++i) expect_same(reader.read(i), made_frame(5, static_cast<int>(i), true));
+}
+
+// Container and floor have variables of their own; what further bodies there are has a dimension.
+TEST(Trajectory, SaysWhereAllBodiesAre) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(2);
+    info.planes = {"paddle", "sieve"};
+    Frame frame = made_frame(2, 1);
+    for (const double seed : {5.1, 6.2})
+        frame.bodies.push_back({vector_of(seed), Quaternion(seed, 1, -2, 0.3).normalized(),
+                                vector_of(2 * seed), vector_of(3 * seed)});
+    TrajectoryWriter(here / "t.nc", info).write(frame);
+    const TrajectoryReader reader(here / "t.nc");
+    EXPECT_EQ(reader.info().planes, info.planes);
+    expect_same(reader.read(0), frame);
+    EXPECT_EQ(reader.read_moment(0).bodies, frame.bodies);
+}
+
+TEST(Trajectory, ABodyThatNoRunHasIsDamage) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(2);
+    info.planes = {"paddle"};
+    const auto writes = [&](const BodyPose& pose) {
+        Frame frame = made_frame(2, 1);
+        frame.bodies.push_back(pose);
+        TrajectoryWriter(here / "t.nc", info).write(frame);
+        return TrajectoryReader(here / "t.nc");
+    };
+    EXPECT_NO_THROW(writes({}).read(0));
+    EXPECT_THROW(writes({Vec3(0, NAN, 0), {1, 0, 0, 0}, {0, 0, 0}, {0, 0, 0}}).read(0), DamagedFrame);
+    EXPECT_THROW(writes({Vec3(0, 0, 0), {0.9, 0, 0, 0}, {0, 0, 0}, {0, 0, 0}}).read(0), DamagedFrame);
+    EXPECT_THROW(writes({Vec3(0, 0, 0), {1, 0, 0, 0}, {0, 0, 0}, {0, INFINITY, 0}}).read(0), DamagedFrame);
 }
 
 TEST(Trajectory, GrainsMayComeAndGo) {
@@ -255,7 +285,7 @@ TEST(Trajectory, AMomentIsAFrameWithoutGrains) {
     EXPECT_EQ(moment.step, wanted.step);
     EXPECT_EQ(moment.time, wanted.time);
     EXPECT_EQ(moment.phase, wanted.phase);
-    EXPECT_EQ(moment.wall_offset, wanted.wall_offset);
+    EXPECT_EQ(moment.container().place, wanted.container().place);
     EXPECT_EQ(moment.size(), 0u);
 }
 

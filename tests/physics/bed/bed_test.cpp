@@ -202,8 +202,8 @@ Bodies pushed_bodies(const Scene& scene, const Plan& plan, const Frame& f) {
                 bodies.insert({f.id[i], f.id[j]});
         }
         for (std::size_t k = 0; k < faces.size(); ++k) {
-            const FaceDistance at = distance_to(faces[k], f.wall_offset, f.position[i]);
-            const double closing = at.normal.dot(f.wall_velocity - f.velocity[i]);
+            const FaceDistance at = distance_to(faces[k], f.container().place, f.position[i]);
+            const double closing = at.normal.dot(f.container().velocity - f.velocity[i]);
             if (push(plan.wall[f.species[i]], f.radius[i] - at.distance, closing, mass(i)))
                 bodies.insert({f.id[i], -1 - static_cast<std::int32_t>(k)});
         }

@@ -53,7 +53,7 @@ struct Watched {
     // W, of the walls on the grains now: force on the grain times the wall's velocity.
     double wall_power() const {
         const std::vector<Face> faces = container_faces(scene.container, scene.drive);
-        const Vec3 velocity = simulation.frame().wall_velocity;
+        const Vec3 velocity = simulation.frame().container().velocity;
         double sum = 0;
         for (const auto& c : simulation.contacts())
             if (c.second < 0) sum += (c.normal * faces[-1 - c.second].normal - c.tangential).dot(velocity);
@@ -93,7 +93,7 @@ std::pair<double, double> springs(const Watched& w, const Frame& f) {
             add(f.radius[i] + f.radius[j] - (f.position[i] - f.position[j]).norm(),
                 std::min(f.radius[i], f.radius[j]), w.plan.grain[f.species[i] * kinds + f.species[j]]);
         for (const Face& face : container_faces(w.scene.container, w.scene.drive))
-            add(f.radius[i] - distance_to(face, f.wall_offset, f.position[i]).distance, f.radius[i],
+            add(f.radius[i] - distance_to(face, f.container().place, f.position[i]).distance, f.radius[i],
                 w.plan.wall[f.species[i]]);
     }
     return {energy, largest};
@@ -121,13 +121,13 @@ void expect_grains(const Watched& w, const Frame& f, const Measures& m) {
     EXPECT_LT((m.centre_of_mass - centre / mass).norm(), 1e-12);
     for (std::size_t s = 0; s < 2; ++s) {
         EXPECT_LT((m.species_centre[s] - centres[s] / counts[s]).norm(), 1e-12) << s;
-        EXPECT_NEAR(m.species_height[s], centres[s].z() / counts[s] - f.floor_offset.z(), 1e-12) << s;
+        EXPECT_NEAR(m.species_height[s], centres[s].z() / counts[s] - f.floor().place.z(), 1e-12) << s;
     }
 }
 
 void expect_order(const Frame& f, const Measures& m) {
     std::vector<double> heights;
-    for (const Vec3& x : f.position) heights.push_back(x.z() - f.floor_offset.z());
+    for (const Vec3& x : f.position) heights.push_back(x.z() - f.floor().place.z());
     std::vector<double> sorted = heights;
     std::sort(sorted.begin(), sorted.end());
     const double bed = sorted[static_cast<std::size_t>(0.95 * static_cast<double>(f.size() - 1))];
@@ -158,8 +158,8 @@ TEST(MeasuresOfARun, AreThoseOfFrameAndContacts) {
         EXPECT_EQ(m.time, f.time);
         EXPECT_EQ(m.phase, f.phase);
         EXPECT_EQ(m.cycles, f.cycles);
-        EXPECT_NE(f.floor_offset.z(), 0);
-        EXPECT_EQ(m.floor_position, f.floor_offset.z());
+        EXPECT_NE(f.floor().place.z(), 0);
+        EXPECT_EQ(m.floor_position, f.floor().place.z());
         expect_grains(w, f, m);
         expect_order(f, m);
         const auto [elastic, largest_overlap] = springs(w, f);

@@ -27,7 +27,7 @@ World plate(double g_level, double phase, double ramp, double longest, NormalFor
     w.plan.clock.steps_per_period = steps;
     w.plan.clock.initial_phase = phase;
     w.around.faces = {floor_face()};
-    w.around.faces[0].moves = true;
+    w.around.faces[0].body.driven = true;
     w.around.motion = WallMotion(drive, w.plan.clock);
     w.around.gravity = {0, 0, -kGravity};
     return w;

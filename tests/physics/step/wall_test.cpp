@@ -135,7 +135,7 @@ TEST(Drive, DragsARollingBallByTwoSeventhsOfItsMotion) {
     World w = make_world(walton_braun_pair(0.9, 0.8), 1 / (drive.frequency * 20000));
     w.plan.clock.steps_per_period = 20000;
     w.around.faces = {floor_face()};
-    w.around.faces[0].moves = true;
+    w.around.faces[0].body.driven = true;
     w.around.motion = WallMotion(drive, w.plan.clock);
     w.around.gravity = {0, 0, -9.81};
     const double sink = sphere_mass() * 9.81 / kStiffness;
@@ -183,11 +183,57 @@ TEST(Drive, FollowsItsSineAndItsVelocityIsItsDerivative) {
     EXPECT_LT(std::abs(WallMotion(drive, clock).at(80).velocity.z()), bound);
 }
 
+// The formulas: those of the drive for what follows it, and v t for a plane's own velocity.
+TEST(Bodies, AreWhereTheirFacesAre) {
+    FreeWall still, sliding, shaken;
+    sliding.velocity = Vec3(0, 0.3, -0.1);
+    shaken.moves = true;
+    const std::vector<FreeWall> planes{still, sliding, shaken};
+    const Pose stroke{Vec3(0, 0, 0.002), Vec3(0, 0, -0.7), 0.25};
+    for (const auto moves : {Drive::Moves::container, Drive::Moves::floor}) {
+        Drive drive;
+        drive.present = true;
+        drive.moves = moves;
+        const std::vector<Body> bodies = bodies_of(drive, planes);
+        const std::vector<BodyPose> poses = poses_of(bodies, stroke);
+        ASSERT_EQ(poses.size(), kFirstPlaneBody + 3u);
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+            EXPECT_EQ(bodies[b].number, static_cast<std::int32_t>(b));
+        const Vec3 none(0, 0, 0);
+        const bool all = moves == Drive::Moves::container;
+        EXPECT_EQ(poses[kContainerBody].place, all ? stroke.offset : none);
+        EXPECT_EQ(poses[kContainerBody].velocity, all ? stroke.velocity : none);
+        EXPECT_EQ(poses[kFloorBody].place, stroke.offset);
+        EXPECT_EQ(poses[kFirstPlaneBody].place, none);
+        EXPECT_EQ(poses[kFirstPlaneBody + 1].place, Vec3(0, 0.075, -0.025));
+        EXPECT_EQ(poses[kFirstPlaneBody + 1].velocity, sliding.velocity);
+        EXPECT_EQ(poses[kFirstPlaneBody + 2].place, stroke.offset);
+        std::vector<Face> faces = container_faces(wedge(), drive);
+        for (const Face& plane : free_faces(planes)) faces.push_back(plane);
+        for (const Face& face : faces) {
+            const BodyPose& body = poses[static_cast<std::size_t>(face.body.number)];
+            EXPECT_EQ(face.displacement(stroke), body.place) << face.name;
+            EXPECT_EQ(face.velocity_at(stroke), body.velocity) << face.name;
+        }
+        // A file of an earlier version says of container and floor alone.
+        std::vector<BodyPose> earlier(poses.begin(), poses.begin() + kFirstPlaneBody);
+        add_planes(planes, stroke.time, earlier);
+        EXPECT_EQ(earlier, poses);
+        add_planes(planes, stroke.time, earlier);
+        EXPECT_EQ(earlier, poses) << "nothing is added twice";
+    }
+    std::vector<BodyPose> before(kFirstPlaneBody);
+    add_planes(planes, -0.1, before);
+    for (const BodyPose& pose : before)
+        EXPECT_EQ(pose.place, Vec3(0, 0, 0)) << "nothing has gone anywhere yet";
+}
+
 TEST(Drive, MovesOnlyTheFloorWhenAsked) {
     Drive drive;
     drive.present = true;
     drive.moves = Drive::Moves::floor;
-    for (const Face& f : container_faces(wedge(), drive)) EXPECT_EQ(f.moves, f.name == "floor") << f.name;
+    for (const Face& f : container_faces(wedge(), drive))
+        EXPECT_EQ(f.body.driven, f.name == "floor") << f.name;
 }
 
 }  // namespace
