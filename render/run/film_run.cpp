@@ -27,7 +27,7 @@ std::int64_t peak_memory() {
 
 }  // namespace
 
-FilmRun::FilmRun(const Options& options, Reporter& reporter) : options_(options), reporter_(reporter) {}
+FilmRun::FilmRun(const FilmRequest& options, Reporter& reporter) : options_(options), reporter_(reporter) {}
 
 FilmRun::~FilmRun() {
     reporter_.keep_log(nullptr);

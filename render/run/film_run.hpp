@@ -13,9 +13,9 @@
 #include "engine/output/run_json.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/cli/estimate/thread_plan.hpp"
-#include "render/cli/options/options.hpp"
 #include "render/cli/report/reporter.hpp"
 #include "render/film/production/film_maker.hpp"
+#include "render/run/film_request.hpp"
 #include "render/run/first_failure.hpp"
 #include "render/run/stage_times.hpp"
 
@@ -32,7 +32,7 @@ class FilmRun {
     int run();
 
   protected:
-    FilmRun(const Options& options, Reporter& reporter);
+    FilmRun(const FilmRequest& options, Reporter& reporter);
 
     // The work itself, between the made folder and the closed film; false when asked to stop.
     virtual bool work() = 0;
@@ -57,7 +57,7 @@ class FilmRun {
     void open_film(const Scene& scene, DrawerMaker draw = {});
     std::string film_files_text() const;  // "movie.mp4 (4 frames), poster.png, "
 
-    const Options& options_;
+    const FilmRequest& options_;
     Reporter& reporter_;
     Stopwatch watch_;
     ThreadPlan threads_;

@@ -22,7 +22,7 @@ ThreadPlan threads_for(const Scene& scene, bool film) {
 
 }  // namespace
 
-MovieRun::MovieRun(const Options& options, Reporter& reporter, const Scene& scene, const Plan& plan)
+MovieRun::MovieRun(const FilmRequest& options, Reporter& reporter, const Scene& scene, const Plan& plan)
     : FilmRun(options, reporter),
       shots_(schedule(scene, plan, wants_pictures())),
       run_(scene, plan, threads_for(scene, wants_pictures()).engine) {

@@ -16,7 +16,7 @@ namespace grainreel {
 class MovieRun final : public FilmRun {
   public:
     // Throws UserError for what scene, plan or options get wrong; nothing is on disk then.
-    MovieRun(const Options& options, Reporter& reporter, const Scene& scene, const Plan& plan);
+    MovieRun(const FilmRequest& options, Reporter& reporter, const Scene& scene, const Plan& plan);
 
   private:
     bool work() override;

@@ -58,7 +58,7 @@ std::vector<Frame> moments_at(const std::vector<std::size_t>& chosen, const std:
 }
 
 // The run's folder is what is drawn from: it is neither replaced nor written to.
-void check_out(const Options& options, const FinishedRun& run) {
+void check_out(const FilmRequest& options, const FinishedRun& run) {
     std::error_code error;
     if (options.out && std::filesystem::equivalent(*options.out, run.folder(), error))
         throw UserError(
@@ -75,10 +75,11 @@ ThreadPlan drawing_threads(int wanted) {
     return {0, raster, std::max(1, processors - raster)};
 }
 
-RedrawRun::RedrawRun(const Options& options, Reporter& reporter, const FinishedRun& run)
+RedrawRun::RedrawRun(const FilmRequest& options, const RenderRequest& request, Reporter& reporter,
+                     const FinishedRun& run)
     : FilmRun(options, reporter),
       run_(run),
-      chosen_(alike(choose(options.render, run.moments()), run.moments(), run.periods())),
+      chosen_(alike(choose(request, run.moments()), run.moments(), run.periods())),
       moments_(moments_at(chosen_, run.moments())),
       scene_(run.scene()) {
     check_out(options, run);

@@ -12,7 +12,8 @@ namespace grainreel {
 class RedrawRun final : public FilmRun {
   public:
     // Throws UserError for what the options get wrong; nothing is on disk then.
-    RedrawRun(const Options& options, Reporter& reporter, const FinishedRun& run);
+    RedrawRun(const FilmRequest& options, const RenderRequest& request, Reporter& reporter,
+              const FinishedRun& run);
 
   private:
     bool work() override;

@@ -1,14 +1,44 @@
-// Parts of the command line that options.cpp puts together.
+// Groups of options that several verbs have. Each adds its options to a verb's parser and keeps what they say
+// in what it is given.
 #pragma once
 
-#include <CLI/App.hpp>
-
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "render/cli/options/options.hpp"
+#include <CLI/App.hpp>
+
+#include "engine/scene/text/assignment.hpp"
+#include "render/cli/report/reporter.hpp"
+#include "render/run/film_request.hpp"
 
 namespace grainreel {
+
+inline constexpr const char* exit_statuses =
+    "Exit status: 0 done, 1 the run failed, 2 a mistake in the scene or the options, 129 the\n"
+    "terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.";
+
+// --set, of values that are to take the place of others.
+void add_sets(CLI::App& verb, Assignments& sets, const char* about);
+// The film: --for, --format, --max-size, --sheet, --transparent, --size, --fps, --title; and --threads.
+void add_picture_keys(CLI::App& verb, Assignments& sets);
+// --set, those of the film, --duration and --seed.
+void add_scene_keys(CLI::App& verb, Assignments& sets);
+// SCENE, and those of its keys.
+void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets);
+
+// Where the film goes, and what is kept of it: --out, --force, --frames, --no-film, --gl. about_out: of
+// --out. Throws UserError when the environment has a value that makes no sense.
+void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out);
+// Where what a verb makes goes without --out: $GRAINREEL_OUTPUT, else output/.
+std::filesystem::path output_base();
+
+// An option that is a time of a finished run, s.
+CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about);
+
+// --progress, --quiet and --verbose.
+void add_reporting(CLI::App& verb, ReporterOptions& report);
 
 // A list of things with a name and what they are about: the names, and all of it in a line.
 struct Choices {
@@ -24,11 +54,5 @@ struct Choices {
         about += (about.empty() ? "" : "; ") + name + " (" + what + ")";
     }
 };
-
-// --progress, --quiet and --verbose.
-void add_reporting(CLI::App& verb, Options& options);
-
-// The verb `bench`.
-void add_bench(CLI::App& app, Options& options);
 
 }  // namespace grainreel

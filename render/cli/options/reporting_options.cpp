@@ -23,15 +23,15 @@ Form progress_form(const std::string& word) {
 
 }  // namespace
 
-void add_reporting(CLI::App& verb, Options& options) {
+void add_reporting(CLI::App& verb, ReporterOptions& report) {
     verb.add_option_function<std::string>(
-            "--progress", [&options](const std::string& word) { options.report.form = progress_form(word); },
+            "--progress", [&report](const std::string& word) { report.form = progress_form(word); },
             "auto (a line that redraws on a terminal and comes now and then in a pipe), json (an object a "
             "line) or "
             "none [auto]")
         ->type_name("FORM");
-    verb.add_flag("--quiet", options.report.quiet, "Say nothing on stderr but errors");
-    verb.add_flag("--verbose", options.report.verbose, "Say more on stderr");
+    verb.add_flag("--quiet", report.quiet, "Say nothing on stderr but errors");
+    verb.add_flag("--verbose", report.verbose, "Say more on stderr");
 }
 
 }  // namespace grainreel

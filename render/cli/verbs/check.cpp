@@ -1,50 +1,46 @@
-#include "render/cli/verbs/check.hpp"
+// The verb `check`: what a scene will do, in words, before it is run.
+#include <sstream>
 
-#include <fmt/format.h>
-
-#include "render/cli/verbs/check_parts.hpp"
-#include "render/film/files/film_limits.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/run/simulation.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "render/cli/check/print_plan.hpp"
+#include "render/cli/options/option_groups.hpp"
+#include "render/cli/report/result.hpp"
+#include "render/cli/verbs/verb.hpp"
 
 namespace grainreel {
 namespace {
 
-void print_time(const Scene& scene, const Plan& plan, Listing& list) {
-    const std::int64_t period = plan.clock.steps_per_period;
-    list.line("step",
-              fmt::format("{}{}, chosen for: {}", span_text(plan.clock.step),
-                          period > 0 ? fmt::format(", {} a period", grouped(period)) : "", plan.step_reason));
-    list.line("steps", fmt::format("{} for {}", grouped(plan.steps), span_text(plan.clock.time(plan.steps))));
-    list.line("start",
-              scene.start.method == Start::Method::file ? "from " + scene.start.file
-              : scene.start.method == Start::Method::grains
-                  ? "the grains as listed"
-                  : fmt::format("layers, then settling for {} at most", span_text(scene.start.settle_limit)));
-    list.line("overlap",
-              fmt::format("up to {:.2g} % of the smaller diameter expected, with impacts at {:.3g} m/s; most "
-                          "contacts stay below {:.2g} %",
-                          100 * plan.expected_overlap, plan.impact_speed, 100 * scene.run.overlap));
-}
+class Check final : public Verb {
+  public:
+    Check()
+        : Verb("check", "Read a scene and print the plan: laws, stiffness, step, cost",
+               "Exit status: 0 the scene can be run, 2 a mistake in it or in the options.") {}
+
+    void add_options(CLI::App& parser) override { add_scene(parser, scene_, sets_); }
+
+    int run(Reporter&) override {
+        const Scene scene = read_scene(scene_, sets_);
+        const Plan plan = make_plan(scene);
+        check_start(scene, plan);
+        std::ostringstream text;
+        print_plan(scene, plan, text);
+        print_result(text.str());
+        return 0;
+    }
+
+    bool ends_in_good_order() const override { return false; }
+
+  private:
+    std::filesystem::path scene_;
+    Assignments sets_;
+};
 
 }  // namespace
 
-void print_plan(const Scene& scene, const Plan& plan, std::ostream& out) {
-    Listing list(out);
-    print_setup(scene, plan, list);
-    list.gap();
-    print_model(scene, plan, list);
-    list.gap();
-    print_contacts(scene, plan, out);
-    print_time(scene, plan, list);
-    list.gap();
-    const std::vector<SegmentCount> film = count_film(scene, plan.clock, plan.steps);
-    check_schedule(scene, film);
-    print_files(scene, plan, film, list);
-    print_cost(scene, plan, film, list);
-    std::vector<std::string> warnings = plan.warnings;
-    for (std::string& line : strobe_warnings(scene.film, scene.drive)) warnings.push_back(std::move(line));
-    for (std::string& line : film_warnings(scene, frames_of(film))) warnings.push_back(std::move(line));
-    if (!warnings.empty()) list.gap();
-    for (const std::string& line : warnings) list.line("warning", line);
+std::unique_ptr<Verb> check_verb() {
+    return std::make_unique<Check>();
 }
 
 }  // namespace grainreel

@@ -1,12 +1,67 @@
-#include "render/cli/verbs/compare.hpp"
+// The verb `compare`: several scenes, or finished runs, in one film, side by side and in step.
+#include <fmt/format.h>
 
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "render/cli/options/option_groups.hpp"
+#include "render/cli/verbs/verb.hpp"
 #include "render/run/compare/compare_run.hpp"
 
 namespace grainreel {
+namespace {
 
-int make_comparison(const Options& options, Reporter& reporter) {
-    CompareRun run(options, reporter, read_comparison(options));
-    return run.run();
+class Compare final : public Verb {
+  public:
+    Compare()
+        : Verb("compare", "Run scenes and film them side by side, in step",
+               fmt::format(
+                   "Rate, size and segments of the film are those of the first scene; --set and its like go "
+                   "to\n"
+                   "every scene. All panels show the same moment, at the same scale where they can.\n{}",
+                   exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        parser
+            .add_option("SCENE", request_.inputs,
+                        "Two to six scenes to run, or folders of finished runs to draw from")
+            ->required()
+            ->type_name("FILE|DIR");
+        add_captions(parser);
+        add_scene_keys(parser, request_.sets);
+        add_film(parser, film_,
+                 "Folder of the film, with one in it for each run [output/ and the scenes' names]");
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        film_.command = command;
+        CompareRun comparison(film_, reporter, read_comparison(request_, film_));
+        return comparison.run();
+    }
+
+  private:
+    void add_captions(CLI::App& parser) {
+        parser
+            .add_option_function<std::string>(
+                "--captions",
+                [this](const std::string& text) {
+                    if (const std::string wrong = complaint_of_utf8(text); !wrong.empty())
+                        throw UserError(fmt::format("--captions: {}; type it in a UTF-8 terminal", wrong));
+                    request_.captions = text;
+                },
+                "One a panel, bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the drives, else the "
+                "titles]")
+            ->type_name("TEXT");
+    }
+
+    CompareRequest request_;
+    FilmRequest film_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> compare_verb() {
+    return std::make_unique<Compare>();
 }
 
 }  // namespace grainreel

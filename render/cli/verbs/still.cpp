@@ -66,9 +66,9 @@ void check_at(const FinishedRun& run, double at) {
 
 }  // namespace
 
-int draw_still(const Options& options, Reporter& reporter, const FinishedRun& run) {
-    check_at(run, *options.render.at);
-    const std::size_t index = run.nearest(*options.render.at);
+int draw_still(const FilmRequest& options, double at, Reporter& reporter, const FinishedRun& run) {
+    check_at(run, at);
+    const std::size_t index = run.nearest(at);
     const Frame frame = run.frame(index);
     if (options.out) check_free(*options.out, options.force);
     const fs::path path = options.out ? *options.out : free_name(run, frame.time);

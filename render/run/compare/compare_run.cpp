@@ -21,7 +21,7 @@ bool go_on() {
 
 }  // namespace
 
-CompareRun::CompareRun(const Options& options, Reporter& reporter, Comparison all)
+CompareRun::CompareRun(const FilmRequest& options, Reporter& reporter, Comparison all)
     : FilmRun(options, reporter), all_(std::move(all)) {
     threads_ = all_.threads;
     make_folder({all_.film.name, options.base, options.out, options.force});

@@ -12,7 +12,7 @@ namespace grainreel {
 
 class CompareRun final : public FilmRun {
   public:
-    CompareRun(const Options& options, Reporter& reporter, Comparison all);
+    CompareRun(const FilmRequest& options, Reporter& reporter, Comparison all);
 
   private:
     bool work() override;

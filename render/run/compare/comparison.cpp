@@ -27,10 +27,10 @@ bool is_run(const fs::path& input) {
 }
 
 // All scenes end when the shortest does; a film's segments are shortened with it.
-std::vector<Scene> read_scenes(const Options& options, std::vector<std::string>& warnings) {
+std::vector<Scene> read_scenes(const CompareRequest& request, std::vector<std::string>& warnings) {
     std::vector<Scene> scenes;
-    for (const fs::path& input : options.compare.inputs)
-        if (!is_run(input)) scenes.push_back(read_scene(input, options.sets));
+    for (const fs::path& input : request.inputs)
+        if (!is_run(input)) scenes.push_back(read_scene(input, request.sets));
     if (scenes.empty()) return scenes;
     const auto by_duration = [](const Scene& a, const Scene& b) { return a.run.duration < b.run.duration; };
     const auto [shortest, longest] = std::minmax_element(scenes.begin(), scenes.end(), by_duration);
@@ -38,7 +38,7 @@ std::vector<Scene> read_scenes(const Options& options, std::vector<std::string>&
     warnings.push_back(fmt::format("{} lasts {:.6g} s, {} {:.6g} s: all are run and shown for {:.6g} s",
                                    shortest->file, shortest->run.duration, longest->file,
                                    longest->run.duration, shortest->run.duration));
-    Assignments sets = options.sets;
+    Assignments sets = request.sets;
     sets.push_back(fmt::format("run.duration={}", shortest->run.duration));
     for (Scene& scene : scenes) scene = read_scene(scene.file, sets);
     return scenes;
@@ -72,15 +72,15 @@ ThreadPlan plan_threads_for(const std::vector<Scene>& scenes, int wanted) {
     return threads;
 }
 
-void make_sources(const Options& options, Comparison& all) {
-    std::vector<Scene> scenes = read_scenes(options, all.warnings);
+void make_sources(const CompareRequest& request, Comparison& all) {
+    std::vector<Scene> scenes = read_scenes(request, all.warnings);
     number_names(scenes);
     const int wanted = scenes.empty() ? 0 : scenes.front().run.threads;
     all.threads = plan_threads_for(scenes, wanted);
     std::size_t next = 0;
-    for (const fs::path& input : options.compare.inputs) {
+    for (const fs::path& input : request.inputs) {
         if (is_run(input)) {
-            auto recorded = std::make_unique<RecordedPanel>(input, options.sets);
+            auto recorded = std::make_unique<RecordedPanel>(input, request.sets);
             const std::vector<std::string>& warnings = recorded->run().warnings();
             all.warnings.insert(all.warnings.end(), warnings.begin(), warnings.end());
             all.sources.push_back(std::move(recorded));
@@ -179,10 +179,10 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-void make_panels(const Options& options, Comparison& all) {
+void make_panels(const CompareRequest& request, Comparison& all) {
     const std::vector<Scene> scenes = scenes_of(all);
     std::vector<std::string> captions = captions_of(scenes);
-    if (options.compare.captions) captions = split(*options.compare.captions);
+    if (request.captions) captions = split(*request.captions);
     if (captions.size() != scenes.size())
         throw UserError(
             fmt::format("--captions: has {} parts between its bars for {} panels; write one for each, "
@@ -223,22 +223,22 @@ Scene whole(const std::vector<Scene>& scenes) {
 
 }  // namespace
 
-Comparison read_comparison(const Options& options) {
-    if (!options.film && !options.frames)
+Comparison read_comparison(const CompareRequest& request, const FilmRequest& film) {
+    if (!film.film && !film.frames)
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
-    if (const std::size_t count = options.compare.inputs.size(); count < 2 || count > most_panels)
+    if (const std::size_t count = request.inputs.size(); count < 2 || count > most_panels)
         throw UserError(fmt::format(
             "compare takes 2 to {} scenes or folders of runs, not {}; see grainreel compare --help",
             most_panels, count));
     Comparison all;
-    make_sources(options, all);
+    make_sources(request, all);
     all.film = whole(scenes_of(all));
     if (const RecordedPanel* recorded = coarsest(all, all.reference)) {
         take_moments_of(*recorded, all);
     } else {
         take_moments_of_schedule(all);
     }
-    make_panels(options, all);
+    make_panels(request, all);
     return all;
 }
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "render/cli/estimate/thread_plan.hpp"
-#include "render/cli/options/options.hpp"
 #include "render/draw/panels/panels.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/run/compare/compare_panel.hpp"
+#include "render/run/film_request.hpp"
 
 namespace grainreel {
 
@@ -24,6 +24,6 @@ struct Comparison {
 };
 
 // Throws UserError for whatever scene, run or option is wrong.
-Comparison read_comparison(const Options& options);
+Comparison read_comparison(const CompareRequest& request, const FilmRequest& film);
 
 }  // namespace grainreel

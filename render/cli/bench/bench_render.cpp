@@ -1,4 +1,4 @@
-#include "render/cli/verbs/bench_render.hpp"
+#include "render/cli/bench/bench_render.hpp"
 
 #include <unistd.h>
 
@@ -219,10 +219,8 @@ void keep(const std::filesystem::path& folder, const Picture& picture, const Fra
 
 }  // namespace
 
-int bench_render(const Options& options, Reporter& reporter) {
-    const BenchRenderRequest& request = options.bench_render;
-    const int threads =
-        options.bench_request.threads > 0 ? options.bench_request.threads : usable_processors();
+int bench_render(const BenchRenderRequest& request, Reporter& reporter) {
+    const int threads = request.threads > 0 ? request.threads : usable_processors();
     const ShareWatcher watcher(reporter, Progress::Stage::timing);
     const SettledBed bed =
         settled_bed(request.grains, threads, [&](double done) { return watcher("settling", 0.5 * done); });
@@ -237,8 +235,8 @@ int bench_render(const Options& options, Reporter& reporter) {
     Renderer& renderer = stages.full();
     const double covered = coverage(renderer, frame);
     std::vector<double> totals;
-    for (int r = 0; r < options.bench_request.repeats; ++r) {
-        if (!watcher("drawing", 0.5 + 0.5 * r / options.bench_request.repeats)) break;
+    for (int r = 0; r < request.repeats; ++r) {
+        if (!watcher("drawing", 0.5 + 0.5 * r / request.repeats)) break;
         const double begin = milliseconds();
         renderer.draw(frame, "");
         totals.push_back(milliseconds() - begin);
@@ -247,7 +245,7 @@ int bench_render(const Options& options, Reporter& reporter) {
     reporter.clear();
     if (totals.empty()) return kSignalBase + stop_signal();
     const Picture& picture = renderer.draw(frame, "");
-    if (options.out) keep(*options.out, picture, frame, renderer.view());
+    if (request.out) keep(*request.out, picture, frame, renderer.view());
     using Json = nlohmann::ordered_json;
     Json ms = {{"total", median(totals)}};
     const DrawTimes medians = stages.medians();
@@ -261,7 +259,7 @@ int bench_render(const Options& options, Reporter& reporter) {
                       {"threads", threads},
                       {"coverage", covered},
                       {"ms_per_frame", ms}};
-    if (options.json) {
+    if (request.json) {
         print_result(all.dump(2) + "\n");
         return 0;
     }

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/chart/accuracy/promised_error.hpp"
-#include "render/cli/verbs/check_parts.hpp"
+#include "render/cli/check/check_parts.hpp"
 
 namespace grainreel {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/cli/verbs/check_parts.hpp"
+#include "render/cli/check/check_parts.hpp"
 
 namespace grainreel {
 

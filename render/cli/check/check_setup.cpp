@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
-#include "render/cli/verbs/check_parts.hpp"
+#include "render/cli/check/check_parts.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "engine/base/team.hpp"
 #include "engine/scene/text/data_size.hpp"
+#include "render/cli/check/check_parts.hpp"
 #include "render/cli/estimate/cost_estimate.hpp"
-#include "render/cli/verbs/check_parts.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/files/film_limits.hpp"
 

@@ -1,0 +1,50 @@
+#include "render/cli/check/print_plan.hpp"
+
+#include <fmt/format.h>
+
+#include "render/cli/check/check_parts.hpp"
+#include "render/film/files/film_limits.hpp"
+
+namespace grainreel {
+namespace {
+
+void print_time(const Scene& scene, const Plan& plan, Listing& list) {
+    const std::int64_t period = plan.clock.steps_per_period;
+    list.line("step",
+              fmt::format("{}{}, chosen for: {}", span_text(plan.clock.step),
+                          period > 0 ? fmt::format(", {} a period", grouped(period)) : "", plan.step_reason));
+    list.line("steps", fmt::format("{} for {}", grouped(plan.steps), span_text(plan.clock.time(plan.steps))));
+    list.line("start",
+              scene.start.method == Start::Method::file ? "from " + scene.start.file
+              : scene.start.method == Start::Method::grains
+                  ? "the grains as listed"
+                  : fmt::format("layers, then settling for {} at most", span_text(scene.start.settle_limit)));
+    list.line("overlap",
+              fmt::format("up to {:.2g} % of the smaller diameter expected, with impacts at {:.3g} m/s; most "
+                          "contacts stay below {:.2g} %",
+                          100 * plan.expected_overlap, plan.impact_speed, 100 * scene.run.overlap));
+}
+
+}  // namespace
+
+void print_plan(const Scene& scene, const Plan& plan, std::ostream& out) {
+    Listing list(out);
+    print_setup(scene, plan, list);
+    list.gap();
+    print_model(scene, plan, list);
+    list.gap();
+    print_contacts(scene, plan, out);
+    print_time(scene, plan, list);
+    list.gap();
+    const std::vector<SegmentCount> film = count_film(scene, plan.clock, plan.steps);
+    check_schedule(scene, film);
+    print_files(scene, plan, film, list);
+    print_cost(scene, plan, film, list);
+    std::vector<std::string> warnings = plan.warnings;
+    for (std::string& line : strobe_warnings(scene.film, scene.drive)) warnings.push_back(std::move(line));
+    for (std::string& line : film_warnings(scene, frames_of(film))) warnings.push_back(std::move(line));
+    if (!warnings.empty()) list.gap();
+    for (const std::string& line : warnings) list.line("warning", line);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,18 @@
+#include "render/cli/verbs/verbs.hpp"
+
+// The table: NAME stands for the function NAME_verb() of the file NAME.cpp.
+#define GRAINREEL_VERBS(verb) verb(movie) verb(render) verb(compare) verb(check) verb(chart) verb(bench)
+
+namespace grainreel {
+
+#define GRAINREEL_DECLARE(name) std::unique_ptr<Verb> name##_verb();
+GRAINREEL_VERBS(GRAINREEL_DECLARE)
+
+std::vector<std::unique_ptr<Verb>> all_verbs() {
+    std::vector<std::unique_ptr<Verb>> all;
+#define GRAINREEL_ADD(name) all.push_back(name##_verb());
+    GRAINREEL_VERBS(GRAINREEL_ADD)
+    return all;
+}
+
+}  // namespace grainreel

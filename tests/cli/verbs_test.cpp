@@ -1,0 +1,47 @@
+// The table of verbs, and what --help makes of it.
+#include "render/cli/verbs/verbs.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+std::string help(std::vector<std::string> words) {
+    words.push_back("--help");
+    const Ended ended = run_program(words, {});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return ended.out;
+}
+
+TEST(Verbs, StandInHelpWithWhatTheyAreAbout) {
+    const std::string all = help({});
+    std::size_t last = 0;
+    for (const auto& verb : all_verbs()) {
+        const std::size_t at = all.find("\n  " + verb->name() + " ");
+        ASSERT_NE(at, std::string::npos) << verb->name();
+        EXPECT_GT(at, last) << "order of the table";
+        last = at;
+        EXPECT_THAT(all.substr(at, all.find('\n', at + 1) - at), HasSubstr(verb->about()));
+        const std::string own = help({verb->name()});
+        EXPECT_THAT(own, HasSubstr(verb->about()));
+        EXPECT_THAT(own, HasSubstr(verb->footer()));
+        EXPECT_THAT(verb->footer(), HasSubstr("Exit status: 0 "));
+    }
+}
+
+TEST(Verbs, AreNamedToWhoTypesAnother) {
+    const Ended ended = run_program({"moovie"}, {});
+    EXPECT_EQ(ended.status, 2);
+    std::string names;
+    for (const auto& verb : all_verbs()) names += (names.empty() ? "" : ", ") + verb->name();
+    EXPECT_EQ(ended.err, "error: unknown command 'moovie'; there are " + names + "; see grainreel --help\n");
+}
+
+}  // namespace
+}  // namespace grainreel
