@@ -30,7 +30,7 @@ libavformat-dev      libavformat
 libavcodec-dev       libavcodec, with libx264
 libswscale-dev       libswscale
 libavfilter-dev      libavfilter
-gnuplot-nox          gnuplot, for grainreel chart
+gnuplot-nox          gnuplot, for ./movie chart
 "
 test_packages="
 libgtest-dev         gtest

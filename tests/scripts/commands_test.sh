@@ -48,6 +48,27 @@ expect "scene after options" "${here}[movie][two.toml][--duration][1s][--set][st
 run "$tree/movie" missing.toml
 expect "a missing scene is the program's to report" "${here}[movie][missing.toml]" "$out"
 
+run "$tree/movie" render "$work/a run" --at 1
+expect "a verb" "${here}[render][$work/a run][--at][1]" "$out"
+run "$tree/movie" --no-install compare two.toml scenes/one.toml
+expect "a verb's scenes are looked for likewise" "${here}[compare][two.toml][$tree/scenes/one.toml]" "$out"
+expect "a verb builds too" "ninja grainreel" "$did"
+run env -C "$tree" ./movie movie scenes/one.toml
+expect "the verb movie, where the script lies" "[$tree][movie][scenes/one.toml]" "$out"
+run "$tree/movie" rendr x
+expect "an unknown verb is the program's to report" "${here}[rendr][x]" "$out"
+touch "$work/elsewhere/check"
+run "$tree/movie" check
+expect "a file with a verb's name is a scene" "${here}[movie][check]" "$out"
+run "$tree/movie" --help
+contains "--help: the two ways" "./movie VERB ..." "$out"
+contains "--help: the verbs" "${here}[--help]" "$out"
+contains "--help: the film's options" "${here}[movie][--help]" "$out"
+run "$tree/movie" --version
+expect "--version" "${here}[--version]" "$out"
+run "$tree/movie" two.toml --help
+expect "--help after a scene" "${here}[movie][two.toml][--help]" "$out"
+
 run env ABSENT="libpng-dev ninja-build" "$tree/movie"
 if ((EUID == 0)); then
     contains "names what it installs" "Installing with apt: libpng-dev ninja-build" "$said"
