@@ -1,5 +1,6 @@
 // Rigid bodies, to which faces belong: the container, its floor, and each plane of the scene. No body turns
-// yet. Poses have a rotation and a spin all the same, so that files and drawing need not change when one does.
+// yet. Poses have a rotation and a spin all the same, so that files and drawing need not change when one
+// does.
 #pragma once
 
 #include <cstdint>

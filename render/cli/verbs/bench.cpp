@@ -44,9 +44,10 @@ void set_style(const std::string& style, BenchRenderRequest& request) {
 class Bench final : public Verb {
   public:
     Bench()
-        : Verb("bench", "Time the engine on a bed of known kind",
-               "Results go to stdout, progress to stderr.\n"
-               "Exit status: 0 done, 1 the run failed, 2 a mistake in the options, 130 Ctrl-C, 143 SIGTERM.") {
+        : Verb(
+              "bench", "Time the engine on a bed of known kind",
+              "Results go to stdout, progress to stderr.\n"
+              "Exit status: 0 done, 1 the run failed, 2 a mistake in the options, 130 Ctrl-C, 143 SIGTERM.") {
     }
 
     void add_options(CLI::App& parser) override {
@@ -83,8 +84,8 @@ class Bench final : public Verb {
             reporter.info("stopped; nothing was measured to its end");
             return signal_base + stop_signal();
         }
-        print_result(
-            (json_ ? bench_json(outcome.report) : bench_table(outcome.report, request_.quick)) + "\n");
+        print_result((json_ ? bench_json(outcome.report) : bench_table(outcome.report, request_.quick)) +
+                     "\n");
         return 0;
     }
 
@@ -102,8 +103,7 @@ class Bench final : public Verb {
                 "double or mixed [double]")
             ->check(CLI::IsMember({"double", "mixed"}))
             ->type_name("WHICH");
-        parser
-            .add_option("--particles", request_.particles, "Grains [by the case]; for render: --grains")
+        parser.add_option("--particles", request_.particles, "Grains [by the case]; for render: --grains")
             ->check(CLI::Range(100, 10000000))
             ->type_name("N");
         parser.add_option("--repeat", request_.repeats, "Run it all so often and give medians [1]")

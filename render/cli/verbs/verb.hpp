@@ -1,5 +1,5 @@
-// A verb of the command line: its name, its options, and what it does. Each is one file of this folder and one
-// word of the table in verbs.cpp.
+// A verb of the command line: its name, its options, and what it does. Each is one file of this folder and
+// one word of the table in verbs.cpp.
 #pragma once
 
 #include <memory>
@@ -25,11 +25,11 @@ class Verb {
     const std::string& about() const { return about_; }
     const std::string& footer() const { return footer_; }
 
-    // Adds the verb's options to its parser, which writes into this object what they say. Of groups of options
-    // that verbs share (options/option_groups.hpp), and its own.
+    // Adds the verb's options to its parser, which writes into this object what they say. Of groups of
+    // options that verbs share (options/option_groups.hpp), and its own.
     virtual void add_options(CLI::App& parser) = 0;
-    // Does what the options ask for and returns the exit status: 0; 1 when it failed on its way (what it had is
-    // kept); 129, 130 or 143 when it was asked to stop. Throws UserError before anything is written, and
+    // Does what the options ask for and returns the exit status: 0; 1 when it failed on its way (what it had
+    // is kept); 129, 130 or 143 when it was asked to stop. Throws UserError before anything is written, and
     // RunError.
     virtual int run(Reporter& reporter) = 0;
     // Whether run() looks at stop_signal(); otherwise the first signal ends the program.
