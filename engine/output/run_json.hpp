@@ -21,7 +21,13 @@ struct DrawnRun {
     double first = 0, last = 0;  // s, their times
 };
 
-struct RunRecord {
+// The program that wrote it.
+struct ProgramInfo {
+    std::string version, commit, compiler, build_flags;
+    std::vector<std::pair<std::string, std::string>> libraries;  // name, version
+};
+
+struct RunRecord : ProgramInfo {
     RunStatus status = RunStatus::running;
     std::optional<int> exit_status;  // of the program; none while running
     std::string error;               // what ended a failed run
@@ -33,8 +39,6 @@ struct RunRecord {
 
     std::string command;  // as typed, words quoted where the shell needs it
     std::string scene_file;
-    std::string version, commit, compiler, build_flags;
-    std::vector<std::pair<std::string, std::string>> libraries;  // name, version
     std::string gl;       // of the context that drew the film; empty without one
     std::string encoder;  // of the film: what, and how it was set up; empty without one
     std::string vector;   // vector instructions the engine used

@@ -8,7 +8,7 @@
 #include "render/cli/options/command_line.hpp"
 #include "render/cli/report/reporter.hpp"
 #include "render/cli/report/result.hpp"
-#include "render/run/stop_signal.hpp"
+#include "render/cli/report/stop_signal.hpp"
 
 namespace grainreel {
 namespace {

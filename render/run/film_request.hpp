@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/output/run_json.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/gl/provider.hpp"
 
@@ -20,6 +21,7 @@ struct FilmRequest {
     bool to_stdout = false;  // the film; the folder's name then goes to stderr
     gl::Provider gl = gl::Provider::automatic;
     std::string command;  // as typed, for run.json
+    ProgramInfo program;  // likewise
 };
 
 // What is to be drawn of a finished run. Times in s, of the run; whole numbers of frames.

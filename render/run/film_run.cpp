@@ -2,16 +2,12 @@
 
 #include <sys/resource.h>
 
-#include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/cli/report/record.hpp"
-#include "render/cli/report/result.hpp"
 #include "render/film/files/film_limits.hpp"
-#include "render/run/stop_signal.hpp"
 
 namespace grainreel {
 
@@ -27,32 +23,33 @@ std::int64_t peak_memory() {
 
 }  // namespace
 
-FilmRun::FilmRun(const FilmRequest& options, Reporter& reporter) : options_(options), reporter_(reporter) {}
-
-FilmRun::~FilmRun() {
-    reporter_.keep_log(nullptr);
+FilmRun::FilmRun(const FilmRequest& request, RunListener& listener) : request_(request), listener_(listener) {
+    static_cast<ProgramInfo&>(record_) = request.program;
+    record_.command = request.command;
 }
 
+FilmRun::~FilmRun() = default;
+
 void FilmRun::check_film(const Scene& scene, std::int64_t frames) const {
-    if (options_.to_stdout && !(options_.film && scene.film.format == FilmFormat::y4m))
+    if (request_.to_stdout && !(request_.film && scene.film.format == FilmFormat::y4m))
         throw UserError("--out -: stdout takes a film in y4m alone; add --format y4m, or name a folder");
-    if (options_.film) check_max_size(scene, frames);
+    if (request_.film) check_max_size(scene, frames);
 }
 
 void FilmRun::make_folder(RunFolderRequest request) {
-    request.command = options_.command;
+    request.command = request_.command;
     folder_.emplace(request);
     log_.emplace(folder_->path() / "log.txt");
-    reporter_.keep_log(&*log_);
+    listener_.keep_log(&*log_);
 }
 
-int FilmRun::run() {
+FilmRun::Ended FilmRun::run() {
     bool stopped = false;
     try {
         stopped = !work();
     } catch (const UserError& mistake) {
         if (!begun_) {
-            reporter_.keep_log(nullptr);
+            listener_.keep_log(nullptr);
             folder_->discard();
             throw;
         }
@@ -63,7 +60,7 @@ int FilmRun::run() {
         failure_.note(problem.what());
     }
     if (stopped)
-        reporter_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
+        listener_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
     find_folder();
     keep_state();
     // What was asked to stop says so from here on: a third signal may end it while the film is finished.
@@ -73,18 +70,12 @@ int FilmRun::run() {
     close_record(stopped);
     if (record_.status == RunStatus::complete) folder_->remove_previous();
     report_end();
-    if (has_folder_) {
-        if (options_.to_stdout)
-            std::fprintf(stderr, "%s\n", folder_->path().c_str());
-        else
-            print_result(folder_->path().string() + "\n");
-    }
-    return *record_.exit_status;
+    return {*record_.exit_status, has_folder_ ? std::optional(folder_->path()) : std::nullopt};
 }
 
 void FilmRun::mark_begun() {
     begun_ = true;
-    keep_before_exit();
+    listener_.keep_before_exit();
 }
 
 // A folder that is gone is why anything else failed.
@@ -104,12 +95,12 @@ void FilmRun::settle_status(bool stopped) {
     record_.status = failure_.any() ? RunStatus::failed
                      : stopped      ? RunStatus::interrupted
                                     : RunStatus::complete;
-    record_.exit_status = failure_.any() ? 1 : stopped ? signal_base + stop_signal() : 0;
+    record_.exit_status = failure_.any() ? 1 : stopped ? signal_base + listener_.stop_signal() : 0;
 }
 
 void FilmRun::begin_record(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) reporter_.warning(warning);
-    describe_program(record_, options_.command);
+    for (const std::string& warning : warnings) listener_.warning(warning);
+    record_.started = utc_now();
     record_.raster_threads = wants_pictures() ? threads_.raster : 0;
     record_.encoder_threads = wants_pictures() ? threads_.encoder : 0;
     record_.warnings = warnings;
@@ -120,28 +111,29 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     if (!wants_pictures()) return;
     FilmOptions film;
     film.folder = folder_->path();
-    film.film = options_.film;
-    film.frames = options_.frames;
-    film.to_stdout = options_.to_stdout;
+    film.film = request_.film;
+    film.frames = request_.frames;
+    film.to_stdout = request_.to_stdout;
     film.raster_threads = threads_.raster;
     film.encoder_threads = threads_.encoder;
     film.take_turns = threads_.take_turns;
-    film.gl = options_.gl;
+    film.gl = request_.gl;
     film.pictures = pictures_planned_;
     film.check_folder = [this] { folder_->lock().check_there(); };
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
                  : std::make_unique<FilmMaker>(scene, film);
     record_.gl = film_->drawer();
-    reporter_.detail("drawn with " + record_.gl);
+    listener_.detail("drawn with " + record_.gl);
 }
 
 void FilmRun::close_film() {
     if (!film_) return;
     failure_.attempt([&] {
         const auto timer = times_.during("finishing the film");
-        film_report_ = film_->finish([this] { return in_a_hurry() || !folder_->lock().is_there(); });
-        if (!film_report_.complete) reporter_.info("the film was left as it is");
-        for (const std::string& note : film_report_.notes) reporter_.info(note);
+        film_report_ =
+            film_->finish([this] { return listener_.in_a_hurry() || !folder_->lock().is_there(); });
+        if (!film_report_.complete) listener_.info("the film was left as it is");
+        for (const std::string& note : film_report_.notes) listener_.info(note);
     });
     film_report_.frames = film_->frames_done();
     film_.reset();
@@ -170,24 +162,36 @@ void FilmRun::report_end() {
     const std::string folder = folder_->path().string();
     if (failure_.any()) {
         record_.exit_status = 1;
-        reporter_.error(failure_.what());
-        if (has_folder_) reporter_.info(fmt::format("what was made until then is in {}", folder));
+        listener_.error(failure_.what());
+        if (has_folder_) listener_.info(fmt::format("what was made until then is in {}", folder));
     } else if (record_.status == RunStatus::interrupted) {
-        reporter_.info(fmt::format("{}; what was made is in {}{}", stopped_text(), folder,
+        listener_.info(fmt::format("{}; what was made is in {}{}", stopped_text(), folder,
                                    begun_ ? "" : " (still packing: no film)"));
     }
     if (begun_ && !failure_.any()) report_written();
     if (!folder_->previous().empty()) {
-        reporter_.info(
+        listener_.info(
             fmt::format("the run that was to be replaced is kept in {}", folder_->previous().string()));
     }
+}
+
+void FilmRun::show_drawing() {
+    Progress progress;
+    progress.stage = Progress::Stage::drawing;
+    progress.frames = film_->frames_done();
+    progress.frames_planned = pictures_planned_;
+    progress.done = static_cast<double>(progress.frames) / static_cast<double>(pictures_planned_);
+    progress.elapsed = watch_.seconds();
+    if (progress.frames > 0 && progress.elapsed > 1)
+        progress.remaining = progress.elapsed * (1 - progress.done) / progress.done;
+    listener_.progress(progress);
 }
 
 std::string FilmRun::film_files_text() const {
     std::string text;
     if (!film_report_.file.empty())
         text += fmt::format("{} ({} frames), ", film_report_.file, film_report_.frames);
-    if (options_.to_stdout) text += fmt::format("to stdout {} frames, ", film_report_.frames);
+    if (request_.to_stdout) text += fmt::format("to stdout {} frames, ", film_report_.frames);
     if (film_report_.poster) text += "poster.png, ";
     if (film_report_.sheet) text += "sheet.png, ";
     if (film_report_.pictures) text += fmt::format("frames/ ({} pictures), ", film_report_.frames);

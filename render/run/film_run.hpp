@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,12 +13,12 @@
 #include "engine/output/run_folder.hpp"
 #include "engine/output/run_json.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/cli/estimate/thread_plan.hpp"
-#include "render/cli/report/reporter.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/run/film_request.hpp"
 #include "render/run/first_failure.hpp"
+#include "render/run/listener.hpp"
 #include "render/run/stage_times.hpp"
+#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 
@@ -27,12 +28,16 @@ class FilmRun {
     FilmRun(const FilmRun&) = delete;
     FilmRun& operator=(const FilmRun&) = delete;
 
-    // Returns the exit status: 0, 1 when it failed on its way (what it had is kept), 129, 130 or 143 when it
-    // was asked to stop. Throws UserError before anything is worth keeping; nothing is on disk then.
-    int run();
+    struct Ended {
+        // 0, 1 when it failed on its way (what it had is kept), 129, 130 or 143 when it was asked to stop.
+        int exit_status = 0;
+        std::optional<std::filesystem::path> folder;  // none once somebody has removed or replaced it
+    };
+    // Throws UserError before anything is worth keeping; nothing is on disk then.
+    Ended run();
 
   protected:
-    FilmRun(const FilmRequest& options, Reporter& reporter);
+    FilmRun(const FilmRequest& request, RunListener& listener);
 
     // The work itself, between the made folder and the closed film; false when asked to stop.
     virtual bool work() = 0;
@@ -44,7 +49,7 @@ class FilmRun {
     virtual std::string stopped_text() const = 0;  // "stopped at 0.10 of 0.20 s"
     virtual void report_written() = 0;             // that which went well
 
-    bool wants_pictures() const { return options_.film || options_.frames; }
+    bool wants_pictures() const { return request_.film || request_.frames; }
     // What scene and options ask of the film's file. Throws UserError.
     void check_film(const Scene& scene, std::int64_t frames) const;
     // To be called when all that the user gave has been accepted.
@@ -57,8 +62,11 @@ class FilmRun {
     void open_film(const Scene& scene, DrawerMaker draw = {});
     std::string film_files_text() const;  // "movie.mp4 (4 frames), poster.png, "
 
-    const FilmRequest& options_;
-    Reporter& reporter_;
+    // Of what is drawn alone.
+    void show_drawing();
+
+    const FilmRequest request_;
+    LoggingListener listener_;
     Stopwatch watch_;
     ThreadPlan threads_;
     std::optional<RunFolder> folder_;

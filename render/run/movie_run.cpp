@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include "engine/base/team.hpp"
-#include "render/cli/report/segregation_text.hpp"
 #include "render/film/files/film_limits.hpp"
-#include "render/run/stop_signal.hpp"
+#include "render/run/segregation_text.hpp"
 
 namespace grainreel {
 
 namespace {
 
-std::vector<Shot> schedule(const Scene& scene, const Plan& plan, bool wanted) {
-    return wanted ? film_schedule(scene, plan.clock, plan.steps) : std::vector<Shot>();
+Pictures schedule(const Scene& scene, const Plan& plan, bool wanted) {
+    if (!wanted) return {};
+    const bool may_leave_out = true;
+    return {instants_of(scene, plan.clock, plan.steps), scene.film.segments, may_leave_out};
 }
 
 ThreadPlan threads_for(const Scene& scene, bool film) {
@@ -22,31 +23,31 @@ ThreadPlan threads_for(const Scene& scene, bool film) {
 
 }  // namespace
 
-MovieRun::MovieRun(const FilmRequest& options, Reporter& reporter, const Scene& scene, const Plan& plan)
-    : FilmRun(options, reporter),
-      shots_(schedule(scene, plan, wants_pictures())),
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan)
+    : FilmRun(request, listener),
+      pictures_(schedule(scene, plan, wants_pictures())),
       run_(scene, plan, threads_for(scene, wants_pictures()).engine) {
     threads_ = threads_for(scene, wants_pictures());
-    check_film(scene, static_cast<std::int64_t>(shots_.size()));
-    make_folder({scene.name, options.base, options.out, options.force});
+    check_film(scene, static_cast<std::int64_t>(pictures_.instants.size()));
+    make_folder({scene.name, request.base, request.out, request.force});
 }
 
 bool MovieRun::work() {
     describe();
     if (!pack()) return false;
     mark_begun();
-    run_.start(std::move(shots_), run_.scene().film.segments);
+    run_.start(pictures_);
     pictures_planned_ = run_.shots();
     open_film(run_.scene());
     vibrating_.emplace();
     const auto go_on = [this] {
         show_progress();
         tell_news();
-        return stop_signal() == 0;
+        return listener_.stop_signal() == 0;
     };
-    while (const std::optional<SceneRun::Taken> shot = run_.next(go_on)) take(*shot);
+    while (const std::optional<Taken> picture = run_.next(go_on)) take(*picture);
     tell_news();
-    return stop_signal() == 0;
+    return listener_.stop_signal() == 0;
 }
 
 void MovieRun::describe() {
@@ -56,15 +57,15 @@ void MovieRun::describe() {
         const std::vector<std::string> strobes = strobe_warnings(scene.film, scene.drive);
         warnings.insert(warnings.end(), strobes.begin(), strobes.end());
         const std::vector<std::string> limits =
-            film_warnings(scene, static_cast<std::int64_t>(shots_.size()));
+            film_warnings(scene, static_cast<std::int64_t>(pictures_.instants.size()));
         warnings.insert(warnings.end(), limits.begin(), limits.end());
     }
     run_.describe(record_);
     begin_record(warnings);
-    run_.use_folder(folder_->lock());
-    reporter_.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene.file, scene.grains(),
+    run_.use_folder(folder_->lock(), record_.version);
+    listener_.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene.file, scene.grains(),
                                  run_.plan().steps, run_.plan().clock.step, run_.plan().step_reason));
-    reporter_.detail(fmt::format("threads: engine {}, raster {}, encoder {}", run_.simulation().threads(),
+    listener_.detail(fmt::format("threads: engine {}, raster {}, encoder {}", run_.simulation().threads(),
                                  threads_.raster, threads_.encoder));
 }
 
@@ -81,28 +82,27 @@ bool MovieRun::pack() {
                                                  packing.seconds();
         }
         progress.elapsed = watch_.seconds();
-        reporter_.progress(progress);
-        return stop_signal() == 0;
+        listener_.progress(progress);
+        return listener_.stop_signal() == 0;
     };
     if (!run_.pack(watcher)) return false;
-    reporter_.detail(run_.packing_text());
-    if (const auto warning = run_.packing_warning()) reporter_.warning(*warning);
-    return stop_signal() == 0;
+    listener_.detail(run_.packing_text());
+    if (const auto warning = run_.packing_warning()) listener_.warning(*warning);
+    return listener_.stop_signal() == 0;
 }
 
-void MovieRun::take(const SceneRun::Taken& shot) {
+void MovieRun::take(const Taken& picture) {
     const Scene& scene = run_.scene();
     const auto timer = times_.during("waiting for the film");
-    for (const int segment : shot.segments) {
-        const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(segment));
-        film_->take(shot.frame, playback_caption(spanning(rule, shot.periods), scene.drive, scene.film.rate));
-    }
+    const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(picture.segment));
+    film_->take(picture.frame,
+                playback_caption(spanning(rule, picture.periods), scene.drive, scene.film.rate));
 }
 
 void MovieRun::tell_news() {
     const std::vector<std::string> news = run_.news();
     for (; told_ < news.size(); ++told_) {
-        reporter_.warning(news[told_]);
+        listener_.warning(news[told_]);
         record_.warnings.push_back(news[told_]);
     }
 }
@@ -121,7 +121,7 @@ void MovieRun::show_progress() {
     const double vibrating = vibrating_->seconds();
     if (progress.done > 0 && vibrating > 1)
         progress.remaining = vibrating * (1 - progress.done) / progress.done;
-    reporter_.progress(progress);
+    listener_.progress(progress);
 }
 
 void MovieRun::keep_state() {
@@ -139,19 +139,19 @@ std::string MovieRun::stopped_text() const {
 }
 
 void MovieRun::report_written() {
-    reporter_.info(fmt::format("wrote {}: {}{}, log.txt", folder_->path().string(), film_files_text(),
+    listener_.info(fmt::format("wrote {}: {}{}, log.txt", folder_->path().string(), film_files_text(),
                                run_.files_text()));
     report_segregation();
-    reporter_.info(fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s)",
+    listener_.info(fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s)",
                                duration_text(watch_.seconds()), duration_text(run_.times().of("packing")),
                                duration_text(run_.times().of("engine")), run_.speed() * 1e-6));
 }
 
-void MovieRun::report_segregation() const {
+void MovieRun::report_segregation() {
     const Scene& scene = run_.scene();
     const RunFiles& files = *run_.files();
     if (scene.species.size() < 2 || !files.last_measures()) return;
-    reporter_.info(segregation_text(scene, *files.first_measures(), *files.last_measures()));
+    listener_.info(segregation_text(scene, *files.first_measures(), *files.last_measures()));
 }
 
 }  // namespace grainreel

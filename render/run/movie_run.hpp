@@ -16,7 +16,7 @@ namespace grainreel {
 class MovieRun final : public FilmRun {
   public:
     // Throws UserError for what scene, plan or options get wrong; nothing is on disk then.
-    MovieRun(const FilmRequest& options, Reporter& reporter, const Scene& scene, const Plan& plan);
+    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
 
   private:
     bool work() override;
@@ -27,12 +27,12 @@ class MovieRun final : public FilmRun {
 
     void describe();
     bool pack();  // false when the run was asked to stop
-    void take(const SceneRun::Taken& shot);
+    void take(const Taken& picture);
     void tell_news();
     void show_progress();
-    void report_segregation() const;
+    void report_segregation();
 
-    std::vector<Shot> shots_;
+    Pictures pictures_;
     SceneRun run_;
     std::optional<Stopwatch> vibrating_;
     std::size_t told_ = 0;  // lines of the run's news

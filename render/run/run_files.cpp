@@ -2,8 +2,6 @@
 
 #include "engine/scene/bed.hpp"
 
-#include "build_info.hpp"
-
 namespace grainreel {
 
 namespace {
@@ -14,10 +12,10 @@ std::vector<std::string> species_names(const Scene& scene) {
     return names;
 }
 
-TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains) {
+TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains, const std::string& version) {
     TrajectoryInfo info;
     info.title = scene.title;
-    info.program_version = build_info::version;
+    info.program_version = version;
     info.species = species_names(scene);
     info.capacity = grains;
     for (const FreeWall& wall : scene.walls) info.planes.push_back(wall.name);
@@ -30,12 +28,12 @@ TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains) {
 }  // namespace
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
-                   std::size_t grains)
+                   std::size_t grains, const std::string& program_version)
     : measures_(folder / "measures.csv", species_names(scene)) {
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (plan.trajectory_every == 0) return;
-    trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, grains));
-    if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, build_info::version);
+    trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, grains, program_version));
+    if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, program_version);
 }
 
 void RunFiles::add_frame(const Frame& frame, const Simulation& simulation) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/output/contacts_file.hpp"
@@ -18,7 +19,8 @@ namespace grainreel {
 class RunFiles {
   public:
     // grains: the most a frame can have. Throws RunError when a file cannot be made.
-    RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan, std::size_t grains);
+    RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan, std::size_t grains,
+             const std::string& program_version);
 
     // The frame, and the contacts of the same moment when the scene asks for them.
     void add_frame(const Frame& frame, const Simulation& simulation);

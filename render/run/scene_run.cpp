@@ -1,7 +1,6 @@
 #include "render/run/scene_run.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -16,8 +15,9 @@ namespace grainreel {
 SceneRun::SceneRun(const Scene& scene, const Plan& plan, int threads)
     : scene_(scene), plan_(plan), simulation_(scene, plan, threads) {}
 
-void SceneRun::use_folder(const FolderLock& folder) {
+void SceneRun::use_folder(const FolderLock& folder, const std::string& program_version) {
     folder_ = &folder;
+    program_version_ = program_version;
     replace_file(path_of("scene.toml"), resolved_scene(scene_, plan_));
 }
 
@@ -45,34 +45,86 @@ std::optional<std::string> SceneRun::packing_warning() const {
         scene_.where("start.settle_limit"), packing_.settle_time, packing_.kinetic_per_grain);
 }
 
-void SceneRun::start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments, bool may_leave_out) {
-    bed_periods_.emplace(scene_, plan_.clock, shots, may_leave_out);
-    segments_ = segments;
-    const std::vector<int> multiples = bed_periods_->possible();
-    files_.emplace(folder_->folder(), scene_, plan_, simulation_.grains());
-    const double depth = scene_.container.periodic_depth ? scene_.container.depth : 0;
-    if (needs_displacement(scene_.film.shows))
-        earlier_ = EarlierPositions(shots, plan_.clock.steps_per_period, multiples, first_step_, depth);
-    exposed_ = ExposedMoments(shots, segments, plan_.clock, multiples, first_step_);
-    means_ = PeriodMeans(shots, segments, plan_.clock, multiples, first_step_, depth);
-    std::set<std::int64_t> moments;
-    for (const auto* steps : {&earlier_.steps(), &exposed_.steps(), &means_.steps()})
-        moments.insert(steps->begin(), steps->end());
-    agenda_.emplace(std::move(shots), plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
-                    std::move(moments), bed_periods_->every());
+// What pictures may take from it. Its moments are those that were kept for them.
+class SceneRun::Parts final : public PartSupply {
+  public:
+    explicit Parts(const SceneRun& run) : run_(run) {}
+    FramePtr at(std::int64_t step) const override { return run_.kept_.at(step); }
+    std::vector<Touch> touches(const Frame&) const override {
+        std::vector<Touch> touches;
+        for (const Simulation::ContactRecord& contact : run_.simulation_.contacts())
+            touches.push_back({contact.first, contact.second, contact.normal});
+        return touches;
+    }
+    Measured measured(const Frame&) const override {
+        const std::shared_ptr<const MeasureTable> table = run_.files_->measures();
+        return {table, table->rows()};
+    }
+
+  private:
+    const SceneRun& run_;
+};
+
+Span SceneRun::span() const {
+    return {plan_.clock.time(first_step_), scene_.run.duration};
+}
+
+std::vector<Shot> SceneRun::shots_of(const Pictures& pictures) const {
+    return shots_at(pictures.instants, pictures.segments, plan_.clock, plan_.steps);
+}
+
+std::vector<Frame> SceneRun::moments(const Pictures& pictures) const {
+    std::vector<Frame> moments;
+    for (const Shot& shot : shots_of(pictures)) {
+        Frame& moment = moments.emplace_back();
+        moment.step = shot.step;
+        moment.time = plan_.clock.time(shot.step);
+        moment.cycles = plan_.clock.cycles(shot.step);
+        moment.phase = plan_.clock.phase(shot.step);
+    }
+    return moments;
+}
+
+void SceneRun::start(const Pictures& pictures) {
+    const std::vector<Shot> shots = shots_of(pictures);
+    segments_ = pictures.segments;
+    bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
+    files_.emplace(folder_->folder(), scene_, plan_, simulation_.grains(), program_version_);
+    want_moments(shots);
+    agenda_.emplace(shots, plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
+                    kept_.steps(), bed_periods_->every());
     shots_ = agenda_->shots();
     save_checkpoint();  // of a packing that may have taken hours
 }
 
-std::optional<SceneRun::Taken> SceneRun::next(const GoOn& go_on) {
+// Whatever number of periods the bed will turn out to repeat itself after.
+void SceneRun::want_moments(const std::vector<Shot>& shots) {
+    parts_.emplace(scene_, plan_.clock, first_step_);
+    const std::vector<int> multiples = bed_periods_->possible();
+    for (const Shot& shot : shots)
+        for (const int periods : multiples)
+            kept_.want(shot.step, parts_->moments(shot.step, rule(shot.segment), periods));
+}
+
+std::optional<Taken> SceneRun::next(const GoOn& go_on) {
+    if (std::optional<Taken> picture = waiting()) return picture;
     while (std::optional<Stop> stop = agenda_->next()) {
         if (!advance_to(stop->step, go_on)) return std::nullopt;
         if (stop->strobe) bed_periods_->note(stop->step, simulation_.centre_height());
         leave_out_pictures(*stop);
-        FramePtr frame = serve(*stop);
-        if (!stop->segments.empty()) return Taken{std::move(frame), stop->segments, bed_periods_->shown()};
+        frame_ = serve(*stop);
+        segments_waiting_ = stop->segments;
+        if (std::optional<Taken> picture = waiting()) return picture;
     }
     return std::nullopt;
+}
+
+std::optional<Taken> SceneRun::waiting() {
+    if (segments_waiting_.empty()) return std::nullopt;
+    const int segment = segments_waiting_.front();
+    segments_waiting_.erase(segments_waiting_.begin());
+    FramePtr frame = segments_waiting_.empty() ? std::move(frame_) : frame_;
+    return Taken{std::move(frame), segment, bed_periods_->shown()};
 }
 
 std::vector<std::string> SceneRun::news() const {
@@ -82,12 +134,9 @@ std::vector<std::string> SceneRun::news() const {
 void SceneRun::leave_out_pictures(Stop& stop) {
     if (stop.segments.empty()) return;
     std::erase_if(stop.segments, [&](int segment) {
-        return !bed_periods_->shows(segments_.at(static_cast<std::size_t>(segment)), {stop.step, segment});
+        return !bed_periods_->shows(rule(segment), {stop.step, segment});
     });
-    if (!stop.segments.empty()) return;
-    earlier_.leave_out(stop.step);
-    exposed_.leave_out(stop.step);
-    means_.leave_out(stop.step);
+    if (stop.segments.empty()) kept_.done_with(stop.step);
 }
 
 bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
@@ -122,12 +171,10 @@ FramePtr SceneRun::serve(const Stop& stop) {
         const auto timer = times_.during("writing");
         files_->add_frame(*frame, simulation_);
     }
-    if (stop.moment) {
-        earlier_.keep(*frame);
-        exposed_.keep(*frame);
-        means_.keep(*frame);
-    }
-    if (!stop.segments.empty()) add_what_the_film_needs(*frame);
+    if (stop.moment) kept_.keep(*frame);
+    if (stop.segments.empty()) return frame;
+    parts_->add(*frame, rule(stop.segments.back()), bed_periods_->shown(), Parts(*this));
+    kept_.done_with(stop.step);
     return frame;
 }
 
@@ -135,20 +182,6 @@ void SceneRun::add_measures() {
     Measures measures = simulation_.measures();
     measures.bed_periods = bed_periods_->found();
     files_->add_measures(measures);
-}
-
-void SceneRun::add_what_the_film_needs(Frame& frame) {
-    const FilmShows& look = scene_.film.shows;
-    const int periods = bed_periods_->shown();
-    earlier_.fill(frame, periods);
-    exposed_.fill(frame, periods);
-    means_.fill(frame, periods);
-    if (needs_touches(look))
-        for (const Simulation::ContactRecord& contact : simulation_.contacts())
-            frame.touches.push_back({contact.first, contact.second, contact.normal});
-    if (!needs_measures(look)) return;
-    frame.measures = files_->measures();
-    frame.measure_rows = frame.measures->rows();
 }
 
 void SceneRun::save_checkpoint() {

@@ -1,5 +1,5 @@
 // One scene being run: packing, vibration up to the moments that somebody wants to see, and the files it
-// leaves in its folder. Knows no film; `movie` has one of these, `compare` several.
+// leaves in its folder. Draws nothing; `movie` has one of these, `compare` several.
 #pragma once
 
 #include <filesystem>
@@ -13,56 +13,52 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/cli/report/pace.hpp"
 #include "render/run/checkpoint_pace.hpp"
 #include "render/run/first_failure.hpp"
+#include "render/run/frames/frame_source.hpp"
+#include "render/run/frames/picture_parts.hpp"
 #include "render/run/moments/agenda.hpp"
 #include "render/run/moments/bed_periods.hpp"
-#include "render/run/moments/earlier_positions.hpp"
-#include "render/run/moments/exposed_moments.hpp"
-#include "render/run/moments/period_means.hpp"
+#include "render/run/moments/kept_moments.hpp"
+#include "render/run/pace.hpp"
 #include "render/run/run_files.hpp"
 #include "render/run/stage_times.hpp"
 
 namespace grainreel {
 
-class SceneRun {
+class SceneRun final : public FrameSource {
   public:
-    // Asked every tenth of a second or so; false: stop.
-    using GoOn = std::function<bool()>;
-    struct Taken {
-        FramePtr frame;
-        std::vector<int> segments;  // of the film, one a picture
-        int periods;                // after which the bed repeats itself, as the film has it
-    };
-
     // Throws UserError for what scene or plan get wrong; nothing is on disk then.
     SceneRun(const Scene& scene, const Plan& plan, int threads);
 
     // Writes scene.toml there; the other files follow with start(). The lock outlives the run; from here
     // pack() and next() throw RunError soon after the folder is gone.
-    void use_folder(const FolderLock& folder);
+    void use_folder(const FolderLock& folder, const std::string& program_version);
     // False when the watcher stopped it.
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
-    // After packing: opens the files. shots: what next() is to stop for; segments: of the film that they
-    // make. may_leave_out: locked ones that a bed lacks which repeats itself only every so many periods.
-    void start(std::vector<Shot> shots, const std::vector<FilmSegment>& segments, bool may_leave_out = true);
-    // What was found of the bed's periods so far, a line each.
-    std::vector<std::string> news() const;
-    // To the next shot, keeping on the way what is to be kept. None at the end, or when told to stop.
-    std::optional<Taken> next(const GoOn& go_on);
+
+    const Scene& scene() const override { return scene_; }
+    Supply supply() const override { return {true, true, true, scene_.keeps_orientations()}; }
+    Span span() const override;
+    std::vector<Frame> moments(const Pictures& pictures) const override;
+    // After packing: opens the files. Pictures before the run's first step do not come.
+    void start(const Pictures& pictures) override;
+    // To the next picture, keeping on the way what is to be kept.
+    std::optional<Taken> next(const GoOn& go_on) override;
+    // What was found of the bed's periods so far.
+    std::vector<std::string> news() const override;
+
     // Of a run that was packed, in whatever state: last row of measures, end state, checkpoint. Nothing when
     // its folder is gone.
     void close(FirstFailure& failure);
 
-    const Scene& scene() const { return scene_; }
     const Plan& plan() const { return plan_; }
     const Simulation& simulation() const { return simulation_; }
     const StageTimes& times() const { return times_; }
     const std::optional<RunFiles>& files() const { return files_; }
     bool packed() const { return packed_; }
-    std::int64_t shots() const { return shots_; }
+    std::int64_t shots() const { return shots_; }          // pictures that come, at most
     double done() const;                                   // share of the vibration
     double recent_speed() const { return rate_.value(); }  // particle-steps/s
     double speed() const;                                  // particle-steps/s, time in the engine alone
@@ -75,11 +71,16 @@ class SceneRun {
     void conclude(RunRecord& record) const;
 
   private:
+    class Parts;  // what it has for pictures
+
+    std::vector<Shot> shots_of(const Pictures& pictures) const;
+    void want_moments(const std::vector<Shot>& shots);
+    std::optional<Taken> waiting();  // another picture of the frame taken last
     bool advance_to(std::int64_t target, const GoOn& go_on);
     void leave_out_pictures(Stop& stop);
     FramePtr serve(const Stop& stop);
     void add_measures();
-    void add_what_the_film_needs(Frame& frame);
+    const FilmSegment& rule(int segment) const { return segments_.at(static_cast<std::size_t>(segment)); }
     void save_checkpoint();
     std::filesystem::path path_of(const char* file) const { return folder_->folder() / file; }
 
@@ -87,6 +88,7 @@ class SceneRun {
     Plan plan_;
     Simulation simulation_;
     const FolderLock* folder_ = nullptr;
+    std::string program_version_;  // as files tell it
     PackingResult packing_;
     bool packed_ = false;
     std::int64_t first_step_ = 0, shots_ = 0;
@@ -94,9 +96,10 @@ class SceneRun {
     std::optional<Agenda> agenda_;
     std::optional<BedPeriods> bed_periods_;
     std::vector<FilmSegment> segments_;  // of the film
-    EarlierPositions earlier_;
-    ExposedMoments exposed_;
-    PeriodMeans means_;
+    std::optional<PictureParts> parts_;
+    KeptMoments kept_;
+    FramePtr frame_;                     // taken last
+    std::vector<int> segments_waiting_;  // of its pictures that are yet to come
     StageTimes times_;
     Pace pace_;
     CheckpointPace checkpoints_;

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/team.hpp"
-#include "render/cli/estimate/thread_plan.hpp"
-#include "render/cli/report/pace.hpp"
 #include "render/cli/report/progress_text.hpp"
+#include "render/run/pace.hpp"
+#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,5 +1,5 @@
 // The line on segregation at the end of a run.
-#include "render/cli/report/segregation_text.hpp"
+#include "render/run/segregation_text.hpp"
 
 #include <gmock/gmock.h>
 

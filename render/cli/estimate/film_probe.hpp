@@ -7,7 +7,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/cli/estimate/speed_cache.hpp"
-#include "render/cli/estimate/thread_plan.hpp"
+#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 

@@ -5,14 +5,9 @@
 
 namespace grainreel {
 
-void describe_program(RunRecord& record, const std::string& command) {
-    record.command = command;
-    record.version = build_info::version;
-    record.commit = build_info::commit;
-    record.compiler = build_info::compiler;
-    record.build_flags = build_info::flags;
-    record.libraries = library_versions();
-    record.started = utc_now();
+ProgramInfo program_info() {
+    return {build_info::version, build_info::commit, build_info::compiler, build_info::flags,
+            library_versions()};
 }
 
 }  // namespace grainreel

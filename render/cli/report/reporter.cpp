@@ -9,6 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/cli/report/progress_text.hpp"
+#include "render/cli/report/stop_signal.hpp"
+
 namespace grainreel {
 
 namespace {
@@ -52,23 +55,31 @@ Reporter::~Reporter() {
 }
 
 void Reporter::detail(const std::string& text) {
-    if (log_ != nullptr) log_->info(text);
     if (options_.verbose && !options_.quiet) print("detail", "", text);
 }
 
 void Reporter::info(const std::string& text) {
-    if (log_ != nullptr) log_->info(text);
     if (!options_.quiet) print("info", "", text);
 }
 
 void Reporter::warning(const std::string& text) {
-    if (log_ != nullptr) log_->warning(text);
     if (!options_.quiet) print("warning", "\033[33m", text);
 }
 
 void Reporter::error(const std::string& text) {
-    if (log_ != nullptr) log_->error(text);
     print("error", "\033[31m", text);
+}
+
+int Reporter::stop_signal() const {
+    return grainreel::stop_signal();
+}
+
+void Reporter::keep_before_exit() {
+    grainreel::keep_before_exit();
+}
+
+bool Reporter::in_a_hurry() const {
+    return grainreel::in_a_hurry();
 }
 
 void Reporter::print(const char* kind, const char* colour, const std::string& text) {

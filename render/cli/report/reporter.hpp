@@ -1,13 +1,12 @@
 // All that goes to stderr: messages and the progress line, which redraws on a terminal and comes now and then
-// in a pipe. Messages go to the run's log as well.
+// in a pipe. Signals are what asks a run to stop.
 #pragma once
 
 #include <chrono>
 #include <optional>
 #include <string>
 
-#include "engine/output/log.hpp"
-#include "render/cli/report/progress_text.hpp"
+#include "render/run/listener.hpp"
 
 namespace grainreel {
 
@@ -18,21 +17,22 @@ struct ReporterOptions {
     bool verbose = false;  // details too
 };
 
-class Reporter {
+class Reporter final : public RunListener {
   public:
     explicit Reporter(const ReporterOptions& options);
-    ~Reporter();
+    ~Reporter() override;
 
-    // From here on messages go to the log too; nullptr ends that.
-    void keep_log(RunLog* log) { log_ = log; }
+    void detail(const std::string& text) override;  // shown with --verbose only
+    void info(const std::string& text) override;
+    void warning(const std::string& text) override;
+    void error(const std::string& text) override;
+    // Shows it when it is time to.
+    void progress(const Progress& progress) override;
 
-    void detail(const std::string& text);  // shown with --verbose only, always logged
-    void info(const std::string& text);
-    void warning(const std::string& text);
-    void error(const std::string& text);
+    int stop_signal() const override;
+    void keep_before_exit() override;
+    bool in_a_hurry() const override;
 
-    // As often as the caller likes: shows it when it is time to.
-    void progress(const Progress& progress);
     // What a signal handler is to write when it ends the program at once; empty when only errors are shown.
     std::string last_words() const;
     // Takes the progress line off the terminal.
@@ -46,7 +46,6 @@ class Reporter {
 
     ReporterOptions options_;
     bool terminal_ = false, coloured_ = false;
-    RunLog* log_ = nullptr;
     bool line_shown_ = false;
     std::optional<Progress> last_;  // shown
     Watch::time_point last_time_;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "render/cli/report/reporter.hpp"
-#include "render/run/stop_signal.hpp"
+#include "render/cli/report/stop_signal.hpp"
 
 namespace grainreel {
 

@@ -4,6 +4,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "render/cli/options/option_groups.hpp"
+#include "render/cli/report/film_report.hpp"
+#include "render/cli/report/record.hpp"
 #include "render/cli/verbs/verb.hpp"
 #include "render/run/compare/compare_run.hpp"
 
@@ -35,8 +37,9 @@ class Compare final : public Verb {
 
     int run(Reporter& reporter) override {
         film_.command = command;
+        film_.program = program_info();
         CompareRun comparison(film_, reporter, read_comparison(request_, film_));
-        return comparison.run();
+        return tell_folder(comparison.run(), film_);
     }
 
   private:

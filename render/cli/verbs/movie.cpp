@@ -4,6 +4,8 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "render/cli/options/option_groups.hpp"
+#include "render/cli/report/film_report.hpp"
+#include "render/cli/report/record.hpp"
 #include "render/cli/verbs/verb.hpp"
 #include "render/run/movie_run.hpp"
 
@@ -28,10 +30,11 @@ class Movie final : public Verb {
 
     int run(Reporter& reporter) override {
         film_.command = command;
+        film_.program = program_info();
         const Scene scene = read_scene(scene_, sets_);
         const Plan plan = make_plan(scene);
         MovieRun movie(film_, reporter, scene, plan);
-        return movie.run();
+        return tell_folder(movie.run(), film_);
     }
 
   private:

@@ -4,10 +4,12 @@
 #include <CLI/Validators.hpp>
 
 #include "render/cli/options/option_groups.hpp"
-#include "render/cli/verbs/still.hpp"
+#include "render/cli/report/film_report.hpp"
+#include "render/cli/report/record.hpp"
+#include "render/cli/report/result.hpp"
 #include "render/cli/verbs/verb.hpp"
-#include "render/run/finished_run.hpp"
 #include "render/run/redraw_run.hpp"
+#include "render/run/still.hpp"
 
 namespace grainreel {
 namespace {
@@ -48,11 +50,15 @@ class Render final : public Verb {
 
     int run(Reporter& reporter) override {
         film_.command = command;
-        FinishedRun finished(request_.run, request_.sets);
-        if (request_.at) return draw_still(film_, *request_.at, reporter, finished);
-        finished.leave_out_damaged();
-        RedrawRun redraw(film_, request_, reporter, finished);
-        return redraw.run();
+        film_.program = program_info();
+        RecordedRun record(request_.run, request_.sets);
+        if (request_.at) {
+            print_result(draw_still(film_, *request_.at, reporter, record).string() + "\n");
+            return 0;
+        }
+        record.leave_out_damaged();
+        RedrawRun redraw(film_, request_, reporter, record);
+        return tell_folder(redraw.run(), film_);
     }
 
   private:

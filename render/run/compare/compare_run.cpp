@@ -8,77 +8,79 @@
 #include "render/draw/camera/camera_path.hpp"
 #include "render/film/production/side_by_side_drawer.hpp"
 #include "render/run/compare/comparison_words.hpp"
-#include "render/run/stop_signal.hpp"
 #include "render/run/together.hpp"
 
 namespace grainreel {
 
-namespace {
-
-bool go_on() {
-    return stop_signal() == 0;
-}
-
-}  // namespace
-
-CompareRun::CompareRun(const FilmRequest& options, Reporter& reporter, Comparison all)
-    : FilmRun(options, reporter), all_(std::move(all)) {
+CompareRun::CompareRun(const FilmRequest& request, RunListener& listener, Comparison all)
+    : FilmRun(request, listener), all_(std::move(all)) {
     threads_ = all_.threads;
-    make_folder({all_.film.name, options.base, options.out, options.force});
+    make_folder({all_.film.name, request.base, request.out, request.force});
 }
 
 void CompareRun::begin() {
-    for (const auto& source : all_.sources) {
-        record_.panels.push_back(source->place());
-        if (dynamic_cast<const RecordedPanel*>(source.get()) != nullptr)
-            record_.drawn.push_back({source->place(), static_cast<std::int64_t>(all_.instants.size()),
-                                     all_.instants.front().time, all_.instants.back().time});
+    const std::vector<Instant>& instants = all_.pictures.instants;
+    for (const auto& member : all_.members) {
+        record_.panels.push_back(member->place());
+        if (member->record() != nullptr)
+            record_.drawn.push_back({member->place(), static_cast<std::int64_t>(instants.size()),
+                                     instants.front().time, instants.back().time});
     }
     begin_record(all_.warnings);
-    for (const auto& source : all_.sources) source->begin(folder_->path(), options_.command);
+    for (const auto& member : all_.members)
+        member->begin(folder_->path(), request_.command, request_.program);
+}
+
+std::function<bool()> CompareRun::go_on() const {
+    return [this] { return listener_.stop_signal() == 0; };
 }
 
 bool CompareRun::work() {
     begin();
-    Frames frames(all_.sources.size());
-    if (!for_all(Progress::Stage::growing, frames,
-                 [](ComparePanel& panel, FramePtr&) { return panel.pack(go_on); }))
-        return false;
+    Frames frames(all_.members.size());
+    const auto pack = [this](Member& member, FramePtr&) { return member.pack(go_on()); };
+    if (!for_all(Stage::packing, frames, pack)) return false;
     mark_begun();
-    const std::vector<FilmSegment>& segments = all_.film.film.segments;
-    for (const auto& source : all_.sources) source->start(all_.instants, segments);
-    pictures_planned_ = static_cast<std::int64_t>(all_.instants.size());
+    for (const auto& member : all_.members) member->start(all_.pictures);
+    const std::vector<Instant>& instants = all_.pictures.instants;
+    pictures_planned_ = static_cast<std::int64_t>(instants.size());
     for (Panel& panel : all_.panels)
         settle_orbit(panel.scene.film.camera, static_cast<double>(pictures_planned_) / all_.film.film.rate);
     std::vector<std::size_t> segment_of;
-    for (const Instant& instant : all_.instants)
-        segment_of.push_back(static_cast<std::size_t>(instant.segment));
-    open_film(all_.film, side_by_side_drawer(all_.panels, all_.film.film, threads_.raster, options_.gl,
+    for (const Instant& instant : instants) segment_of.push_back(static_cast<std::size_t>(instant.segment));
+    open_film(all_.film, side_by_side_drawer(all_.panels, all_.film.film, threads_.raster, request_.gl,
                                              all_.reference, segment_of));
     stage_ = Stopwatch();
+    const auto next = [this](Member& member, FramePtr& frame) {
+        frame = member.next(go_on());
+        return frame != nullptr;
+    };
     for (const std::size_t segment : segment_of) {
-        const auto next = [](ComparePanel& panel, FramePtr& frame) {
-            frame = panel.next(go_on);
-            return frame != nullptr;
-        };
-        if (!for_all(Progress::Stage::vibrating, frames, next)) return false;
+        if (!for_all(Stage::pictures, frames, next)) return false;
         const auto timer = times_.during("waiting for the film");
         film_->take(frames, playback_of_all(all_.panels, segment));
     }
-    return for_all(Progress::Stage::vibrating, frames,
-                   [](ComparePanel& panel, FramePtr&) { return panel.finish(go_on); });
+    const auto finish = [this](Member& member, FramePtr&) {
+        member.next(go_on());
+        return listener_.stop_signal() == 0;
+    };
+    return for_all(Stage::pictures, frames, finish);
 }
 
-bool CompareRun::for_all(Progress::Stage stage, Frames& frames, const Work& work) {
-    const auto timer = times_.during(stage == Progress::Stage::growing ? "packing" : "engine");
+const char* CompareRun::name_of(Stage stage) const {
+    return stage == Stage::packing ? "packing" : all_.all_recorded() ? "reading" : "engine";
+}
+
+bool CompareRun::for_all(Stage stage, Frames& frames, const Work& work) {
+    const auto timer = times_.during(name_of(stage));
     std::atomic<bool> all_well = true;
     std::vector<std::function<void()>> works;
-    for (std::size_t i = 0; i < all_.sources.size(); ++i)
+    for (std::size_t i = 0; i < all_.members.size(); ++i)
         works.push_back([&, i] {
             try {
-                if (!work(*all_.sources[i], frames[i])) all_well = false;
+                if (!work(*all_.members[i], frames[i])) all_well = false;
             } catch (const std::exception& problem) {
-                all_.sources[i]->note_failure(problem.what());
+                all_.members[i]->note_failure(problem.what());
                 throw;
             }
         });
@@ -87,30 +89,38 @@ bool CompareRun::for_all(Progress::Stage stage, Frames& frames, const Work& work
     return all_well;
 }
 
-void CompareRun::show_progress(Progress::Stage stage) {
-    Progress progress;
-    progress.stage = stage;
-    for (const auto& source : all_.sources) {
-        progress.done += source->done() / static_cast<double>(all_.sources.size());
-        progress.particle_steps_per_second += source->speed();
+void CompareRun::show_progress(Stage stage) {
+    if (all_.all_recorded()) {
+        if (stage == Stage::pictures) show_drawing();
+        return;
     }
-    progress.end = all_.instants.back().time;
+    Progress progress;
+    progress.stage = stage == Stage::packing ? Progress::Stage::growing : Progress::Stage::vibrating;
+    double runs = 0;
+    for (const auto& member : all_.members) {
+        if (member->run() == nullptr) continue;
+        ++runs;
+        progress.done += member->done();
+        progress.particle_steps_per_second += member->speed();
+    }
+    progress.done /= runs;
+    progress.end = all_.pictures.instants.back().time;
     progress.time = progress.done * progress.end;
     progress.frames = film_ ? film_->frames_done() : 0;
     progress.frames_planned = pictures_planned_;
     progress.elapsed = watch_.seconds();
     const double seconds = stage_.seconds();
-    if (stage == Progress::Stage::vibrating && progress.done > 0 && seconds > 1)
+    if (stage == Stage::pictures && progress.done > 0 && seconds > 1)
         progress.remaining = seconds * (1 - progress.done) / progress.done;
-    reporter_.progress(progress);
+    listener_.progress(progress);
 }
 
 void CompareRun::keep_state() {
-    for (const auto& source : all_.sources) source->keep_state();
+    for (const auto& member : all_.members) member->keep_state();
 }
 
 void CompareRun::conclude() {
-    for (const auto& source : all_.sources) source->close(record_.status, *record_.exit_status, failure_);
+    for (const auto& member : all_.members) member->close(record_.status, *record_.exit_status, failure_);
 }
 
 std::string CompareRun::stopped_text() const {
@@ -118,18 +128,20 @@ std::string CompareRun::stopped_text() const {
 }
 
 void CompareRun::report_written() {
-    for (const auto& source : all_.sources)
-        for (const std::string& line : source->news())
-            reporter_.warning(fmt::format("{}: {}", source->place(), line));
     std::vector<std::string> folders;
-    for (const auto& source : all_.sources)
-        if (dynamic_cast<const LivePanel*>(source.get()) != nullptr) folders.push_back(source->place() + "/");
+    for (const auto& member : all_.members) {
+        if (member->run() == nullptr) continue;
+        folders.push_back(member->place() + "/");
+        for (const std::string& line : member->run()->news())
+            listener_.warning(fmt::format("{}: {}", member->place(), line));
+    }
     const std::string runs =
         folders.empty() ? "" : fmt::format("{} (each a run), ", fmt::join(folders, ", "));
-    reporter_.info(
+    listener_.info(
         fmt::format("wrote {}: {}{}run.json, log.txt", folder_->path().string(), film_files_text(), runs));
-    reporter_.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s", duration_text(watch_.seconds()),
-                               all_.sources.size(), all_.instants.front().time, all_.instants.back().time));
+    listener_.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s", duration_text(watch_.seconds()),
+                               all_.members.size(), all_.pictures.instants.front().time,
+                               all_.pictures.instants.back().time));
 }
 
 }  // namespace grainreel

@@ -12,7 +12,7 @@ namespace grainreel {
 
 class CompareRun final : public FilmRun {
   public:
-    CompareRun(const FilmRequest& options, Reporter& reporter, Comparison all);
+    CompareRun(const FilmRequest& request, RunListener& listener, Comparison all);
 
   private:
     bool work() override;
@@ -23,9 +23,12 @@ class CompareRun final : public FilmRun {
 
     void begin();
     // Does the same for every panel at once, and shows how far they are; false when asked to stop.
-    using Work = std::function<bool(ComparePanel&, Frames::value_type&)>;
-    bool for_all(Progress::Stage stage, Frames& frames, const Work& work);
-    void show_progress(Progress::Stage stage);
+    enum class Stage { packing, pictures };
+    using Work = std::function<bool(Member&, FramePtr&)>;
+    bool for_all(Stage stage, Frames& frames, const Work& work);
+    const char* name_of(Stage stage) const;  // in run.json
+    void show_progress(Stage stage);
+    std::function<bool()> go_on() const;
 
     Comparison all_;
     Stopwatch stage_;

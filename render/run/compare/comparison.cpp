@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include "render/draw/panels/side_by_side.hpp"
 #include "render/film/sampling/pacing.hpp"
 #include "render/run/compare/comparison_words.hpp"
+#include "render/run/frames/choice.hpp"
 
 namespace grainreel {
 
@@ -27,10 +30,10 @@ bool is_run(const fs::path& input) {
 }
 
 // All scenes end when the shortest does; a film's segments are shortened with it.
-std::vector<Scene> read_scenes(const CompareRequest& request, std::vector<std::string>& warnings) {
+std::vector<Scene> read_scenes(const CompareRequest& what, std::vector<std::string>& warnings) {
     std::vector<Scene> scenes;
-    for (const fs::path& input : request.inputs)
-        if (!is_run(input)) scenes.push_back(read_scene(input, request.sets));
+    for (const fs::path& input : what.inputs)
+        if (!is_run(input)) scenes.push_back(read_scene(input, what.sets));
     if (scenes.empty()) return scenes;
     const auto by_duration = [](const Scene& a, const Scene& b) { return a.run.duration < b.run.duration; };
     const auto [shortest, longest] = std::minmax_element(scenes.begin(), scenes.end(), by_duration);
@@ -38,7 +41,7 @@ std::vector<Scene> read_scenes(const CompareRequest& request, std::vector<std::s
     warnings.push_back(fmt::format("{} lasts {:.6g} s, {} {:.6g} s: all are run and shown for {:.6g} s",
                                    shortest->file, shortest->run.duration, longest->file,
                                    longest->run.duration, shortest->run.duration));
-    Assignments sets = request.sets;
+    Assignments sets = what.sets;
     sets.push_back(fmt::format("run.duration={}", shortest->run.duration));
     for (Scene& scene : scenes) scene = read_scene(scene.file, sets);
     return scenes;
@@ -62,41 +65,41 @@ void number_names(std::vector<Scene>& scenes) {
     }
 }
 
-ThreadPlan plan_threads_for(const std::vector<Scene>& scenes, int wanted) {
+ThreadPlan plan_threads_for(const std::vector<Scene>& scenes) {
+    if (scenes.empty()) return drawing_threads(0);
+    const int wanted = scenes.front().run.threads;
     const int processors = wanted > 0 ? wanted : usable_processors();
     std::int64_t grains = 0;
     for (const Scene& scene : scenes) grains += scene.grains();
-    if (grains == 0) return {0, std::max(1, processors / 2), std::max(1, processors - processors / 2)};
     ThreadPlan threads = plan_threads(processors, true, grains);
     threads.engine = std::max(1, threads.engine / static_cast<int>(scenes.size()));  // for each
     return threads;
 }
 
-void make_sources(const CompareRequest& request, Comparison& all) {
-    std::vector<Scene> scenes = read_scenes(request, all.warnings);
+void make_members(const CompareRequest& what, Comparison& all) {
+    std::vector<Scene> scenes = read_scenes(what, all.warnings);
     number_names(scenes);
-    const int wanted = scenes.empty() ? 0 : scenes.front().run.threads;
-    all.threads = plan_threads_for(scenes, wanted);
+    all.threads = plan_threads_for(scenes);
     std::size_t next = 0;
-    for (const fs::path& input : request.inputs) {
+    for (const fs::path& input : what.inputs) {
         if (is_run(input)) {
-            auto recorded = std::make_unique<RecordedPanel>(input, request.sets);
-            const std::vector<std::string>& warnings = recorded->run().warnings();
-            all.warnings.insert(all.warnings.end(), warnings.begin(), warnings.end());
-            all.sources.push_back(std::move(recorded));
+            auto record = std::make_unique<RecordedRun>(input, what.sets);
+            record->leave_out_damaged();
+            for (std::string& line : record->news()) all.warnings.push_back(std::move(line));
+            all.members.push_back(std::make_unique<Member>(std::move(record)));
             continue;
         }
         const Scene& scene = scenes[next++];
         check_start(scene);
         const Plan plan = make_plan(scene);
         all.warnings.insert(all.warnings.end(), plan.warnings.begin(), plan.warnings.end());
-        all.sources.push_back(std::make_unique<LivePanel>(scene, plan, all.threads.engine));
+        all.members.push_back(std::make_unique<Member>(scene, plan, all.threads.engine));
     }
 }
 
 std::vector<Scene> scenes_of(const Comparison& all) {
     std::vector<Scene> scenes;
-    for (const auto& source : all.sources) scenes.push_back(source->scene());
+    for (const auto& member : all.members) scenes.push_back(member->scene());
     return scenes;
 }
 
@@ -107,43 +110,48 @@ double mean_interval(const std::vector<Frame>& moments) {
 }
 
 // Of the finished runs that with the fewest frames a second, whose moments the others can follow.
-const RecordedPanel* coarsest(const Comparison& all, std::size_t& index) {
-    const RecordedPanel* found = nullptr;
-    for (std::size_t i = 0; i < all.sources.size(); ++i) {
-        const auto* recorded = dynamic_cast<const RecordedPanel*>(all.sources[i].get());
-        if (!recorded ||
-            (found && mean_interval(recorded->run().moments()) <= mean_interval(found->run().moments())))
+const RecordedRun* coarsest(const Comparison& all, std::size_t& index) {
+    const RecordedRun* found = nullptr;
+    for (std::size_t i = 0; i < all.members.size(); ++i) {
+        const RecordedRun* record = all.members[i]->record();
+        if (!record || (found && mean_interval(record->moments()) <= mean_interval(found->moments())))
             continue;
-        found = recorded;
+        found = record;
         index = i;
     }
     return found;
 }
 
-// The time that all panels can show, s.
-std::pair<double, double> common_time(const Comparison& all) {
-    double from = 0, to = std::numeric_limits<double>::infinity();
-    for (const auto& source : all.sources) {
-        if (const auto* recorded = dynamic_cast<const RecordedPanel*>(source.get())) {
-            from = std::max(from, recorded->run().moments().front().time);
-            to = std::min(to, recorded->run().moments().back().time);
-        } else {
-            to = std::min(to, source->scene().run.duration);
-        }
+// The time that all panels can show.
+Span common_time(const Comparison& all) {
+    Span common{0, std::numeric_limits<double>::infinity()};
+    for (const auto& member : all.members) {
+        const Span span = member->source().span();
+        common.from = std::max(common.from, span.from);
+        common.to = std::min(common.to, span.to);
     }
-    return {from, to};
+    return common;
 }
 
-void take_moments_of(const RecordedPanel& run, Comparison& all) {
+// Periods after which the beds of all finished runs repeat themselves.
+int common_periods(const Comparison& all) {
+    int periods = 1;
+    for (const auto& member : all.members)
+        if (member->record()) periods = std::lcm(periods, member->record()->periods());
+    return periods;
+}
+
+void take_moments_of(const RecordedRun& run, Comparison& all) {
     const auto [from, to] = common_time(all);
-    const double hair = 1e-3 * mean_interval(run.run().moments());
+    const double hair = 1e-3 * mean_interval(run.moments());
     std::vector<Frame> moments;
-    for (const Frame& moment : run.run().moments())
+    for (const Frame& moment : run.moments())
         if (moment.time >= from - hair && moment.time <= to + hair) moments.push_back(moment);
     if (moments.empty())
         throw UserError(fmt::format("{}: shares no time with the others, which show {:.6g} to {:.6g} s",
-                                    run.run().folder().string(), from, to));
-    for (const Frame& moment : moments) all.instants.push_back({moment.time, 0});
+                                    run.folder().string(), from, to));
+    moments = alike(moments, common_periods(all));
+    for (const Frame& moment : moments) all.pictures.instants.push_back({moment.time, 0});
     const Drive& drive = run.scene().drive;
     all.film.film.segments = {pacing_of(moments, drive, all.film.film.rate).value_or(FilmSegment())};
 }
@@ -151,8 +159,8 @@ void take_moments_of(const RecordedPanel& run, Comparison& all) {
 void take_moments_of_schedule(Comparison& all) {
     const std::vector<Scene> scenes = scenes_of(all);
     all.reference = reference_of(scenes);
-    const auto& run = dynamic_cast<const LivePanel&>(*all.sources[all.reference]).run();
-    all.instants = instants_of(all.film, run.plan().clock, run.plan().steps);
+    const Plan& plan = all.members[all.reference]->run()->plan();
+    all.pictures.instants = instants_of(all.film, plan.clock, plan.steps);
     std::set<double> frequencies;
     for (const Scene& scene : scenes) {
         if (!scene.drive.present || !frequencies.insert(scene.drive.frequency).second) continue;
@@ -179,19 +187,20 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-void make_panels(const CompareRequest& request, Comparison& all) {
+void make_panels(const CompareRequest& what, Comparison& all) {
     const std::vector<Scene> scenes = scenes_of(all);
     std::vector<std::string> captions = captions_of(scenes);
-    if (request.captions) captions = split(*request.captions);
+    if (what.captions) captions = split(*what.captions);
     if (captions.size() != scenes.size())
         throw UserError(
             fmt::format("--captions: has {} parts between its bars for {} panels; write one for each, "
                         "as in \"Γ = 1|Γ = 3\"",
                         captions.size(), scenes.size()));
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        all.panels.push_back({scenes[i], captions[i], playback_of(*all.sources[i], all)});
+        all.panels.push_back({scenes[i], captions[i], playback_of(all.members[i]->source(), all)});
         // All plots and clocks are of the time that is shown.
-        if (all.instants.back().time > 0) all.panels[i].scene.run.duration = all.instants.back().time;
+        if (all.pictures.instants.back().time > 0)
+            all.panels[i].scene.run.duration = all.pictures.instants.back().time;
     }
     share_colours(all.panels);
     if (!common_of(all.panels).exaggerated)  // then each panel has to say so
@@ -202,6 +211,7 @@ void make_panels(const CompareRequest& request, Comparison& all) {
     if (layout.places.empty())
         throw UserError(fmt::format("--size: {}x{} is too small for {} panels; make it larger",
                                     all.film.film.width, all.film.film.height, scenes.size()));
+    warn_of_single_moments(all);
     warn_of_pace(all);
     warn_of_what_is_left_out(layout, all);
 }
@@ -223,22 +233,27 @@ Scene whole(const std::vector<Scene>& scenes) {
 
 }  // namespace
 
-Comparison read_comparison(const CompareRequest& request, const FilmRequest& film) {
+bool Comparison::all_recorded() const {
+    return std::all_of(members.begin(), members.end(), [](const auto& member) { return member->record(); });
+}
+
+Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) {
     if (!film.film && !film.frames)
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
-    if (const std::size_t count = request.inputs.size(); count < 2 || count > most_panels)
+    if (const std::size_t count = what.inputs.size(); count < 2 || count > most_panels)
         throw UserError(fmt::format(
             "compare takes 2 to {} scenes or folders of runs, not {}; see grainreel compare --help",
             most_panels, count));
     Comparison all;
-    make_sources(request, all);
+    make_members(what, all);
     all.film = whole(scenes_of(all));
-    if (const RecordedPanel* recorded = coarsest(all, all.reference)) {
+    if (const RecordedRun* recorded = coarsest(all, all.reference)) {
         take_moments_of(*recorded, all);
     } else {
         take_moments_of_schedule(all);
     }
-    make_panels(request, all);
+    all.pictures.segments = all.film.film.segments;
+    make_panels(what, all);
     return all;
 }
 

@@ -5,25 +5,27 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/estimate/thread_plan.hpp"
 #include "render/draw/panels/panels.hpp"
 #include "render/film/sampling/timeline.hpp"
-#include "render/run/compare/compare_panel.hpp"
+#include "render/run/compare/member.hpp"
 #include "render/run/film_request.hpp"
+#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 
 struct Comparison {
-    std::vector<std::unique_ptr<ComparePanel>> sources;
+    std::vector<std::unique_ptr<Member>> members;
     std::vector<Panel> panels;  // as drawn, in the same order
     Scene film;                 // stands for the whole: name, title, size, rate, segments, duration
-    std::vector<Instant> instants;
+    Pictures pictures;          // of every member
     std::size_t reference = 0;  // the panel by whose drive the film goes
     ThreadPlan threads;
     std::vector<std::string> warnings;
+
+    bool all_recorded() const;  // nothing is run
 };
 
 // Throws UserError for whatever scene, run or option is wrong.
-Comparison read_comparison(const CompareRequest& request, const FilmRequest& film);
+Comparison read_comparison(const CompareRequest& what, const FilmRequest& film);
 
 }  // namespace grainreel

@@ -7,30 +7,30 @@
 
 #include "render/film/sampling/pacing.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/run/frames/choice.hpp"
 
 namespace grainreel {
 
 namespace {
 
 bool of_schedule(const Comparison& all) {
-    return std::all_of(all.sources.begin(), all.sources.end(), [](const auto& source) {
-        return dynamic_cast<const LivePanel*>(source.get()) != nullptr;
-    });
+    return std::all_of(all.members.begin(), all.members.end(),
+                       [](const auto& member) { return member->source().supply().any_moment; });
 }
 
 }  // namespace
 
 // Its drive may be unlike that of the reference, and its moments then come otherwise; where it is like that,
 // or does not matter, the segment says it best.
-std::vector<std::string> playback_of(const ComparePanel& source, const Comparison& all) {
-    const std::vector<FilmSegment>& segments = all.film.film.segments;
-    const Drive &drive = source.scene().drive, &reference = all.sources[all.reference]->scene().drive;
-    const std::vector<Frame> moments = source.moments(all.instants, segments);
+std::vector<std::string> playback_of(const FrameSource& source, const Comparison& all) {
+    const std::vector<FilmSegment>& segments = all.pictures.segments;
+    const Drive &drive = source.scene().drive, &reference = all.members[all.reference]->scene().drive;
+    const std::vector<Frame> moments = source.moments(all.pictures);
     std::vector<std::string> captions;
     for (std::size_t k = 0; k < segments.size(); ++k) {
         std::vector<Frame> inside;
         for (std::size_t i = 0; i < moments.size(); ++i)
-            if (all.instants[i].segment == static_cast<int>(k)) inside.push_back(moments[i]);
+            if (all.pictures.instants[i].segment == static_cast<int>(k)) inside.push_back(moments[i]);
         const bool as_planned =
             of_schedule(all) && (segments[k].kind == FilmSegment::Kind::motion ||
                                  (drive.present && drive.frequency == reference.frequency));
@@ -43,16 +43,32 @@ std::vector<std::string> playback_of(const ComparePanel& source, const Compariso
 void warn_of_pace(Comparison& all) {
     if (of_schedule(all)) return;
     std::set<std::string> said;
-    for (const auto& source : all.sources) {
-        const auto warning =
-            pacing_warning(source->moments(all.instants, all.film.film.segments), source->scene().drive);
+    for (const auto& member : all.members) {
+        const auto warning = pacing_warning(member->source().moments(all.pictures), member->scene().drive);
         if (warning && said.insert(*warning).second) all.warnings.push_back(*warning);
+    }
+}
+
+// Where the moments are those of a finished run, scenes that are run beside it show them too.
+void warn_of_single_moments(Comparison& all) {
+    std::set<std::string> said;
+    for (const auto& member : all.members) {
+        if (!member->record()) continue;
+        if (const auto warning = periods_warning(*member->record()); warning && said.insert(*warning).second)
+            all.warnings.push_back(*warning);
+    }
+    if (of_schedule(all)) return;
+    for (const auto& member : all.members) {
+        if (!member->run()) continue;
+        for (std::string& line :
+             single_moment_warnings(member->scene(), "beside a finished run, frames are single moments"))
+            all.warnings.push_back(std::move(line));
     }
 }
 
 void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all) {
     bool axes = false;
-    for (const auto& source : all.sources) axes = axes || source->scene().film.axes;
+    for (const auto& member : all.members) axes = axes || member->scene().film.axes;
     if (axes) all.warnings.emplace_back("film.axes: films side by side have no axes");
     if (!layout.plots_fit)
         all.warnings.push_back(

@@ -1,4 +1,4 @@
-#include "render/cli/report/segregation_text.hpp"
+#include "render/run/segregation_text.hpp"
 
 #include <cmath>
 #include <vector>

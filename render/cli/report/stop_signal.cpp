@@ -1,4 +1,4 @@
-#include "render/run/stop_signal.hpp"
+#include "render/cli/report/stop_signal.hpp"
 
 #include <unistd.h>
 

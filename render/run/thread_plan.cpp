@@ -1,6 +1,8 @@
-#include "render/cli/estimate/thread_plan.hpp"
+#include "render/run/thread_plan.hpp"
 
 #include <algorithm>
+
+#include "engine/base/team.hpp"
 
 namespace grainreel {
 
@@ -14,6 +16,12 @@ ThreadPlan plan_threads(int processors, bool film, std::int64_t grains) {
     if (processors <= 2) return {std::min(useful, processors), 1, 1, true};
     const int share = std::max(1, processors / 6);
     return {std::min(useful, processors - processors / 3), share, share};
+}
+
+ThreadPlan drawing_threads(int wanted) {
+    const int processors = wanted > 0 ? wanted : usable_processors();
+    const int raster = std::max(1, processors / 2);
+    return {0, raster, std::max(1, processors - raster)};
 }
 
 }  // namespace grainreel

@@ -1,0 +1,15 @@
+#include "render/cli/report/film_report.hpp"
+
+#include <cstdio>
+
+#include "render/cli/report/result.hpp"
+
+namespace grainreel {
+
+int tell_folder(const FilmRun::Ended& ended, const FilmRequest& request) {
+    if (ended.folder && request.to_stdout) std::fprintf(stderr, "%s\n", ended.folder->c_str());
+    if (ended.folder && !request.to_stdout) print_result(ended.folder->string() + "\n");
+    return ended.exit_status;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,27 @@
+#include "render/run/frames/frame_source.hpp"
+
+#include <algorithm>
+
+namespace grainreel {
+
+std::size_t FrameArchive::nearest(double time) const {
+    const std::vector<Frame>& all = moments();
+    const auto after = std::lower_bound(all.begin(), all.end(), time, [](const Frame& moment, double wanted) {
+        return moment.time < wanted;
+    });
+    const auto index = static_cast<std::size_t>(after - all.begin());
+    if (index == 0) return 0;
+    if (index == all.size()) return index - 1;
+    return time - all[index - 1].time <= all[index].time - time ? index - 1 : index;
+}
+
+std::vector<std::size_t> FrameArchive::before(std::size_t index, double duration) const {
+    constexpr double room = 1.001;
+    const std::vector<Frame>& all = moments();
+    std::vector<std::size_t> frames;
+    for (std::size_t i = 0; i < index; ++i)
+        if (all[i].time >= all[index].time - room * duration) frames.push_back(i);
+    return frames;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,284 @@
+#include "render/run/frames/recorded_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/period_multiple.hpp"
+#include "engine/output/measures_csv.hpp"
+#include "render/run/frames/choice.hpp"
+#include "render/run/frames/recorded_scene.hpp"
+#include "render/run/frames/same_run.hpp"
+#include "render/run/moments/known_reach.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* without_trajectory =
+    "the run kept none: it was told so (output.trajectory = false), or it ended before its first frame";
+
+}  // namespace
+
+RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets)
+    : folder_(folder_of_run(folder)),
+      scene_(scene_of_run(folder_, sets)),
+      trajectory_(file_of_run(folder_, "trajectory.nc", without_trajectory)) {
+    const std::string name = name_of("trajectory.nc");
+    if (trajectory_.frames() == 0)
+        throw UserError(fmt::format("{}: holds no frame yet; the run was stopped before its first", name));
+    check_species(scene_, trajectory_.info(), name);
+    read_moments();
+    clock_ = clock_of(scene_, moments_);
+    measures_ = read_measures(name_of("measures.csv"));
+    check_same_run();
+    // The trajectory holds single moments alone, and of those its own.
+    for (std::string& line : single_moment_warnings(
+             scene_, "frames of a finished run are single moments; run the scene again with `movie`"))
+        news_.push_back(std::move(line));
+    if (scene_.film.look.rotation && !trajectory_.info().orientation)
+        throw UserError(
+            fmt::format("{}: has no orientations, and the film shows rotation; run it with "
+                        "output.orientation = true, or let film.rotation be false",
+                        name));
+    frame_what_is_reached();
+    if (needs_touches(scene_.film.shows)) read_contacts();
+    if (needs_measures(scene_.film.shows)) read_measures_of_run();
+    find_periods();
+    parts_.emplace(scene_, clock_, moments_.front().step);
+    if (needs_displacement(scene_.film.shows)) look_for_earlier_frames();
+}
+
+Supply RecordedRun::supply() const {
+    return {false, contacts_.has_value(), measures_ != nullptr, trajectory_.info().orientation};
+}
+
+void RecordedRun::read_moments() {
+    const std::string name = name_of("trajectory.nc");
+    if (!trajectory_.info().checksums)
+        news_.push_back(
+            fmt::format("{}: has no checksums, for an earlier version wrote it; damage that leaves possible "
+                        "numbers would not show",
+                        name));
+    if (trajectory_.uncounted() > 0)
+        news_.push_back(
+            fmt::format("{}: counts {} frames and holds {} more; they are left out. The run goes on, or the "
+                        "file's header "
+                        "is damaged",
+                        name, trajectory_.frames(), trajectory_.uncounted()));
+    places_.resize(trajectory_.frames());
+    std::iota(places_.begin(), places_.end(), std::size_t{0});
+    keep_those([&](std::size_t place) {
+        moments_.push_back(trajectory_.read_moment(place));
+        add_planes(scene_.walls, moments_.back().time, moments_.back().bodies);
+    });
+}
+
+void RecordedRun::leave_out_damaged() {
+    std::vector<Frame> all = std::move(moments_);
+    std::size_t next = 0;
+    moments_.clear();
+    keep_those([&](std::size_t place) {
+        Frame& moment = all[next++];
+        trajectory_.read(place);
+        if (contacts_) contacts_->touches(place);
+        moments_.push_back(std::move(moment));
+    });
+}
+
+void RecordedRun::keep_those(const std::function<void(std::size_t)>& read) {
+    std::vector<std::size_t> kept, damaged;
+    std::string first;
+    for (const std::size_t place : places_) {
+        try {
+            read(place);
+            kept.push_back(place);
+        } catch (const DamagedFrame& error) {
+            if (damaged.empty()) first = error.what();
+            damaged.push_back(place);
+        }
+    }
+    if (kept.empty()) throw UserError(fmt::format("{} (and no other frame is whole)", first));
+    places_ = std::move(kept);
+    if (damaged.empty()) return;
+    constexpr std::size_t named = 5;
+    std::string others;
+    for (std::size_t i = 1; i < std::min(damaged.size(), named); ++i)
+        others += fmt::format(", {}", damaged[i]);
+    news_.push_back(fmt::format("{}; {} left out{}", first,
+                                damaged.size() == 1 ? "it is" : fmt::format("{} frames are", damaged.size()),
+                                damaged.size() == 1 ? ""
+                                                    : fmt::format(": {}{}{}", damaged.front(), others,
+                                                                  damaged.size() > named ? " ..." : "")));
+}
+
+void RecordedRun::check_same_run() const {
+    const std::string trajectory = name_of("trajectory.nc");
+    check_grains(scene_, trajectory_.info(), first_whole(), trajectory);
+    for (std::size_t i = 0; i < moments_.size(); ++i)
+        check_drive(scene_, clock_, moments_[i], fmt::format("{}: frame {}", trajectory, places_[i]));
+    if (measures_) check_measures(scene_, clock_, *measures_, *this, name_of("measures.csv"));
+}
+
+Frame RecordedRun::first_whole() const {
+    for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+        try {
+            return trajectory_.read(places_[i]);
+        } catch (const DamagedFrame&) {
+            continue;  // whoever draws it says so
+        }
+    }
+    return trajectory_.read(places_.back());
+}
+
+// The camera of a run that is over need not estimate how high the grains get.
+void RecordedRun::frame_what_is_reached() {
+    Camera& camera = scene_.film.camera;
+    if (camera.frame == CameraFrame::reach && !camera.reach && !camera.position)
+        camera.reach = known_reach(trajectory_);
+}
+
+void RecordedRun::read_contacts() {
+    const fs::path file = file_of_run(folder_, "contacts.nc",
+                                      "the run was not told to keep contacts (output.contacts = true); let "
+                                      "film.colour.by be something else and film.force_chains false");
+    contacts_.emplace(file);
+    if (contacts_->cut_off())
+        news_.push_back(
+            fmt::format("{}: was cut off; the last frames are drawn without contacts", file.string()));
+    if (contacts_->uncounted() > 0)
+        news_.push_back(fmt::format(
+            "{}: holds more rows than it counts; the last frames may lack contacts. The run goes on, or the "
+            "file's header is damaged",
+            file.string()));
+    if (!contacts_->has_checksums() && trajectory_.info().checksums)
+        news_.push_back(fmt::format(
+            "{}: has no checksums; damage that leaves possible numbers would not show", file.string()));
+}
+
+void RecordedRun::read_measures_of_run() {
+    const std::string name = name_of("measures.csv");
+    std::error_code error;
+    if (!fs::exists(name, error)) return leave_out_measures("is missing");
+    if (!measures_ || measures_->rows() == 0) return leave_out_measures("holds no row");
+    check_columns();
+    const std::size_t rows = measures_->rows();
+    measured_ = measures_->values(*column_of(*measures_, "time_s"), 0, rows);
+    const double last = measured_.back(), interval = rows > 1 ? last - measured_[rows - 2] : 0;
+    const double end = moments_.back().time;
+    if (last < end - 1.5 * interval - 1e-9)
+        news_.push_back(
+            fmt::format("{}: ends at {:.4g} s, the trajectory at {:.4g} s; plots and live words "
+                        "stand still from there on",
+                        name, last, end));
+}
+
+// Empty plots, and words without their values, would look as if the run had been so.
+void RecordedRun::leave_out_measures(const std::string& why) {
+    FilmShows& shows = scene_.film.shows;
+    const bool plots = !shows.plots.empty();
+    shows.plots.clear();
+    const bool words = needs_measures(shows);
+    if (words) shows.live_words.clear();
+    news_.push_back(fmt::format("{}: {}; {} left out", name_of("measures.csv"), why,
+                                plots && words ? "plots and live words are"
+                                : plots        ? "plots are"
+                                               : "live words are"));
+}
+
+void RecordedRun::check_columns() const {
+    const auto known = [&](const std::string& name) { return column_of(*measures_, name).has_value(); };
+    bool all = known("time_s");
+    for (const FilmPlot& plot : scene_.film.shows.plots) all = all && known(plot.column);
+    for (const LiveWords& part : scene_.film.shows.live_words)
+        all = all && (part.column.empty() || known(part.column));
+    if (!all) throw UserError(fmt::format("{}: lacks a column that the film shows", name_of("measures.csv")));
+}
+
+void RecordedRun::find_periods() {
+    if (scene_.film.periods > 0) {
+        periods_ = scene_.film.periods;
+        return;
+    }
+    if (!measures_ || measures_->rows() == 0) return;
+    const std::optional<std::size_t> column = column_of(*measures_, "bed_periods");
+    if (!column) return;  // of a run before there was one
+    const std::size_t last = measures_->rows() - 1;
+    const double found = measures_->values(*column, last, last + 1).front();
+    if (found >= 1 && found <= PeriodMultiple::kMost) periods_ = static_cast<int>(found);
+}
+
+// The frame of that moment, when there is one.
+std::optional<std::size_t> RecordedRun::index_at(double time) const {
+    constexpr double room = 1e-3;  // periods
+    const std::size_t index = nearest(time);
+    const double off = scene_.drive.present ? room / scene_.drive.frequency : 0.5 * clock_.step;
+    if (std::abs(moments_[index].time - time) > off) return std::nullopt;
+    return index;
+}
+
+void RecordedRun::look_for_earlier_frames() {
+    const double period = 1 / scene_.drive.frequency;
+    const double first = moments_.front().time + (periods_ - 1e-3) * period;
+    std::size_t lack = 0;
+    for (const Frame& moment : moments_)
+        lack += moment.time >= first && !index_at(moment.time - periods_ * period);
+    if (lack > 0)
+        news_.push_back(fmt::format(
+            "{}: {} of its {} frames have none a period before them, and are drawn without displacements; "
+            "run the scene with an output.trajectory_interval that divides the period",
+            name_of("trajectory.nc"), lack, moments_.size()));
+}
+
+FramePtr RecordedRun::at(std::int64_t step) const {
+    const std::optional<std::size_t> index = index_at(clock_.time(step));
+    return index ? std::make_shared<const Frame>(grains(*index)) : nullptr;
+}
+
+std::vector<Touch> RecordedRun::touches(const Frame& frame) const {
+    return contacts_ ? contacts_->touches(places_.at(nearest(frame.time))) : std::vector<Touch>();
+}
+
+PartSupply::Measured RecordedRun::measured(const Frame& frame) const {
+    const double end = frame.time * (1 + 1e-9) + 1e-12;
+    const auto after = std::upper_bound(measured_.begin(), measured_.end(), end);
+    return {measures_, static_cast<std::size_t>(after - measured_.begin())};
+}
+
+Frame RecordedRun::grains(std::size_t index) const {
+    Frame frame = trajectory_.read(places_.at(index));
+    add_planes(scene_.walls, frame.time, frame.bodies);
+    return frame;
+}
+
+Frame RecordedRun::frame(std::size_t index) const {
+    Frame frame = grains(index);
+    parts_->add(frame, FilmSegment(), periods_, *this);
+    return frame;
+}
+
+std::vector<Frame> RecordedRun::moments(const Pictures& pictures) const {
+    std::vector<Frame> moments;
+    for (const Instant& instant : pictures.instants) moments.push_back(moments_[nearest(instant.time)]);
+    return moments;
+}
+
+void RecordedRun::start(const Pictures& pictures) {
+    pictures_ = pictures;
+}
+
+std::optional<Taken> RecordedRun::next(const GoOn& go_on) {
+    if (!go_on() || next_ == pictures_.instants.size()) return std::nullopt;
+    const Instant& instant = pictures_.instants[next_++];
+    Frame frame = grains(nearest(instant.time));
+    parts_->add(frame, pictures_.segments.at(static_cast<std::size_t>(instant.segment)), periods_, *this);
+    return Taken{std::make_shared<const Frame>(std::move(frame)), instant.segment, periods_};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,88 @@
+// A run that lies on disk, as a source of frames: its scene, its trajectory, and what lies beside them. One
+// that was stopped, was killed or still goes on will do: what is whole is read.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/measure/measure_table.hpp"
+#include "engine/output/contacts_file.hpp"
+#include "engine/output/trajectory.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/scene/text/assignment.hpp"
+#include "render/run/frames/frame_source.hpp"
+#include "render/run/frames/picture_parts.hpp"
+
+namespace grainreel {
+
+class RecordedRun final : public FrameSource, public FrameArchive, private PartSupply {
+  public:
+    // sets: changes to the scene, of what is drawn only: keys of [film], colours of species, run.threads.
+    // Throws UserError for another key, when the folder has no scene.toml or no trajectory.nc that holds a
+    // frame, when its files are of two runs, and when the film shows contacts or orientations and the run
+    // kept none.
+    RecordedRun(const std::filesystem::path& folder, const Assignments& sets);
+
+    // Reads all there is and leaves out the frames whose grains are damaged, with a line of news, so that no
+    // damage shows up when half a film is made. Throws UserError when none is left, or contacts are damaged.
+    void leave_out_damaged();
+
+    const Scene& scene() const override { return scene_; }  // named after the folder
+    Supply supply() const override;
+    Span span() const override { return {moments_.front().time, moments_.back().time}; }
+    const FrameArchive* archive() const override { return this; }
+    // Of each picture the kept moment that is nearest in time.
+    std::vector<Frame> moments(const Pictures& pictures) const override;
+    void start(const Pictures& pictures) override;
+    std::optional<Taken> next(const GoOn& go_on) override;
+    // What the film shows and the files lack.
+    std::vector<std::string> news() const override { return news_; }
+
+    const std::filesystem::path& folder() const override { return folder_; }
+    const std::vector<Frame>& moments() const override { return moments_; }
+    Frame grains(std::size_t index) const override;
+    Frame frame(std::size_t index) const override;
+    int periods() const override { return periods_; }
+    Frame first_whole() const;  // the first that is not damaged
+
+  private:
+    FramePtr at(std::int64_t step) const override;
+    std::vector<Touch> touches(const Frame& frame) const override;
+    Measured measured(const Frame& frame) const override;
+
+    void read_moments();
+    // Reads each of places_ and keeps those that are not damaged.
+    void keep_those(const std::function<void(std::size_t)>& read);
+    void check_same_run() const;
+    void frame_what_is_reached();
+    void read_contacts();
+    void read_measures_of_run();
+    void leave_out_measures(const std::string& why);
+    void check_columns() const;
+    void find_periods();
+    std::optional<std::size_t> index_at(double time) const;  // s
+    void look_for_earlier_frames();
+    std::string name_of(const char* file) const { return (folder_ / file).string(); }
+
+    std::filesystem::path folder_;
+    Scene scene_;
+    TrajectoryReader trajectory_;
+    std::optional<ContactsReader> contacts_;  // of a film that wants them
+    std::vector<std::size_t> places_;         // in the trajectory, of the frames that are drawn
+    std::vector<Frame> moments_;              // theirs
+    Clock clock_;
+    int periods_ = 1;
+    std::shared_ptr<const MeasureTable> measures_;  // null when there are none
+    std::vector<double> measured_;                  // s, their times
+    std::optional<PictureParts> parts_;
+    std::vector<std::string> news_;
+
+    Pictures pictures_;
+    std::size_t next_ = 0;  // of them
+};
+
+}  // namespace grainreel

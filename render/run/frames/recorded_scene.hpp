@@ -1,0 +1,21 @@
+// The scene of a run that lies on disk, as it is to be drawn.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/scene/scene.hpp"
+#include "engine/scene/text/assignment.hpp"
+
+namespace grainreel {
+
+// "a/b/" and "a/b/." mean "a/b", and "." has a name too. Throws UserError when there is no such folder.
+std::filesystem::path folder_of_run(const std::filesystem::path& folder);
+
+// Throws UserError with the advice when the folder has no such file.
+std::filesystem::path file_of_run(const std::filesystem::path& folder, const char* name, const char* advice);
+
+// Its scene.toml with changes to what is drawn: keys of [film], colours of species, run.threads; named after
+// the folder. Throws UserError for other keys, and for a scene that cannot be read.
+Scene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
+
+}  // namespace grainreel

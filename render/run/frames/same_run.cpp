@@ -1,0 +1,170 @@
+#include "render/run/frames/same_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/state/wall_motion.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double same_size = 1e-4;   // relative; an early version kept radii as floats
+constexpr double same_time = 1e-6;   // relative, and in turns
+constexpr double same_place = 1e-6;  // of the drive's amplitude, or of a diameter
+
+[[noreturn]] void of_two_runs(const std::string& what) {
+    throw UserError(what + "; they are of two runs");
+}
+
+void check_times(const Scene& scene, double step_length, double step, double time, double cycles,
+                 const std::string& file) {
+    if (scene.run.step && std::abs(time - step * *scene.run.step) > same_time * std::abs(time))
+        of_two_runs(
+            fmt::format("{} has {:.6g} s at step {:.0f}, but by scene.toml beside it a step is {:.6g} s",
+                        file, time, step, *scene.run.step));
+    if (std::abs(time - step * step_length) > same_time * std::abs(time))
+        of_two_runs(
+            fmt::format("{} has {:.6g} s at step {:.0f}, but in trajectory.nc beside it a step is {:.6g} s",
+                        file, time, step, step_length));
+    const double frequency = scene.drive.present ? scene.drive.frequency : 0;
+    if (std::abs(cycles - time * frequency) > same_time * (1 + std::abs(cycles)))
+        of_two_runs(fmt::format(
+            "{} has {:.6g} periods of the drive at {:.6g} s, but scene.toml beside it has {}", file, cycles,
+            time, frequency > 0 ? fmt::format("{:.6g} Hz", frequency) : "no drive"));
+}
+
+}  // namespace
+
+Clock clock_of(const Scene& scene, const std::vector<Frame>& moments) {
+    Clock clock;
+    for (const Frame& moment : moments)
+        if (moment.step != 0) clock.step = moment.time / static_cast<double>(moment.step);
+    if (!scene.drive.present || clock.step <= 0) return clock;
+    clock.steps_per_period = std::llround(1 / (scene.drive.frequency * clock.step));
+    clock.initial_phase = scene.drive.phase;
+    return clock;
+}
+
+void check_species(const Scene& scene, const TrajectoryInfo& info, const std::string& trajectory) {
+    if (info.species.size() != scene.species.size())
+        of_two_runs(fmt::format("{}: has {} species, but scene.toml beside it has {}", trajectory,
+                                info.species.size(), scene.species.size()));
+}
+
+void check_grains(const Scene& scene, const TrajectoryInfo& info, const Frame& frame,
+                  const std::string& trajectory) {
+    const auto grains = static_cast<std::int64_t>(info.capacity);
+    if (grains != scene.grains())
+        of_two_runs(fmt::format("{}: has {} grains, but scene.toml beside it has {}", trajectory, grains,
+                                scene.grains()));
+    std::vector<std::int64_t> count(scene.species.size(), 0);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const auto of = static_cast<std::size_t>(frame.species[i]);
+        const Species& species = scene.species[of];
+        ++count[of];
+        const double diameter = 2 * frame.radius[i];
+        if (diameter < species.diameter.smallest * (1 - same_size) ||
+            diameter > species.diameter.largest * (1 + same_size))
+            of_two_runs(fmt::format("{}: grain {} of '{}' is {:.4g} m wide, but not in scene.toml beside it",
+                                    trajectory, frame.id[i], species.name, diameter));
+    }
+    for (std::size_t s = 0; s < count.size(); ++s)
+        if (count[s] > scene.species[s].count)  // fewer when some have gone
+            of_two_runs(fmt::format("{}: has {} grains of '{}', but scene.toml beside it has {}", trajectory,
+                                    count[s], scene.species[s].name, scene.species[s].count));
+}
+
+void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame) {
+    check_times(scene, clock.step, static_cast<double>(moment.step), moment.time, moment.cycles, frame);
+    const double turns = moment.phase - moment.cycles - clock.initial_phase;
+    if (scene.drive.present && std::abs(turns - std::round(turns)) > same_time)
+        of_two_runs(
+            fmt::format("{} is at phase {:.4g} after {:.6g} periods, but the drive of scene.toml beside "
+                        "it begins at phase {:.4g}",
+                        frame, moment.phase, moment.cycles, scene.drive.phase));
+    if (clock.step <= 0) return;
+    const Vec3 drive = WallMotion(scene.drive, clock).at(moment.step).offset;
+    const bool all_moves = scene.drive.moves == Drive::Moves::container;
+    const auto check = [&](const char* what, const Vec3& is, const Vec3& by_scene) {
+        if ((is - by_scene).norm() > same_place * std::max(scene.drive.amplitude, is.norm()))
+            of_two_runs(
+                fmt::format("{} has the {} {:.4g} m from rest along the drive, but the drive of "
+                            "scene.toml beside it has it {:.4g} m from rest then",
+                            frame, what, is.dot(scene.drive.direction), by_scene.dot(scene.drive.direction)));
+    };
+    check("floor", moment.floor().place, drive);
+    check("container", moment.container().place, all_moves ? drive : Vec3(0, 0, 0));
+}
+
+namespace {
+
+// Places of the rows that have a step of the trajectory, the last first: row and frame.
+struct Pair {
+    std::size_t row, frame;
+};
+std::vector<Pair> moments_of_both(const std::vector<double>& steps, const std::vector<Frame>& moments) {
+    std::vector<Pair> pairs;
+    for (std::size_t row = steps.size(); row-- > 0;) {
+        const auto found = std::lower_bound(
+            moments.begin(), moments.end(), steps[row],
+            [](const Frame& moment, double step) { return static_cast<double>(moment.step) < step; });
+        if (found != moments.end() && static_cast<double>(found->step) == steps[row])
+            pairs.push_back({row, static_cast<std::size_t>(found - moments.begin())});
+    }
+    return pairs;
+}
+
+double mean_height(const Frame& frame, std::size_t species) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        if (static_cast<std::size_t>(frame.species[i]) == species) sum += frame.position[i].z(), ++count;
+    return sum / count;
+}
+
+void check_heights(const Scene& scene, const MeasureTable& table, std::size_t row, const Frame& frame,
+                   const std::string& measures) {
+    for (std::size_t s = 0; s < scene.species.size(); ++s) {
+        const auto column = column_of(table, scene.species[s].name + "_centre_z_m");
+        if (!column) continue;
+        const double said = table.values(*column, row, row + 1).front(), is = mean_height(frame, s);
+        if (std::abs(said - is) > same_place * (scene.species[s].diameter.largest + std::abs(is)))
+            of_two_runs(
+                fmt::format("{}: has the centre of '{}' at a height of {:.6g} m at {:.6g} s, but in "
+                            "trajectory.nc beside it it is at {:.6g} m",
+                            measures, scene.species[s].name, said, frame.time, is));
+    }
+}
+
+}  // namespace
+
+void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
+                    const FrameArchive& trajectory, const std::string& measures) {
+    const auto step = column_of(table, "step"), time = column_of(table, "time_s"),
+               cycles = column_of(table, "cycles");
+    const std::size_t rows = table.rows();
+    if (!step || !time || !cycles || rows == 0) return;
+    const std::vector<double> steps = table.values(*step, 0, rows);
+    const auto last = [&](std::size_t column) { return table.values(column, rows - 1, rows).front(); };
+    if (clock.step > 0)
+        check_times(scene, clock.step, steps.back(), last(*time), last(*cycles), measures + ": its last row");
+    for (const auto& [row, index] : moments_of_both(steps, trajectory.moments())) {
+        try {
+            return check_heights(scene, table, row, trajectory.grains(index), measures);
+        } catch (const DamagedFrame&) {
+            continue;  // whoever draws it says so
+        }
+    }
+}
+
+std::optional<std::size_t> column_of(const MeasureTable& table, const std::string& name) {
+    const std::vector<std::string>& columns = table.columns();
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found == columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - columns.begin());
+}
+
+}  // namespace grainreel

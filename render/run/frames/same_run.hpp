@@ -1,0 +1,34 @@
+// Whether the files in a run's folder are of one run: what each says of the others is compared. All throw
+// UserError with a line that names the two that disagree.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/clock.hpp"
+#include "engine/measure/measure_table.hpp"
+#include "engine/output/trajectory.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/run/frames/frame_source.hpp"
+
+namespace grainreel {
+
+// The clock of a trajectory's frames, of which only the moments count. Its step is 0 when all are at step 0.
+Clock clock_of(const Scene& scene, const std::vector<Frame>& moments);
+
+// trajectory, measures: the files' names, for messages.
+void check_species(const Scene& scene, const TrajectoryInfo& info, const std::string& trajectory);
+// How many grains the trajectory has, and in one of its frames how many of each species and of what size.
+void check_grains(const Scene& scene, const TrajectoryInfo& info, const Frame& frame,
+                  const std::string& trajectory);
+// Step, periods and phase of a moment, and where the drive has the container then. frame: "x.nc: frame 3".
+void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame);
+// Times and periods of the rows, and the grains' centre of mass at a moment that both files have.
+void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
+                    const FrameArchive& trajectory, const std::string& measures);
+
+// Where a column of measures.csv is; none when the file lacks it.
+std::optional<std::size_t> column_of(const MeasureTable& table, const std::string& name);
+
+}  // namespace grainreel

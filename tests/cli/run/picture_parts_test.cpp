@@ -1,0 +1,277 @@
+// What pictures show beside their own moment: ways, exposures, means; given by a run that goes on and keeps
+// what they will want, or by a record that has every moment.
+#include "render/run/frames/picture_parts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "render/run/moments/agenda.hpp"
+#include "render/run/moments/kept_moments.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr Clock kClock{1e-4, 800, 0};  // 12.5 Hz
+
+using PlaceAt = std::function<Vec3(std::int64_t step)>;
+
+// One grain, and a container that is where `wall` says.
+Frame frame_at(std::int64_t step, const Vec3& position, const Vec3& wall = Vec3::Zero()) {
+    Frame frame;
+    frame.step = step;
+    frame.time = kClock.time(step);
+    frame.id = {0};
+    frame.position = {position};
+    frame.velocity = {Vec3(9, 9, 9)};
+    frame.container().place = frame.floor().place = wall;
+    return frame;
+}
+
+Vec3 at_rest(std::int64_t) {
+    return Vec3::Zero();
+}
+
+// Has moments alone.
+class Moments : public PartSupply {
+  public:
+    std::vector<Touch> touches(const Frame&) const override { return {}; }
+    Measured measured(const Frame&) const override { return {}; }
+};
+
+// Every moment from `first` on, as from a record.
+class AnyMoment final : public Moments {
+  public:
+    AnyMoment(PlaceAt grain, PlaceAt wall, std::int64_t first)
+        : grain_(std::move(grain)), wall_(std::move(wall)), first_(first) {}
+    FramePtr at(std::int64_t step) const override {
+        if (step < first_) return nullptr;
+        return std::make_shared<const Frame>(frame_at(step, grain_(step), wall_(step)));
+    }
+
+  private:
+    PlaceAt grain_, wall_;
+    std::int64_t first_;
+};
+
+class Kept final : public Moments {
+  public:
+    explicit Kept(const KeptMoments& kept) : kept_(kept) {}
+    FramePtr at(std::int64_t step) const override { return kept_.at(step); }
+
+  private:
+    const KeptMoments& kept_;
+};
+
+Scene scene_with_displacements(double periodic_depth = 0) {
+    Scene scene;
+    scene.film.shows.colour.by = GrainValue::displacement;
+    scene.container.periodic_depth = periodic_depth > 0;
+    scene.container.depth = periodic_depth;
+    return scene;
+}
+
+FilmSegment mean_of(int periods) {
+    FilmSegment rule;
+    rule.average = periods;
+    return rule;
+}
+
+struct Asked {
+    std::int64_t shot;
+    FilmSegment rule;
+    int periods = 1;
+};
+
+// The picture, by both ways, which give the same.
+Frame picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain,
+              const PlaceAt& wall = at_rest, std::int64_t first = 0) {
+    Frame at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
+    parts.add(at_will, asked.rule, asked.periods, AnyMoment(grain, wall, first));
+    KeptMoments kept;
+    for (const int periods : {1, 2}) kept.want(asked.shot, parts.moments(asked.shot, asked.rule, periods));
+    for (std::int64_t step = first; step <= asked.shot; ++step)
+        kept.keep(frame_at(step, grain(step), wall(step)));
+    parts.add(passing, asked.rule, asked.periods, Kept(kept));
+    EXPECT_EQ(passing.position, at_will.position);
+    EXPECT_EQ(passing.velocity, at_will.velocity);
+    EXPECT_EQ(passing.displacement, at_will.displacement);
+    EXPECT_EQ(passing.bodies, at_will.bodies);
+    EXPECT_EQ(passing.exposed.size(), at_will.exposed.size());
+    return at_will;
+}
+
+std::vector<std::int64_t> steps_of(const std::vector<PictureParts::Moment>& moments) {
+    std::vector<std::int64_t> steps;
+    for (const PictureParts::Moment& moment : moments) steps.push_back(moment.step);
+    return steps;
+}
+
+TEST(PictureParts, OfAPlainFilmAreNone) {
+    const PictureParts parts(Scene(), kClock, 0);
+    EXPECT_TRUE(parts.moments(1600, FilmSegment(), 1).empty());
+    const Frame now = picture(parts, {1600, FilmSegment()}, [](std::int64_t) { return Vec3(1, 2, 3); });
+    EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
+    EXPECT_EQ(now.velocity[0], Vec3(9, 9, 9));
+    EXPECT_TRUE(now.displacement.empty() && now.exposed.empty() && now.touches.empty() && !now.measures);
+}
+
+TEST(PictureParts, GiveTheWayOfAPeriod) {
+    const PictureParts parts(scene_with_displacements(0.04), kClock, 2);
+    EXPECT_THAT(steps_of(parts.moments(802, FilmSegment(), 1)), testing::ElementsAre(2));
+    EXPECT_TRUE(parts.moments(801, FilmSegment(), 1).empty()) << "before the run there is nothing";
+    const auto moved = [](std::int64_t step) {
+        // Through the periodic wall: 3 mm, not -37.
+        return step < 400 ? Vec3(0.019, 0, 0.1) : Vec3(-0.018, 0.002, 0.11);
+    };
+    const Frame now = picture(parts, {802, FilmSegment()}, moved, at_rest, 2);
+    ASSERT_EQ(now.displacement.size(), 1u);
+    EXPECT_LT((now.displacement[0] - Vec3(0.003, 0.002, 0.01)).norm(), 1e-12);
+    EXPECT_TRUE(picture(parts, {801, FilmSegment()}, moved, at_rest, 2).displacement.empty());
+}
+
+// A bed that repeats itself every second period: what it does in between is not in its way.
+TEST(PictureParts, GiveTheMeanWayOfAPeriodOverSeveral) {
+    const PictureParts parts(scene_with_displacements(), kClock, 0);
+    const auto bounced = [](std::int64_t step) {
+        return Vec3(0, 0, 0.001 * kClock.cycles(step) + (step / 800 % 2 ? 0.5 : 0));
+    };
+    const Frame two = picture(parts, {1600, FilmSegment(), 2}, bounced);
+    EXPECT_LT((two.displacement.at(0) - Vec3(0, 0, 0.001)).norm(), 1e-12);
+    const Frame one = picture(parts, {2400, FilmSegment(), 1}, bounced);
+    EXPECT_LT((one.displacement.at(0) - Vec3(0, 0, 0.501)).norm(), 1e-12);
+}
+
+TEST(PictureParts, GiveTheMomentsOfAnExposure) {
+    FilmSegment rule;
+    rule.exposure = 0.04;
+    rule.exposures = 4;
+    const PictureParts parts(Scene(), kClock, 150);
+    EXPECT_THAT(steps_of(parts.moments(400, rule, 1)), testing::ElementsAre(200, 300)) << "100 is before it";
+    const Frame now = picture(parts, {600, rule}, [](std::int64_t step) {
+        return Vec3(0, 0, static_cast<double>(step));
+    });
+    ASSERT_EQ(now.exposed.size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(now.exposed[k]->position.at(0).z(), 300.0 + 100.0 * static_cast<double>(k));
+        EXPECT_EQ(now.exposed[k]->size(), 1u) << "grains whole";
+        EXPECT_TRUE(now.exposed[k]->exposed.empty()) << "frames would hang on frames";
+    }
+}
+
+// A grain that shakes with the container and drifts: x = sin(2 pi f t), in all three directions, plus v t.
+Vec3 shaken(std::int64_t step, const Vec3& drift) {
+    const double turn = 2 * std::numbers::pi * kClock.cycles(step);
+    return Vec3(0.001, 0.004, 0.005) * std::sin(turn) + drift * kClock.time(step);
+}
+
+TEST(PictureParts, OfAMeanLeaveTheDriftAlone) {
+    const Vec3 drift(0, 0.02, -0.01);
+    constexpr std::int64_t kShot = 4300;
+    const PictureParts parts(Scene(), kClock, 0);
+    EXPECT_THAT(parts.moments(kShot, mean_of(3), 1), testing::SizeIs(3 * 16)) << "beside its own";
+    const Frame now = picture(
+        parts, {kShot, mean_of(3)}, [&](std::int64_t step) { return shaken(step, drift); },
+        [](std::int64_t step) { return shaken(step, Vec3::Zero()); });
+    // The mean of 48 samples, 1/16 of a period apart and ending now, lags by half of 47 of them.
+    const Vec3 expected = drift * (kClock.time(kShot) - 0.5 * 47 * 50 * kClock.step);
+    EXPECT_LT((now.position[0] - expected).norm(), 1e-15);
+    EXPECT_LT((now.velocity[0] - drift).norm(), 1e-13);
+    EXPECT_LT(now.container().place.norm(), 1e-15);
+    EXPECT_LT(now.container().velocity.norm(), 1e-13);
+}
+
+// A bed that repeats itself every second period: means of one period become means of two.
+TEST(PictureParts, OfAMeanSpanThePeriodsOfTheBed) {
+    const Vec3 drift(0, 0.02, -0.01);
+    constexpr std::int64_t kShot = 4300;
+    const auto doubled = [&](std::int64_t step) -> Vec3 {
+        return shaken(step, drift) + Vec3(0, 0, 0.003) * std::sin(std::numbers::pi * kClock.cycles(step));
+    };
+    for (const int periods : {1, 2}) {
+        const Frame frame =
+            picture(PictureParts(Scene(), kClock, 0), {kShot, mean_of(1), periods}, doubled);
+        const double error = (frame.velocity[0] - drift).norm();
+        if (periods == 2)
+            EXPECT_LT(error, 1e-12);
+        else
+            EXPECT_GT(error, 0.01);
+        // The mean over 16 moments, the last of them the shot's own, spread over those periods.
+        Vec3 mean = Vec3::Zero();
+        for (int k = 0; k < 16; ++k) mean += doubled(kShot - k * periods * kClock.steps_per_period / 16) / 16;
+        EXPECT_LT((frame.position[0] - mean).norm(), 1e-12);
+    }
+}
+
+TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
+    constexpr double kDepth = 0.04;
+    Scene scene;
+    scene.container.periodic_depth = true;
+    scene.container.depth = kDepth;
+    const Vec3 drift(0.1, 0, 0);
+    const auto wrapped = [&](std::int64_t step) {
+        Vec3 at = drift * kClock.time(step) + Vec3(0.019, 0, 0);
+        at.x() -= kDepth * std::round(at.x() / kDepth);
+        return at;
+    };
+    const Frame now = picture(PictureParts(scene, kClock, 0), {1600, mean_of(1)}, wrapped);
+    double expected = 0.1 * (kClock.time(1600) - 0.5 * 15 * 50 * kClock.step) + 0.019;
+    expected -= kDepth * std::round(expected / kDepth);
+    EXPECT_NEAR(now.position[0].x(), expected, 1e-15);
+    EXPECT_NEAR(now.velocity[0].x(), 0.1, 1e-12);
+}
+
+TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
+    const Frame now = picture(PictureParts(Scene(), kClock, 0), {400, mean_of(1)}, [](std::int64_t step) {
+        return Vec3(0, 0, 1e-5 * static_cast<double>(step));
+    });
+    double expected = 0;  // 9 samples from step 0 to 400, and 7 of rest
+    for (int k = 0; k <= 8; ++k) expected += 1e-5 * 50 * k / 16;
+    EXPECT_NEAR(now.position[0].z(), expected, 1e-15);
+}
+
+// Where the source lacks a moment, no part is made of the others.
+TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
+    const PictureParts parts(scene_with_displacements(), kClock, 0);
+    Frame now = frame_at(1600, Vec3(1, 2, 3));
+    parts.add(now, mean_of(1), 1, AnyMoment(at_rest, at_rest, 1500));
+    EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
+    EXPECT_TRUE(now.displacement.empty());
+}
+
+TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
+    const PictureParts parts(scene_with_displacements(), kClock, 0);
+    Frame now = frame_at(1600, Vec3(1, 2, 3));
+    now.id.push_back(1);
+    now.position.emplace_back(4, 5, 6);
+    now.velocity.emplace_back(0, 0, 0);
+    parts.add(now, mean_of(1), 1, AnyMoment(at_rest, at_rest, 0));
+    EXPECT_EQ(now.position[1], Vec3(4, 5, 6));
+    EXPECT_TRUE(now.displacement.empty());
+}
+
+TEST(KeptMoments, AreKeptUntilTheLastPictureThatWantsThem) {
+    KeptMoments kept;
+    kept.want(40, {{10, true}, {20, false}});
+    kept.want(50, {{20, true}, {30, false}});
+    EXPECT_THAT(kept.steps(), testing::ElementsAre(10, 20, 30));
+    for (const std::int64_t step : {10, 15, 20, 30}) kept.keep(frame_at(step, Vec3(0, 0, 1)));
+    EXPECT_FALSE(kept.at(15)) << "nobody wants it";
+    EXPECT_EQ(kept.at(20)->size(), 1u) << "one of two wants it whole";
+    EXPECT_EQ(kept.at(30)->size(), 0u);
+    EXPECT_EQ(kept.at(30)->position.size(), 1u);
+    kept.done_with(40);
+    EXPECT_FALSE(kept.at(10));
+    EXPECT_TRUE(kept.at(20));
+    kept.done_with(50);
+    EXPECT_FALSE(kept.at(20) || kept.at(30));
+    Agenda agenda({{12, 0}}, 0, 0, 2, 12, {2});
+    EXPECT_TRUE(agenda.next()->moment);  // step 2
+    EXPECT_FALSE(agenda.next()->moment);
+}
+
+}  // namespace
+}  // namespace grainreel
