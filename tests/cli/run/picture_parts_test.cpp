@@ -151,9 +151,8 @@ TEST(PictureParts, GiveTheMomentsOfAnExposure) {
     rule.exposures = 4;
     const PictureParts parts(Scene(), kClock, 150);
     EXPECT_THAT(steps_of(parts.moments(400, rule, 1)), testing::ElementsAre(200, 300)) << "100 is before it";
-    const Frame now = picture(parts, {600, rule}, [](std::int64_t step) {
-        return Vec3(0, 0, static_cast<double>(step));
-    });
+    const Frame now =
+        picture(parts, {600, rule}, [](std::int64_t step) { return Vec3(0, 0, static_cast<double>(step)); });
     ASSERT_EQ(now.exposed.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(now.exposed[k]->position.at(0).z(), 300.0 + 100.0 * static_cast<double>(k));
@@ -192,8 +191,7 @@ TEST(PictureParts, OfAMeanSpanThePeriodsOfTheBed) {
         return shaken(step, drift) + Vec3(0, 0, 0.003) * std::sin(std::numbers::pi * kClock.cycles(step));
     };
     for (const int periods : {1, 2}) {
-        const Frame frame =
-            picture(PictureParts(Scene(), kClock, 0), {kShot, mean_of(1), periods}, doubled);
+        const Frame frame = picture(PictureParts(Scene(), kClock, 0), {kShot, mean_of(1), periods}, doubled);
         const double error = (frame.velocity[0] - drift).norm();
         if (periods == 2)
             EXPECT_LT(error, 1e-12);
@@ -225,9 +223,8 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
 }
 
 TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
-    const Frame now = picture(PictureParts(Scene(), kClock, 0), {400, mean_of(1)}, [](std::int64_t step) {
-        return Vec3(0, 0, 1e-5 * static_cast<double>(step));
-    });
+    const Frame now = picture(PictureParts(Scene(), kClock, 0), {400, mean_of(1)},
+                              [](std::int64_t step) { return Vec3(0, 0, 1e-5 * static_cast<double>(step)); });
     double expected = 0;  // 9 samples from step 0 to 400, and 7 of rest
     for (int k = 0; k <= 8; ++k) expected += 1e-5 * 50 * k / 16;
     EXPECT_NEAR(now.position[0].z(), expected, 1e-15);
