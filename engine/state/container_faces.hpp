@@ -29,7 +29,7 @@ struct FaceDistance {
     Vec3 normal;      // unit, into the container
 };
 
-// physics.md section 4: vertical wall d = y_max - |y|; slant d = [y_max - |y| - (H - z) tan theta] cos theta.
+// Vertical wall d = y_max - |y|; slant d = [y_max - |y| - (H - z) tan theta] cos theta.
 inline FaceDistance distance_to(const Face& face, const Vec3& offset, const Vec3& centre) {
     const Vec3 from = centre - face.point - offset;
     if (face.kind == Face::Kind::plane) return {face.normal.dot(from), face.normal};

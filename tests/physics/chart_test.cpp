@@ -52,7 +52,7 @@ TEST_F(ResultTableTest, LeavesAnotherTableAlone) {
     EXPECT_EQ(text(), "something else\n1\n");
 }
 
-// The table of physics.md section 6 (derived): plain Verlet at 12 steps a contact.
+// The table of docs/reference/accuracy.md: plain Verlet at 12 steps a contact.
 TEST(Charts, NormalErrorsAreThoseOfSectionSix) {
     const Method verlet{"verlet", Integrator::velocity_verlet, NormalForce::walton_braun,
                         TangentialLaw::incremental_slip};

@@ -1,5 +1,5 @@
 // The experiments of the stability chart: each takes one method to where it fails and measures that, beside
-// what theory says (physics.md section 6; sources stand by each experiment).
+// what theory says (sources stand by each experiment).
 #pragma once
 
 #include <cmath>

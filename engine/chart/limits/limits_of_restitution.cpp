@@ -106,7 +106,8 @@ Finding oblique_sizes(bool quick) {
     return finding;
 }
 
-// Plain Verlet, largest over 200 phases, against the figures derived in physics.md section 6.
+// Plain Verlet, largest over 200 phases, against the figures that were derived by hand
+// (docs/reference/accuracy.md).
 Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, bool quick) {
     const Method plain{"", Integrator::velocity_verlet, NormalForce::walton_braun, TangentialLaw::none};
     Finding finding;

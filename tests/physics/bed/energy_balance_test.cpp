@@ -242,7 +242,7 @@ double rise_at_rest(const std::vector<std::string>& sets, double share) {
     return rise / (start - lowest);
 }
 
-// physics.md section 5 item 9: it never rises beyond an error of the step that shrinks with its square.
+// The energy never rises beyond an error of the step that shrinks with its square.
 TEST(EnergyAtRest, RisesByTheStepsErrorOnly) {
     for (const char* set : {"run.contact_corrections=true", "run.contact_corrections=false",
                             "contact.friction_law=\"linear-spring\"", "contact.friction=0"}) {

@@ -1,5 +1,6 @@
 // Grazing impacts on a wall: friction with a history must not add energy. A widely used engine was found to
-// add up to a third of the kinetic energy at 76 degrees from the normal and mu = 0.5 (physics.md section 2).
+// add up to a third of the kinetic energy at 76 degrees from the normal and mu = 0.5
+// (docs/reference/stability.md).
 #include <gtest/gtest.h>
 
 #include "engine/plan/damping.hpp"

@@ -53,7 +53,7 @@ TEST(NormalImpact, FollowsTheClosedFormsOfWaltonAndBraun) {
     }
 }
 
-// physics.md section 6 (derived): largest error of e over the phase of the first touch, plain velocity
+// docs/reference/accuracy.md: largest error of e over the phase of the first touch, plain velocity
 // Verlet.
 TEST(NormalImpact, RestitutionErrorOfCoarseStepsIsTheTableOfSectionSix) {
     struct Row {

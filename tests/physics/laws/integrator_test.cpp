@@ -144,7 +144,7 @@ double largest_restitution_error(double e, int steps, NormalForce law, Integrato
     return largest;
 }
 
-// Against plain Verlet's .0018, .0050, .0076, .0082 at 12 steps (physics.md section 6, derived).
+// Against plain Verlet's .0018, .0050, .0076, .0082 at 12 steps (docs/reference/accuracy.md).
 TEST(Corrections, BringTheRestitutionBackAtTwelveSteps) {
     struct Row {
         double e, plain, bound;
