@@ -1,5 +1,5 @@
-// Tangential force: Walton's incremental slip (Walton 1993, in Particulate Two-Phase Flow, ch. 25; physics of
-// the original program, its section 2.5.2). The stiffness falls from K0 to zero as |T| nears mu N:
+// Tangential force: Walton's incremental slip (Walton 1993, in Particulate Two-Phase Flow, ch. 25, as
+// the original program has it). The stiffness falls from K0 to zero as |T| nears mu N:
 //
 //   |T| growing:    K_T = K0 [1 - (T - T*) / (mu N - T*)]^gamma
 //   |T| shrinking:  K_T = K0 [1 - (T* - T) / (mu N + T*)]^gamma
