@@ -54,11 +54,10 @@ void MovieRun::describe() {
     const Scene& scene = run_.scene();
     std::vector<std::string> warnings = run_.plan().warnings;
     if (wants_pictures()) {
-        const std::vector<std::string> strobes = strobe_warnings(scene.film, scene.drive);
-        warnings.insert(warnings.end(), strobes.begin(), strobes.end());
-        const std::vector<std::string> limits =
-            film_warnings(scene, static_cast<std::int64_t>(pictures_.instants.size()));
-        warnings.insert(warnings.end(), limits.begin(), limits.end());
+        for (const std::vector<std::string>& found :
+             {pace_warnings(scene, run_.plan().clock), strobe_warnings(scene.film, scene.drive),
+              film_warnings(scene, static_cast<std::int64_t>(pictures_.instants.size()))})
+            warnings.insert(warnings.end(), found.begin(), found.end());
     }
     run_.describe(record_);
     begin_record(warnings);
@@ -95,8 +94,8 @@ void MovieRun::take(const Taken& picture) {
     const Scene& scene = run_.scene();
     const auto timer = times_.during("waiting for the film");
     const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(picture.segment));
-    film_->take(picture.frame,
-                playback_caption(spanning(rule, picture.periods), scene.drive, scene.film.rate));
+    const FilmSegment pace = played(spanning(rule, picture.periods), scene.film.rate, run_.plan().clock);
+    film_->take(picture.frame, playback_caption(pace, scene.drive, scene.film.rate));
 }
 
 void MovieRun::tell_news() {

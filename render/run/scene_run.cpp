@@ -93,7 +93,11 @@ void SceneRun::start(const Pictures& pictures) {
     want_moments(shots);
     agenda_.emplace(shots, plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
                     kept_.steps(), bed_periods_->every());
-    shots_ = agenda_->shots();
+    // As far as one knows: what a bed of several periods leaves out is found later.
+    shots_ = std::count_if(shots.begin(), shots.end(), [&](const Shot& shot) {
+        const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));
+        return shot.step >= first_step_ && bed_periods_->shows(rule, shot);
+    });
     save_checkpoint();  // of a packing that may have taken hours
 }
 

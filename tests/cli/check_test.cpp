@@ -75,6 +75,19 @@ INSTANTIATE_TEST_SUITE_P(Signals, SignalledCheck, testing::Values(SIGINT, SIGTER
                                                               : "HangUp";
                          });
 
+// In the middle of measuring what a frame costs, whose film lies in a folder of its own.
+TEST_P(SignalledCheck, LeavesNothingBehind) {
+    const fs::path temporary = here / "tmp";
+    fs::create_directory(temporary);
+    Program::Setting there = setting();
+    there.environment.push_back("TMPDIR=" + temporary.string());
+    Program program({"check", scene.string(), "--size", "1920x1080"}, there);
+    ASSERT_TRUE(wait_until(program, [&] { return !fs::is_empty(temporary); }));
+    program.send(GetParam());
+    EXPECT_EQ(program.wait().status, 128 + GetParam());
+    EXPECT_TRUE(fs::is_empty(temporary));
+}
+
 // Counted before they are made: each of these took minutes or gigabytes, or had no end.
 TEST_F(CheckProgram, RefusesMoreThanCanBeMade) {
     const auto complaint = [&](const std::vector<std::string>& words) {
@@ -106,6 +119,13 @@ TEST_F(CheckProgram, TakesAnyPlaybackAndFrequency) {
     const Ended ended = check({scene.string(), "--set", "drive.frequency=1e8 Hz", "--set",
                                "film.segment[0].kind=locked", "--set", "film.segment[0].playback=1"});
     EXPECT_EQ(ended.status, 2);
+}
+
+TEST_F(CheckProgram, StatesTheSpeedThatIsPlayed) {
+    const Ended ended = check({scene.string(), "--set", "film.segment[0].playback=1e-5"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.out, testing::Not(HasSubstr("1/100000 speed")));
+    EXPECT_THAT(ended.out, HasSubstr("the film shows every step once and plays at "));
 }
 
 std::string line_with(const std::string& text, const std::string& words) {

@@ -44,5 +44,19 @@ TEST_F(OrbitFilm, LastsAsLongAsTheFilm) {
     EXPECT_NE(slower.back(), whole.back());
 }
 
+// Locked frames that a bed of two periods leaves out are no part of the film's length.
+TEST_F(OrbitFilm, LastsAsLongAsTheFilmOfEverySecondPeriod) {
+    const auto turned = [&](const std::string& run, std::vector<std::string> more) {
+        for (const char* set :
+             {"film.camera.orbit=180", "film.periods=2", "film.segment=[{kind=\"locked\"}]"})
+            more.insert(more.begin(), {"--set", set});
+        return frames(run, more);
+    };
+    const auto whole = turned("whole", {});
+    ASSERT_EQ(whole.size(), 3u);  // after 0, 2 and 4 periods
+    const double seconds = static_cast<double>(whole.size()) / 30;
+    EXPECT_EQ(turned("told", {"--set", fmt::format("film.camera.orbit_time={}", seconds)}), whole);
+}
+
 }  // namespace
 }  // namespace grainreel

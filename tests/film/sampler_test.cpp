@@ -238,6 +238,25 @@ TEST(PlaybackCaption, SaysHowTimeRuns) {
     EXPECT_EQ(playback_caption(locked({}, 4, 0), drive, 30), "1 frame every 4 periods at phase 0 (plays 6×)");
 }
 
+// At 0.1 ms a step and 30 frames a second, one frame a step is a playback of 0.003.
+TEST(PlaybackCaption, SaysWhatIsPlayedWhereStepsAreCoarser) {
+    const Clock clock = clock_of(20, 500);
+    const double every_step = 30 * clock.step;
+    for (const double playback : {1e-300, 1e-5, 0.7 * every_step}) {
+        EXPECT_DOUBLE_EQ(played(motion({}, playback), 30, clock).playback, every_step);
+        const std::size_t frames = schedule_of(film_of({motion({}, playback)}), clock, 1000).size();
+        EXPECT_NEAR(0.1 / (static_cast<double>(frames) / 30), every_step, 0.0011 * every_step) << playback;
+        EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, playback)})), clock),
+                    ElementsAre(HasSubstr("plays at 0.003 speed; write film.segment[0].playback = 0.003")));
+    }
+    for (const double playback : {every_step, 0.01, 4.0}) {
+        EXPECT_EQ(played(motion({}, playback), 30, clock).playback, playback);
+        EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, playback)})), clock), IsEmpty());
+    }
+    EXPECT_THAT(pace_warnings(scene_with(film_of({locked({}, 1, 0)})), clock), IsEmpty());
+    EXPECT_EQ(playback_caption(motion({}, 1 / 20'000.33), drive_of(20), 30), "slow motion, 1/20000 speed");
+}
+
 TEST(StrobeWarnings, GiveTheApparentMotion) {
     // F = 30 frames per simulated second against f = 31 Hz: k = 1, a slow beat of 1 Hz.
     EXPECT_THAT(

@@ -98,6 +98,17 @@ TEST(CameraKeys, AreRefusedWhereTheyMeanNothing) {
               "order");
 }
 
+// These ended in a crash of the renderer.
+TEST(CameraKeys, ACameraHasADirectionAndAnAngle) {
+    EXPECT_EQ(
+        about_camera("field_of_view = 1e-300\n"),
+        "test.toml:29:1: 'field_of_view' must be 0, orthographic, or at least 0.1, but is 1e-300; write 0");
+    for (const char* near : {"1e-300", "1e-9"})
+        EXPECT_EQ(about_camera(std::string("position = [") + near + ", 0, \"90 mm\"]\n"),
+                  "test.toml:29:1: 'position' is where the camera looks; move it, or the target");
+    EXPECT_EQ(about_camera("position = [0, 0, 0]\ntarget = [0, \"1 mm\", 0]\n"), "none");
+}
+
 TEST(CameraKeys, WhatCannotBeShownIsSaid) {
     EXPECT_EQ(complaint(box_text + "[film]\nwall_ghost = true\n"),
               "test.toml:26:1: 'wall_ghost' shows where the walls rest, but nothing moves; add [drive] "

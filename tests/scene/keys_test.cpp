@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -82,6 +85,30 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
             tried = true;
         }
         EXPECT_TRUE(tried) << key.path;
+    }
+}
+
+// An advice that is refused in its turn is none.
+TEST(Keys, ExamplesAreInsideTheirBounds) {
+    for (const Key& key : scene_keys()) {
+        if (key.kind != KeyKind::quantity && key.kind != KeyKind::integer) continue;
+        std::string text = key.example();
+        if (text.front() == '"') text = text.substr(1, text.size() - 2);
+        const bool number = text.find_first_not_of("0123456789.e+-") == std::string::npos;
+        const double value = number ? std::stod(text) : parse_quantity(text, key.dimension);
+        EXPECT_TRUE(key.bounds().contains(value)) << key.path << " = " << key.example();
+        if (key.kind == KeyKind::integer) EXPECT_EQ(value, std::round(value)) << key.path;
+    }
+}
+
+TEST(Keys, DocsTellTheBoundsOfQuantities) {
+    const std::string text = load(page);
+    for (int d = 0; d < static_cast<int>(Dimension::number); ++d) {
+        const DimensionText& size = text_of(static_cast<Dimension>(d));
+        const std::string row = fmt::format(
+            "| {} | {} | {} | {:g} |\n", std::string(size.noun).substr(size.noun[1] == 'n' ? 3 : 2),
+            size.unit, size.least > 0 ? fmt::format("{:g}", size.least) : "", size.most);
+        EXPECT_NE(text.find(row), std::string::npos) << row;
     }
 }
 

@@ -1,4 +1,5 @@
 // Every complaint of the reader, word for word.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
@@ -188,8 +189,8 @@ INSTANTIATE_TEST_SUITE_P(
              "3:3: 10010 grains of 0.0006597 m3 fill 81.4 % of the container's 0.0008107 m3, more than the "
              "55 % that can be "
              "packed; use fewer or smaller grains, or a larger container"},
-        Case{"\"2 s\"", "1e300\nstep = 1e-5",
-             "27:1: 1e+300 s in steps of 1e-05 s make 1e+305 steps, and the most are 9e+15; shorten "
+        Case{"\"2 s\"", "1e11\nstep = 1e-5",
+             "27:1: 1e+11 s in steps of 1e-05 s make 1e+16 steps, and the most are 9e+15; shorten "
              "it or lengthen "
              "run.step"},
         Case{"\"2 s\"", "1e-9\nstep = 1e-5",
@@ -333,6 +334,32 @@ TEST(Messages, EchoNoMoreThanSixtyCharacters) {
                         "[[contact.pair]]\nbetween = [\"y\", \"wall\"]\n")
                   .size(),
               1000u);
+}
+
+// What nobody can mean ends where it is read: further on products of such values overflow, and the message
+// would blame the duration.
+TEST(Messages, AbsurdSizesAreRefusedAtTheirKey) {
+    const auto of = [](const std::string& set) { return complaint(wedge_text, {Assignment(set)}); };
+    EXPECT_EQ(
+        of("gravity=2000000"),
+        "--set gravity: 'gravity' must be from 0 to 1000000 m/s2, but is 2000000; write for example 9.81");
+    EXPECT_EQ(of("container.height=2000000"),
+              "--set container.height: 'height' must be from 1e-12 to 1000000 m, but is 2000000; write for "
+              "example \"5 mm\"");
+    EXPECT_EQ(of("film.camera.position=[\"1e39 m\", 0, 0]"),
+              "--set film.camera.position: 'position' must be from -1000000 to 1000000 m, but is \"1e39 m\"; "
+              "write for example [\"5 mm\", 0, 0]");
+    for (const char* set : {"gravity=1e300", "container.height=1e300", "species.big.diameter=1e-39 m",
+                            "species.big.density=1e300", "species.big.mass=1e300", "species.big.mass=1e12",
+                            "contact.tangential_ratio=1e300", "drive.g_level=1e300", "drive.frequency=1e300",
+                            "contact.stiffness=1e300", "film.camera.zoom=1e300",
+                            "film.camera.key=[{time=0,target=[0,\"1e39 m\",0]},{time=1,target=[0,0,0]}]"}) {
+        const std::string key = std::string(set).substr(0, std::string(set).find('='));
+        EXPECT_THAT(of(set), testing::StartsWith("--set " + key + ": '")) << set;
+    }
+    for (const char* place : {"[\"1e39 m\", 0, 0]", "[0, 0, -1e39]"})
+        EXPECT_THAT(complaint(with(exact_text, "position = [0, 0, 0]", std::string("position = ") + place)),
+                    testing::HasSubstr("'position' must be from -1000000 to 1000000 m"));
 }
 
 TEST(Messages, NameTheOptionThatWasTyped) {

@@ -7,6 +7,8 @@
 namespace grainreel {
 namespace {
 
+constexpr double least_field_of_view = 0.1;  // degrees; the eye stands 600 picture heights away
+
 void read_place(Document& document, Camera& camera) {
     const char* const stands = "the camera stands at 'position' and looks at 'target'";
     camera.position = document.vector("film.camera.position");
@@ -22,6 +24,10 @@ void read_place(Document& document, Camera& camera) {
     camera.azimuth = document.quantity("film.camera.azimuth").value_or(camera.azimuth);
     camera.elevation = document.quantity("film.camera.elevation").value_or(camera.elevation);
     camera.field_of_view = document.quantity("film.camera.field_of_view").value_or(camera.field_of_view);
+    if (camera.field_of_view > 0 && camera.field_of_view < least_field_of_view)
+        document.fail("film.camera.field_of_view",
+                      fmt::format("must be 0, orthographic, or at least {}, but is {}; write 0",
+                                  least_field_of_view, document.written_value("film.camera.field_of_view")));
     if (camera.position && camera.field_of_view == 0)
         document.fail("film.camera.field_of_view",
                       "is 0, orthographic, where the picture does not depend on 'position'; give azimuth and "

@@ -20,6 +20,8 @@ void add_film_marks(Keys& keys) {
                             "The container's motion drawn so many times as large, its grains with it."));
 }
 
+const Range magnification{0.001, 10000, false, false};
+
 // How the camera stands and moves.
 void add_camera_path(Keys& keys) {
     const auto place = [&](const char* path, const char* fallback, const char* about) {
@@ -46,7 +48,7 @@ void add_camera_path(Keys& keys) {
                             "As film.camera.azimuth; beyond 360 it turns on."));
     keys.push_back(quantity("film.camera.key[].elevation", Dimension::degrees, {-90, 90, false, false},
                             note("film.camera's at first, then between keys"), "As film.camera.elevation."));
-    keys.push_back(quantity("film.camera.key[].zoom", Dimension::number, positive,
+    keys.push_back(quantity("film.camera.key[].zoom", Dimension::number, magnification,
                             note("film.camera's at first, then between keys"), "As film.camera.zoom."));
     place("film.camera.key[].target", "film.camera's at first, then between keys", "As film.camera.target.");
 }
@@ -155,7 +157,7 @@ void add_film(Keys& keys) {
                             literal("10"), "Above the horizon."));
     keys.push_back(quantity("film.camera.field_of_view", Dimension::degrees, {0, 120, false, false},
                             literal("25"), "Vertical; 0 for orthographic."));
-    keys.push_back(quantity("film.camera.zoom", Dimension::number, positive, literal("1"),
+    keys.push_back(quantity("film.camera.zoom", Dimension::number, magnification, literal("1"),
                             "Over the automatic framing."));
     keys.push_back(
         entry("film.camera.follow", KeyKind::flag, literal("false"), "Stand in the container's own frame."));

@@ -114,7 +114,11 @@ std::string Range::text() const {
 
 std::string Key::example() const {
     if (!fallback.empty()) return fallback;
-    if (kind == KeyKind::integer) return range.low > 1 ? fmt::format("{:.15g}", range.low * 10) : "100";
+    if (kind == KeyKind::integer) {
+        const double usual = range.low > 1 ? 10 * range.low : 100;
+        const double fitting = usual <= range.high ? usual : std::max(range.low, std::floor(range.high / 2));
+        return fmt::format("{:.15g}", fitting);
+    }
     if (kind == KeyKind::choice) return "\"" + choices.front() + "\"";
     if (kind == KeyKind::text) return "\"small\"";
     if (kind == KeyKind::colour) return "\"orange\"";
@@ -126,7 +130,22 @@ std::string Key::example() const {
         return dimension == Dimension::number ? "[0, 0, 1]"
                                               : fmt::format("[{}, 0, 0]", text_of(dimension).example);
     if (kind == KeyKind::speed_table) return "[[\"0.1 m/s\", 0.95], [\"2 m/s\", 0.8]]";
+    constexpr double usual_number = 0.5;
+    if (dimension == Dimension::number && !range.contains(usual_number))
+        return fmt::format("{:.15g}", std::isfinite(range.high) ? range.high : range.low + usual_number);
     return text_of(dimension).example;
+}
+
+Range Key::bounds() const {
+    const DimensionText& size = text_of(dimension);
+    Range left = range;
+    left.low = std::max(range.low, -size.most);
+    left.high = std::min(range.high, size.most);
+    if (range.open && range.low == 0 && size.least > 0 && !range.small) {
+        left.low = size.least;
+        left.open = false;
+    }
+    return left;
 }
 
 const Key* find_key(std::string_view path) {

@@ -27,6 +27,7 @@ inline constexpr double most_grains = 2147483647;
 
 inline const Range any{};
 inline const Range positive{0, std::numeric_limits<double>::infinity(), true, false};
+inline const Range positive_or_tiny{0, std::numeric_limits<double>::infinity(), true, false, true};
 inline const Range not_negative{0, std::numeric_limits<double>::infinity(), false, false};
 inline const Range not_negative_or_infinite{0, std::numeric_limits<double>::infinity(), false, true};
 inline const Range share{0, 1, true, false};

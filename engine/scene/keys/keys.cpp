@@ -64,9 +64,10 @@ void add_pair_keys(Keys& keys, const std::string& table, const char* inherited) 
         "Of the loading branch: K1 (walton-braun) or kn (spring-dashpot).");
     add("modulus", Dimension::pressure, positive, note("chosen by the plan"),
         "hertz only: E* of the pair, 1/E* = (1 - ν²)/E + the same of the other body.");
-    add("tangential_ratio", Dimension::number, positive, note("0.8; linear-spring 2/7, mindlin 0.824"),
+    add("tangential_ratio", Dimension::number, {0, 1000, true, false},
+        note("0.8; linear-spring 2/7, mindlin 0.824"),
         "Tangential over normal stiffness; of mindlin 2(1 - ν)/(2 - ν).");
-    add("gamma", Dimension::number, not_negative, note("1/3"),
+    add("gamma", Dimension::number, {0, 100, false, false}, note("1/3"),
         "Exponent of incremental-slip: 1/3 resembles Mindlin, 1 or 2 plastic contacts.");
     add("normal_damping", Dimension::rate, not_negative, note("from the restitution"),
         "spring-dashpot only, instead of the restitution: force = value x effective mass x speed.");
@@ -142,9 +143,9 @@ void add_exact(Keys& keys) {
 
 void add_drive(Keys& keys) {
     keys.push_back(quantity("drive.frequency", Dimension::frequency, positive, required(), "f."));
-    keys.push_back(quantity("drive.g_level", Dimension::number, positive, note("required, or `amplitude`"),
-                            "Γ = a (2πf)² / g."));
-    keys.push_back(quantity("drive.amplitude", Dimension::length, positive, note("from `g_level`"),
+    keys.push_back(quantity("drive.g_level", Dimension::number, {0, 1e6, true, false},
+                            note("required, or `amplitude`"), "Γ = a (2πf)² / g."));
+    keys.push_back(quantity("drive.amplitude", Dimension::length, positive_or_tiny, note("from `g_level`"),
                             "a, half of the stroke."));
     keys.push_back(
         entry("drive.direction", KeyKind::vector, literal("[0, 0, 1]"), "Of the motion; any length."));

@@ -35,6 +35,7 @@ struct Range {
     double high = std::numeric_limits<double>::infinity();
     bool open = false;      // low itself is not allowed
     bool infinite = false;  // inf is allowed
+    bool small = false;     // so is less than the least of the dimension (units.hpp)
     bool contains(double value) const;
     std::string text() const;  // "larger than 0", "from 0 to 51"; empty when anything goes
 };
@@ -50,6 +51,7 @@ struct Key {
     std::string about;
 
     std::string example() const;  // a value that is right, as a scene would write it
+    Range bounds() const;         // what the dimension's bounds leave of the range
 };
 
 const std::vector<Key>& scene_keys();

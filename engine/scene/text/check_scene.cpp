@@ -22,6 +22,9 @@ namespace {
 // of equal spheres end at 0.64, and one that can still be sheared near 0.55.
 constexpr double most_solid = 0.55;
 
+// Of the scene's size, from the camera to where it looks: nearer, and rounding says in which direction.
+constexpr double closest_camera = 1e-6;
+
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
     throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
 }
@@ -161,7 +164,9 @@ void check_drive(const Scene& scene) {
 void check_film(const Scene& scene) {
     const Film& film = scene.film;
     const Camera& camera = film.camera;
-    if (camera.position && *camera.position == camera.target.value_or(extent_of(scene).middle()))
+    const Extent extent = extent_of(scene);
+    const Vec3 looks_at = camera.target.value_or(extent.middle());
+    if (camera.position && (*camera.position - looks_at).norm() <= closest_camera * extent.size().norm())
         fail(scene, "film.camera.position", "is where the camera looks; move it, or the target");
     if (film.wall_ghost && !scene.drive.present)
         fail(scene, "film.wall_ghost",

@@ -173,6 +173,8 @@ double Document::number_in(const std::string& path, const toml::node& node, cons
     if (std::isnan(value)) wrong(dimension.noun);
     if (std::isinf(value) && !key.range.infinite) wrong("finite");
     if (!key.range.contains(value)) wrong(key.range.text());
+    if (const Range bounds = key.bounds(); !bounds.contains(value))
+        wrong(bounds.text() + (key.dimension == Dimension::number ? "" : std::string(" ") + dimension.unit));
     return value;
 }
 

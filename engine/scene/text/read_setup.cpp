@@ -56,6 +56,11 @@ Species read_one_species(Document& document, const std::string& path) {
     if (const auto mass = document.quantity(path + ".mass")) {
         document.refuse(path + ".density", "'mass' is given");
         species.density = *mass / (std::numbers::pi / 6 * std::pow(species.diameter.mean, 3));
+        if (const Range bounds = find_key(path + ".density")->bounds(); !bounds.contains(species.density))
+            document.fail(path + ".mass",
+                          fmt::format("makes a density of {:.4g} kg/m3, which must be {}; is its unit, or "
+                                      "that of the diameter, the one you mean?",
+                                      species.density, bounds.text()));
     } else {
         species.density = document.required_quantity(path + ".density");
     }

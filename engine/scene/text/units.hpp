@@ -33,6 +33,8 @@ struct DimensionText {
     const char* unit;     // what plain numbers are in, as udunits writes it; "1" for a pure number
     const char* noun;     // "a length"
     const char* example;  // "\"5 mm\"", as a scene would say it
+    // In that unit. Beyond these sizes nothing can be meant, and products of several values would overflow.
+    double least, most;  // least: of what must be larger than 0
 };
 const DimensionText& text_of(Dimension dimension);
 

@@ -43,7 +43,8 @@ void print_files(const Scene& scene, const Plan& plan, const std::vector<Segment
                                   span_text(static_cast<double>(pictures) / scene.film.rate)));
     for (const FilmSegment& segment : scene.film.segments)
         list.line("", fmt::format("{}: {}", segment.duration ? span_text(*segment.duration) : "the rest",
-                                  playback_caption(segment, scene.drive, scene.film.rate)));
+                                  playback_caption(played(segment, scene.film.rate, plan.clock), scene.drive,
+                                                   scene.film.rate)));
     list.line("files",
               fmt::format(
                   "film ({}) about {}{}", film_format_text(scene.film),

@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
 #include "engine/scene/bed.hpp"
+#include "render/cli/report/stop_signal.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/run/stage_times.hpp"
 
@@ -97,7 +98,8 @@ struct FilmUse {
 };
 
 // Of a film of so many frames, or fewer where they take long.
-FilmUse use_of_film(const Scene& scene, const ThreadPlan& threads, const Frame& bed, int most) {
+FilmUse use_of_film(const Scene& scene, const ThreadPlan& threads, const Frame& bed, int most,
+                    const HeldSignals& signals) {
     const ProbeFolder folder;
     FilmOptions options;
     options.folder = folder.path();
@@ -109,8 +111,11 @@ FilmUse use_of_film(const Scene& scene, const ThreadPlan& threads, const Frame& 
     const double before = processor_seconds();
     FilmMaker film(scene, options);
     FilmUse use;
-    for (; use.frames < most && (use.frames < least_frames || watch.seconds() < patience); ++use.frames)
-        film.take(shaken(bed, use.frames, random), "");
+    const auto goes_on = [&] {
+        if (signals.waiting()) return false;
+        return use.frames < most && (use.frames < least_frames || watch.seconds() < patience);
+    };
+    for (; goes_on(); ++use.frames) film.take(shaken(bed, use.frames, random), "");
     const FilmReport report = film.finish();
     const double busy = report.draw_seconds + report.encode_seconds;
     use.seconds = processor_seconds() - before;
@@ -149,11 +154,12 @@ Frame stacked_bed(const Scene& scene) {
 
 std::optional<FilmSpeed> probe_film(const Scene& scene, const ThreadPlan& threads) {
     if (scene.grains() > most_grains) return std::nullopt;
+    const HeldSignals signals;  // the folder of the film is to go first
     try {
         const Frame bed = stacked_bed(scene);
         // What a film takes before its frames is in both, and so in neither's difference.
-        const FilmUse setup = use_of_film(scene, threads, bed, 1);
-        const FilmUse film = use_of_film(scene, threads, bed, most_frames);
+        const FilmUse setup = use_of_film(scene, threads, bed, 1, signals);
+        const FilmUse film = use_of_film(scene, threads, bed, most_frames, signals);
         if (film.frames < least_frames) return std::nullopt;
         const double frames = std::max(0.2 * film.seconds, film.seconds - setup.seconds);
         return FilmSpeed{run_over_stack * frames / (film.frames - 1), film.drawing};

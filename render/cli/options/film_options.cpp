@@ -36,13 +36,21 @@ void add_gl(CLI::App& verb, gl::Provider& provider) {
 
 }  // namespace
 
+void check_typed(const std::string& option, const std::string& text) {
+    if (const std::string wrong = complaint_of_utf8(text); !wrong.empty())
+        throw UserError(fmt::format("{}: {}; type it in a UTF-8 terminal", option, wrong));
+}
+
 std::filesystem::path output_base() {
-    return variable("GRAINREEL_OUTPUT").value_or("output");
+    const std::string base = variable("GRAINREEL_OUTPUT").value_or("output");
+    check_typed("GRAINREEL_OUTPUT", base);
+    return base;
 }
 
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
     film.base = output_base();
     const auto take_out = [&film](const std::string& folder) {
+        check_typed("--out", folder);
         film.to_stdout = folder == "-";
         if (!film.to_stdout) film.out = folder;
     };

@@ -19,6 +19,9 @@ inline constexpr const char* exit_statuses =
     "Exit status: 0 done, 1 the run failed, 2 a mistake in the scene or the options, 129 the\n"
     "terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.";
 
+// Throws UserError when what was typed after an option is not UTF-8.
+void check_typed(const std::string& option, const std::string& text);
+
 // --set, of values that are to take the place of others.
 void add_sets(CLI::App& verb, Assignments& sets, const char* about);
 // The film: --for, --format, --max-size, --sheet, --transparent, --size, --fps, --title; and --threads.

@@ -33,6 +33,13 @@ bool ignored(int signal) {
     return sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
 }
 
+sigset_t stop_signals() {
+    sigset_t all;
+    sigemptyset(&all);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&all, signal);
+    return all;
+}
+
 }  // namespace
 
 void ignore_write_signals() {
@@ -53,6 +60,22 @@ void install_stop_handlers(const std::string& last_words) {
 
 int stop_signal() {
     return first_signal;
+}
+
+HeldSignals::HeldSignals() {
+    const sigset_t held = stop_signals();
+    pthread_sigmask(SIG_BLOCK, &held, &before_);
+}
+
+HeldSignals::~HeldSignals() {
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+bool HeldSignals::waiting() const {
+    sigset_t come;
+    sigpending(&come);
+    return sigismember(&come, SIGINT) == 1 || sigismember(&come, SIGTERM) == 1 ||
+           sigismember(&come, SIGHUP) == 1;
 }
 
 void keep_before_exit() {

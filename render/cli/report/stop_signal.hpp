@@ -3,6 +3,7 @@
 // first, and the film left as it is. A third ends it at once in any case.
 #pragma once
 
+#include <csignal>
 #include <string>
 
 namespace grainreel {
@@ -16,6 +17,20 @@ void install_stop_handlers(const std::string& last_words);
 
 // SIGINT, SIGTERM or SIGHUP, whichever came first; 0 while none did.
 int stop_signal();
+
+// While one is there, Ctrl-C, SIGTERM and SIGHUP wait, in threads made meanwhile too; they come when it goes.
+// For work that ends soon and leaves nothing behind only when it ends by itself.
+class HeldSignals {
+  public:
+    HeldSignals();
+    ~HeldSignals();
+    HeldSignals(const HeldSignals&) = delete;
+    HeldSignals& operator=(const HeldSignals&) = delete;
+    bool waiting() const;  // one has come
+
+  private:
+    sigset_t before_{};
+};
 
 // From here there is something that a second signal may not cost.
 void keep_before_exit();

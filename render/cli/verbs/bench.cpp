@@ -122,7 +122,11 @@ class Bench final : public Verb {
             ->type_name("WxH");
         parser
             .add_option_function<std::string>(
-                "--out", [this](const std::string& folder) { render_.out = folder; },
+                "--out",
+                [this](const std::string& folder) {
+                    check_typed("--out", folder);
+                    render_.out = folder;
+                },
                 "render: keep the picture, and the grains and camera for other renderers, in this folder")
             ->type_name("DIR");
         parser

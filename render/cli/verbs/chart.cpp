@@ -52,7 +52,11 @@ class ChartVerb final : public Verb {
             ->type_name("WHICH");
         parser
             .add_option_function<std::string>(
-                "--out", [this](const std::string& folder) { out_ = folder; },
+                "--out",
+                [this](const std::string& folder) {
+                    check_typed("--out", folder);
+                    out_ = folder;
+                },
                 "Folder of the tables and pictures; a chart that was stopped there goes on [output/WHICH]")
             ->type_name("DIR");
         parser.add_flag("--quick", quick_, "Coarser, in a few minutes");

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
 #include "render/cli/options/option_groups.hpp"
 #include "render/cli/report/film_report.hpp"
 #include "render/cli/report/record.hpp"
@@ -48,8 +47,7 @@ class Compare final : public Verb {
             .add_option_function<std::string>(
                 "--captions",
                 [this](const std::string& text) {
-                    if (const std::string wrong = complaint_of_utf8(text); !wrong.empty())
-                        throw UserError(fmt::format("--captions: {}; type it in a UTF-8 terminal", wrong));
+                    check_typed("--captions", text);
                     request_.captions = text;
                 },
                 "One a panel, bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the drives, else the "

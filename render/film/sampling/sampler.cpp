@@ -133,6 +133,7 @@ std::string speed_words(double playback) {
     const double slower = 1 / playback;
     const double tenths = std::round(slower * 10) / 10;
     if (std::abs(slower - tenths) < 1e-9 * slower) return fmt::format("1/{:g}", tenths);
+    if (slower >= 1000 && slower < 1e15) return fmt::format("1/{}", std::llround(slower));
     return fmt::format("{:.3g}", playback);
 }
 
@@ -160,6 +161,29 @@ std::string span_words(const FilmSegment& segment) {
 
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate) {
     return pace_words(segment, drive, film_rate) + span_words(segment);
+}
+
+FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock) {
+    const double slowest = film_rate * clock.step;
+    const bool finer = segment.playback < slowest * (1 - 1e-9);
+    if (segment.kind == FilmSegment::Kind::motion && finer) segment.playback = slowest;
+    return segment;
+}
+
+std::vector<std::string> pace_warnings(const Scene& scene, const Clock& clock) {
+    std::vector<std::string> warnings;
+    const std::vector<FilmSegment> segments = segments_of(scene.film);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const FilmSegment pace = played(segments[i], scene.film.rate, clock);
+        if (pace.playback == segments[i].playback) continue;
+        const std::string key = fmt::format("film.segment[{}].playback", i);
+        warnings.push_back(fmt::format(
+            "{}: a playback of {:.3g} wants frames closer than the steps of {:.3g} s: the film shows every "
+            "step once and plays at {} speed; write {} = {:.3g}, or shorten run.step",
+            scene.where(key), segments[i].playback, clock.step, speed_words(pace.playback), key,
+            pace.playback));
+    }
+    return warnings;
 }
 
 std::vector<SegmentCount> count_film(const Scene& scene, const Clock& clock, std::int64_t steps) {

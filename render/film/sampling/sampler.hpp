@@ -20,6 +20,11 @@ struct Shot {
 // "1 frame a period at phase 0.25 (plays 1.5×)". UTF-8.
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate);
 
+// How a segment plays where it asks for frames closer than the steps: with one frame a step.
+FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock);
+// A line for each segment that therefore plays faster than its playback says.
+std::vector<std::string> pace_warnings(const Scene& scene, const Clock& clock);
+
 // How much a segment makes, at most: motion may round two shots to one step.
 struct SegmentCount {
     std::int64_t shots = 0;

@@ -161,6 +161,7 @@ void take_moments_of_schedule(Comparison& all) {
     all.reference = reference_of(scenes);
     const Plan& plan = all.members[all.reference]->run()->plan();
     all.pictures.instants = instants_of(all.film, plan.clock, plan.steps);
+    for (std::string& line : pace_warnings(all.film, plan.clock)) all.warnings.push_back(std::move(line));
     std::set<double> frequencies;
     for (const Scene& scene : scenes) {
         if (!scene.drive.present || !frequencies.insert(scene.drive.frequency).second) continue;

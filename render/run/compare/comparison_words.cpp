@@ -18,6 +18,11 @@ bool of_schedule(const Comparison& all) {
                        [](const auto& member) { return member->source().supply().any_moment; });
 }
 
+// That the moments were chosen by.
+const Clock& schedule_clock(const Comparison& all) {
+    return all.members[all.reference]->run()->plan().clock;
+}
+
 }  // namespace
 
 // Its drive may be unlike that of the reference, and its moments then come otherwise; where it is like that,
@@ -34,8 +39,10 @@ std::vector<std::string> playback_of(const FrameSource& source, const Comparison
         const bool as_planned =
             of_schedule(all) && (segments[k].kind == FilmSegment::Kind::motion ||
                                  (drive.present && drive.frequency == reference.frequency));
-        captions.push_back(as_planned ? playback_caption(segments[k], drive, all.film.film.rate)
-                                      : pacing_caption(inside, drive, all.film.film.rate));
+        const double rate = all.film.film.rate;
+        captions.push_back(as_planned
+                               ? playback_caption(played(segments[k], rate, schedule_clock(all)), drive, rate)
+                               : pacing_caption(inside, drive, rate));
     }
     return captions;
 }
