@@ -14,6 +14,8 @@ EnergyBalance::EnergyBalance(const Surroundings& around, const Grains& grains, c
     terms_ = {now.kinetic, now.rotational, now.gravitational, now.stored};
     held_at_start_ = terms_.held();
     work_at_start_ = now.wall_work;
+    came_at_start_ = traffic_.energy_in;
+    left_at_start_ = traffic_.energy_out;
 }
 
 void EnergyBalance::note(std::int64_t step) {
@@ -40,7 +42,20 @@ void EnergyBalance::look(std::int64_t step) {
         powers_.walls -= on_wall.dot(around_.faces[-1 - c.second].velocity_at(pose));
     });
     // The grains' count has the last force for a whole step; half of that is still to come.
-    terms_.wall_work = wall_work(grains_) - half_step_ * powers_.walls - work_at_start_;
+    note_traffic();
+    terms_.wall_work = wall_work(grains_) + traffic_.work_out - half_step_ * powers_.walls - work_at_start_;
+}
+
+void EnergyBalance::note_traffic() {
+    const Traffic& now = loop_.traffic();
+    if (now.left != traffic_.left) {
+        present_ = grains_.id;
+        std::sort(present_.begin(), present_.end());
+    }
+    some_left_ = now.left != traffic_.left;
+    traffic_ = now;
+    terms_.came = now.energy_in - came_at_start_;
+    terms_.left = now.energy_out - left_at_start_;
 }
 
 void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
@@ -50,7 +65,8 @@ void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
     kept = {step, c.latched_energy, c.sideways_energy, c.rubbing_power};
 }
 
-// What a tangential spring still held when its contact parted goes to friction.
+// What a tangential spring still held when its contact parted goes to friction. Where a grain has left, it
+// went with that.
 void EnergyBalance::end_contacts(std::int64_t step) {
     for (auto at = contacts_.begin(); at != contacts_.end();) {
         const Kept& kept = at->second;
@@ -58,7 +74,7 @@ void EnergyBalance::end_contacts(std::int64_t step) {
             ++at;
             continue;
         }
-        add_friction(half_step_ * kept.rubbing + kept.sideways);
+        if (!some_left_ || are_there(at->first)) add_friction(half_step_ * kept.rubbing + kept.sideways);
         at = contacts_.erase(at);
     }
 }
@@ -66,6 +82,14 @@ void EnergyBalance::end_contacts(std::int64_t step) {
 void EnergyBalance::add_friction(double spent) {
     terms_.friction += spent;
     terms_.given_back += std::max(0.0, -spent);
+}
+
+bool EnergyBalance::are_there(std::uint64_t key) const {
+    const auto there = [&](std::uint64_t id) {
+        return std::binary_search(present_.begin(), present_.end(), static_cast<std::int32_t>(id));
+    };
+    const std::uint64_t second = key & 0xffffffff;
+    return there(key >> 32) && (second >> 31 != 0 || there(second));
 }
 
 // Grains by id, for their indices change; walls behind all grains.

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <unordered_map>
+#include <vector>
 
 #include "engine/step/step_loop.hpp"
 
@@ -21,6 +22,7 @@ struct EnergyTerms {
     // J, since the balance began.
     double wall_work = 0;  // by moving walls on the grains, through friction too
     double latching = 0, friction = 0, damping = 0;
+    double came = 0, left = 0;  // with grains that came, and with such as left
     // J, part of the friction: what it gave back beyond its spring's T^2 / (2 K0). A linear spring gives back
     // none. Incremental slip has no state function and may, on closed paths of (N, T).
     double given_back = 0;
@@ -40,7 +42,9 @@ class EnergyBalance {
 
     const EnergyTerms& terms() const { return terms_; }
     // J: what the grains hold more than the balance says.
-    double residual() const { return terms_.held() - held_at_start_ - terms_.wall_work + terms_.lost(); }
+    double residual() const {
+        return terms_.held() + terms_.left - terms_.came - held_at_start_ - terms_.wall_work + terms_.lost();
+    }
 
   private:
     // Of one contact, at the last step it touched.
@@ -58,6 +62,8 @@ class EnergyBalance {
     void look(std::int64_t step);
     void add_contact(std::int64_t step, const ContactView& contact);
     void end_contacts(std::int64_t step);
+    void note_traffic();
+    bool are_there(std::uint64_t key) const;
     void add_friction(double spent);
     std::uint64_t key(const ContactView& contact) const;
 
@@ -69,6 +75,10 @@ class EnergyBalance {
     Powers powers_;
     EnergyTerms terms_;
     double held_at_start_ = 0, work_at_start_ = 0;  // J
+    Traffic traffic_;                               // until the last step noted
+    double came_at_start_ = 0, left_at_start_ = 0;  // J
+    bool some_left_ = false;                        // in the last step
+    std::vector<std::int32_t> present_;             // ids, rising, when that was so
 };
 
 }  // namespace grainreel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
@@ -56,18 +57,21 @@ void measure_heights(const Grains& grains, const BigAndSmall& kinds, double floo
 }
 
 double lacey_of(const Grains& grains, const BigAndSmall& kinds) {
-    std::vector<Vec3> position(grains.size());
-    std::vector<std::uint8_t> marked(grains.size());
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-        position[grains.id[i]] = grains.place[i].position;
-        marked[grains.id[i]] = static_cast<std::size_t>(grains.species[i]) == kinds.big;
+    std::vector<std::size_t> by_id(grains.size());
+    std::iota(by_id.begin(), by_id.end(), std::size_t{0});
+    std::sort(by_id.begin(), by_id.end(), [&](auto a, auto b) { return grains.id[a] < grains.id[b]; });
+    std::vector<Vec3> position;
+    std::vector<std::uint8_t> marked;
+    for (const std::size_t i : by_id) {
+        position.push_back(grains.place[i].position);
+        marked.push_back(static_cast<std::size_t>(grains.species[i]) == kinds.big);
     }
     return lacey_index(position, marked);
 }
 
 void measure_segregation(const Scene& scene, const Surroundings& around, const Grains& grains,
                          double floor_height, Measures& m) {
-    if (scene.species.size() < 2) {
+    if (scene.species.size() < 2 || grains.size() == 0) {
         m.height_difference = m.big_above_small = m.big_in_top_quarter = m.unlike_neighbours = m.lacey =
             std::numeric_limits<double>::quiet_NaN();
         return;
@@ -113,8 +117,9 @@ Measures measure(const Scene& scene, const Clock& clock, const Surroundings& aro
     m.rotational = kinetic.rotation;
     m.gravitational = gravitational_energy(grains, around.gravity);
     m.elastic = contacts.stored;
-    m.wall_work = wall_work(grains);
-    m.lost = start_energy + m.wall_work - m.kinetic - m.rotational - m.gravitational - m.elastic;
+    const Traffic& traffic = loop.traffic();
+    m.wall_work = wall_work(grains) + traffic.work_out;
+    m.lost = start_energy + traffic.energy_in - traffic.energy_out + m.wall_work - m.kinetic - m.rotational - m.gravitational - m.elastic;
     m.contact_number = contacts.carrying / static_cast<double>(grains.size());
     m.largest_overlap = contacts.largest_overlap;
     const Pose pose = around.motion.at(step);

@@ -7,8 +7,10 @@
 // cell_lengths is 0 where nothing is periodic.
 //
 // docs/reference/scenes.md lists all dimensions and variables. Numbers of a frame that need 64 bits are
-// doubles: classic NetCDF has no such integer. Grains may appear and vanish: a frame's grains fill the first
-// places, the rest hold id -1 and the format's fill value, by which OVITO knows where a frame ends. Every
+// doubles: classic NetCDF has no such integer. A frame's grains fill the first places, the rest hold id -1 and
+// the format's fill value, by which OVITO knows where a frame ends. In a file with traffic a grain keeps its
+// place when it has gone: id, type, radius and position stay what they were in its last frame, velocity and
+// spin are zero, and `present` is 0; programs that do not know of that show it where it was last. Every
 // frame has a checksum of its moment and pose and one of its grains.
 #pragma once
 
@@ -26,7 +28,8 @@ struct TrajectoryInfo {
     std::string title;
     std::string program_version;
     std::vector<std::string> species;
-    std::size_t capacity = 0;         // the most grains a frame can have
+    std::size_t capacity = 0;  // the most grains that the file can hold, all that ever come counted
+    bool traffic = false;      // grains come and go: each keeps its place, and `present` says who is there
     std::vector<std::string> planes;  // names of the bodies beyond container and floor
     bool orientation = false;
     bool checksums = true;          // false in a file of an earlier version: there damage may look like data

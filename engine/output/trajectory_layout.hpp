@@ -54,6 +54,9 @@ inline constexpr std::array body_variables{
     TrajectoryVariable{"body_velocity", NC_DOUBLE, "spatial", "meter/second"},
     TrajectoryVariable{"body_spin", NC_DOUBLE, "spatial", "radian/second"}};
 
+// In files of runs that grains enter or leave: 1 where a place has a grain now; last in `grain_checksum`.
+inline constexpr TrajectoryVariable present_variable{"present", NC_INT, nullptr, ""};
+
 // Only when asked for.
 inline constexpr TrajectoryVariable orientation_variable{"orientation", NC_FLOAT, "quaternion", ""};
 

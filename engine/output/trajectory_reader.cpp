@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -60,6 +61,7 @@ struct TrajectoryReader::Impl {
         info.program_version = file.text_attribute(NC_GLOBAL, "programVersion");
         info.capacity = file.length("atom");
         info.orientation = file.has_variable(orientation_variable.name);
+        info.traffic = file.has_variable(present_variable.name);
         if (file.has_variable(body_variables.front().name)) read_planes();
         std::istringstream names(file.text_attribute(file.find_variable("type"), "species"));
         for (std::string name; std::getline(names, name);) info.species.push_back(name);
@@ -117,6 +119,7 @@ struct TrajectoryReader::Impl {
     };
     Moment read_moment(std::size_t index) const;
     void read_bodies(std::size_t index, Frame& frame, Checksum& sum) const;
+    std::vector<std::size_t> places_of(std::size_t index, std::size_t n) const;
     void read_grains(std::size_t index, std::size_t n, Frame& frame) const;
 
     std::string source;  // for messages
@@ -163,35 +166,55 @@ void TrajectoryReader::Impl::read_bodies(std::size_t index, Frame& frame, Checks
             {Vec3(&place[3 * b]), Quaternion(&rotation[4 * b]), Vec3(&velocity[3 * b]), Vec3(&spin[3 * b])});
 }
 
-// The first n of what is x, y, z, x, y, z ...
+using Places = std::vector<std::size_t>;
+
+// Those at these places of what is x, y, z, x, y, z ...
 template <class Value>
-std::vector<Vec3> vectors(const std::vector<Value>& flat, std::size_t n) {
-    std::vector<Vec3> values(n);
-    for (std::size_t i = 0; i < n; ++i) values[i] = Vec3(flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]);
+std::vector<Vec3> vectors(const std::vector<Value>& flat, const Places& places) {
+    std::vector<Vec3> values;
+    for (const std::size_t i : places) values.emplace_back(flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]);
     return values;
 }
 
 template <class Value>
-std::vector<Value> first_of(std::vector<Value> values, std::size_t n) {
-    values.resize(n);
-    return values;
+std::vector<Value> those_at(const std::vector<Value>& values, const Places& places) {
+    std::vector<Value> those;
+    for (const std::size_t i : places) those.push_back(values[i]);
+    return those;
+}
+
+// Of the n grains that are there. Without traffic these have the first places.
+Places TrajectoryReader::Impl::places_of(std::size_t index, std::size_t n) const {
+    Places places(n);
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    if (!info.traffic) return places;
+    places.clear();
+    Checksum apart = begin_sum(index);
+    const std::vector<int> present = read<int>(present_variable, index, info.capacity, 1, apart);
+    for (std::size_t i = 0; i < present.size(); ++i)
+        if (present[i] != 0) places.push_back(i);
+    if (places.size() != n)
+        damaged(index, fmt::format("it says that it has {} grains, but {} are present", n, places.size()));
+    return places;
 }
 
 void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, Frame& frame) const {
     Checksum sum = begin_sum(index);
     auto variable = grain_variables.begin();
     const std::size_t places = info.capacity;
-    frame.id = first_of(read<int>(*variable++, index, places, 1, sum), n);
-    frame.species = first_of(read<int>(*variable++, index, places, 1, sum), n);
-    frame.radius = first_of(read<double>(*variable++, index, places, 1, sum), n);
-    frame.position = vectors(read<double>(*variable++, index, places, 3, sum), n);
-    frame.velocity = vectors(read<float>(*variable++, index, places, 3, sum), n);
-    frame.spin = vectors(read<float>(*variable++, index, places, 3, sum), n);
+    const Places here = places_of(index, n);
+    frame.id = those_at(read<int>(*variable++, index, places, 1, sum), here);
+    frame.species = those_at(read<int>(*variable++, index, places, 1, sum), here);
+    frame.radius = those_at(read<double>(*variable++, index, places, 1, sum), here);
+    frame.position = vectors(read<double>(*variable++, index, places, 3, sum), here);
+    frame.velocity = vectors(read<float>(*variable++, index, places, 3, sum), here);
+    frame.spin = vectors(read<float>(*variable++, index, places, 3, sum), here);
     if (info.orientation) {
         const std::vector<float> flat = read<float>(orientation_variable, index, places, 4, sum);
-        for (std::size_t i = 0; i < 4 * n; i += 4)
-            frame.orientation.emplace_back(flat[i + 3], flat[i], flat[i + 1], flat[i + 2]);  // w x y z
+        for (const std::size_t i : here)  // w x y z
+            frame.orientation.emplace_back(flat[4 * i + 3], flat[4 * i], flat[4 * i + 1], flat[4 * i + 2]);
     }
+    if (info.traffic) read<int>(present_variable, index, places, 1, sum);
     check_sum(grain_checksum, index, sum);
     for (std::int32_t& type : frame.species) type = type < 1 ? -1 : type - 1;
     if (auto fault = grains_fault(frame, info.species.size())) damaged(index, *fault);

@@ -40,12 +40,16 @@ struct TrajectoryWriter::Impl {
     void write_bodies(const Frame& frame, Checksum& sum);
     void write_grains(const Frame& frame);
     void write_sum(const char* variable, const Checksum& sum);
+    void keep(const Frame& frame);
+    void add_place(const Frame& frame, std::size_t i);
 
     std::string name;
     TrajectoryInfo info;
     std::size_t places;  // for grains
     NetcdfFile file;
     std::size_t frames = 0;
+    Frame kept;                // with traffic: all grains that there were so far, as they were last
+    std::vector<int> present;  // of these: whether they are there now
     std::map<std::string, int, std::less<>> dimensions, variables;  // by name
 };
 
@@ -57,8 +61,10 @@ void TrajectoryWriter::Impl::define() {
     file.attribute(NC_GLOBAL, "Conventions", "AMBER");
     file.attribute(NC_GLOBAL, "ConventionVersion", "1.0");
     file.attribute(NC_GLOBAL, "deviations",
-                   "SI units, see the units of each variable; time and coordinates are double; a place "
-                   "without a grain has id -1 and fill values");
+                   std::string("SI units, see the units of each variable; time and coordinates are double; a "
+                               "place without a grain has id -1 and fill values") +
+                       (info.traffic ? "; a grain that has gone stays where it was last, and `present` is 0"
+                                     : ""));
     define_dimensions();
     const int cell_angular = dimensions["cell_angular"];
     variables["spatial"] = file.variable("spatial", NC_CHAR, {dimensions["spatial"]});
@@ -68,6 +74,7 @@ void TrajectoryWriter::Impl::define() {
     if (!info.planes.empty()) define_bodies();
     for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, "atom");
     if (info.orientation) define_variable(orientation_variable, "atom");
+    if (info.traffic) define_variable(present_variable, "atom");
     file.attribute(variables["type"], "species", fmt::format("{}", fmt::join(info.species, "\n")));
     for (const char* sum : {frame_checksum, grain_checksum})
         variables[sum] = file.variable(sum, NC_INT, {dimensions["frame"], dimensions["checksum"]});
@@ -184,7 +191,40 @@ void TrajectoryWriter::Impl::write_grains(const Frame& f) {
     variable = &orientation_variable;
     if (info.orientation)
         put(4, NC_FILL_FLOAT, [&](std::size_t i, int k) { return f.orientation[i].coeffs()[k]; });
+    variable = &present_variable;
+    if (info.traffic) put(1, 0, [&](std::size_t i, int) { return present[i]; });
     write_sum(grain_checksum, sum);
+}
+
+// Who is new stands behind all that there were, for ids only rise.
+void TrajectoryWriter::Impl::keep(const Frame& frame) {
+    present.assign(kept.size(), 0);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        while (at < kept.size() && kept.id[at] < frame.id[i]) ++at;
+        if (at == kept.size()) add_place(frame, i);
+        GRAINREEL_CHECK(kept.id[at] == frame.id[i]);
+        kept.position[at] = frame.position[i];
+        kept.velocity[at] = frame.velocity[i];
+        kept.spin[at] = frame.spin[i];
+        if (info.orientation) kept.orientation[at] = frame.orientation[i];
+        present[at] = 1;
+    }
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        if (present[k] == 0) kept.velocity[k] = kept.spin[k] = Vec3(0, 0, 0);
+}
+
+void TrajectoryWriter::Impl::add_place(const Frame& frame, std::size_t i) {
+    if (kept.size() == places)
+        throw RunError(fmt::format("{}: more grains came than the {} that the file has places for; give "
+                                   "TrajectoryInfo a larger capacity",
+                                   name, places));
+    kept.id.push_back(frame.id[i]);
+    kept.species.push_back(frame.species[i]);
+    kept.radius.push_back(frame.radius[i]);
+    kept.position.emplace_back(), kept.velocity.emplace_back(), kept.spin.emplace_back();
+    if (info.orientation) kept.orientation.emplace_back();
+    present.push_back(1);
 }
 
 void TrajectoryWriter::Impl::write_sum(const char* variable, const Checksum& sum) {
@@ -209,7 +249,8 @@ void TrajectoryWriter::write(const Frame& frame) {
                         impl_->name, frame.size(), impl_->info.capacity));
     }
     impl_->write_pose(frame);
-    impl_->write_grains(frame);
+    if (impl_->info.traffic) impl_->keep(frame);
+    impl_->write_grains(impl_->info.traffic ? impl_->kept : frame);
     impl_->file.sync(impl_->frames + 1);
     ++impl_->frames;  // only now: one that failed does not count
 }

@@ -49,6 +49,7 @@ struct Box {
 
 // m/s: no two grains are faster against each other than its size.
 Box velocities(const Grains& grains) {
+    if (grains.size() == 0) return {Vec3(0, 0, 0), Vec3(0, 0, 0)};
     Box box{grains.motion[0].velocity, grains.motion[0].velocity};
     for (const Motion& motion : grains.motion) box.take(motion.velocity);
     return box;

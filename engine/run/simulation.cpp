@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
@@ -94,6 +96,7 @@ void Simulation::Impl::take_grains() {
              : from_checkpoint                           ? grains_from_checkpoint(scene)
                                                          : grains_from_table(scene);
     check_grains_possible(scene, grains);
+    check_grains_numbered(scene, grains);
     check_grains_match(scene, grains);
     check_grains_fit(scene, around.faces, grains);
     set_orientations();
@@ -140,6 +143,7 @@ bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgres
 // Work and balance count from here; the forces belong to the state, so that the first half kick is right.
 void Simulation::Impl::begin_drive() {
     std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
+    loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
     step = 0;
 }
@@ -181,8 +185,9 @@ void Simulation::Impl::look_at_health() {
     for (std::size_t i = 0; i < grains.size(); ++i) {
         allowance += 0.01 * grains.mass(i) * around.gravity.norm() * grains.place[i].radius;
     }
-    energy_watch.check(total_energy(around, grains, *loop, step), wall_work(grains), allowance, limits,
-                       grains, step);
+    const Traffic& traffic = loop->traffic();
+    energy_watch.check(total_energy(around, grains, *loop, step) + traffic.energy_out - traffic.energy_in,
+                       wall_work(grains) + traffic.work_out, allowance, limits, grains, step);
     next_look = step + steps_to_next_look(limits, around, grains, step);
 }
 
@@ -195,6 +200,29 @@ void Simulation::advance(std::int64_t target) {
         m.step += count;
         if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
+}
+
+void Simulation::set_exits(std::vector<Exit> exits) {
+    impl_->around.exits = std::move(exits);
+}
+
+void Simulation::remove(const std::vector<std::int32_t>& ids) {
+    impl_->loop->remove(ids, impl_->step);
+}
+
+std::int32_t Simulation::insert(const std::vector<NewGrain>& grains) {
+    const std::int32_t first = impl_->loop->insert(grains);
+    impl_->set_orientations();
+    impl_->next_look = impl_->step;  // they must overlap nothing
+    return first;
+}
+
+const Traffic& Simulation::traffic() const {
+    return impl_->loop->traffic();
+}
+
+std::vector<Departure> Simulation::take_departures() {
+    return impl_->loop->take_departures();
 }
 
 std::int64_t Simulation::step() const {
@@ -240,6 +268,7 @@ double Simulation::centre_height() const {
         moment += m.grains.mass(i) * m.grains.place[i].position.z();
         mass += m.grains.mass(i);
     }
+    if (mass == 0) return std::numeric_limits<double>::quiet_NaN();
     return moment / mass - m.around.motion.at(m.step).offset.z();
 }
 

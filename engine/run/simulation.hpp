@@ -7,11 +7,13 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/step/traffic.hpp"
 
 namespace grainreel {
 
@@ -52,8 +54,18 @@ class Simulation {
     // Runs up to step `target`. Throws RunError when the run stopped being healthy.
     void advance(std::int64_t target);
 
+    // Where grains leave, from now on. Not part of the checkpoint: whoever opens an exit opens it again.
+    void set_exits(std::vector<Exit> exits);
+    // At the step that has been reached. New grains must touch nothing; returns the id of the first of them.
+    // Both once the run is packed.
+    void remove(const std::vector<std::int32_t>& ids);
+    std::int32_t insert(const std::vector<NewGrain>& grains);
+    // What came and left since the start of the drive, and who has left since the last call.
+    const Traffic& traffic() const;
+    std::vector<Departure> take_departures();
+
     std::int64_t step() const;
-    std::size_t grains() const;
+    std::size_t grains() const;  // that are there now
     int threads() const;
 
     Frame frame() const;

@@ -32,7 +32,7 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
                     StepLoop& loop, const std::function<bool(double, std::int64_t)>& watcher) {
     SettleReport report;
     const double gravity = surroundings.gravity.norm();
-    if (gravity == 0 || plan.settle_steps_limit == 0) {
+    if (gravity == 0 || plan.settle_steps_limit == 0 || grains.size() == 0) {
         report.settled = true;
         return report;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "engine/base/error.hpp"
 #include "engine/start/grain_table.hpp"
@@ -73,19 +74,14 @@ bool is_finite(const Derivatives& d) {
 void check_grains_possible(const Scene& scene, const Grains& grains) {
     constexpr double kFarthest = 1e9;  // radii: from there on a double is too coarse for overlaps
     constexpr double kUnit = 1e-3;     // how far a quaternion may be from unit length
-    std::vector<bool> seen(grains.size());
+    std::unordered_set<std::int32_t> seen;
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const std::int32_t id = grains.id[i];
         const auto reject = [&](const char* what) {
             fail(scene, fmt::format("has grain {}, which {}; take the file of another run", id, what));
         };
-        if (id < 0 || id >= std::ssize(grains.id))
-            fail(scene,
-                 fmt::format("has a grain of number {}, but its {} grains must have the numbers from 0 to "
-                             "{}; number them so",
-                             id, grains.size(), grains.size() - 1));
-        if (seen[id]) reject("is there twice");
-        seen[id] = true;
+        if (id < 0) reject("has a number below 0");
+        if (!seen.insert(id).second) reject("is there twice");
         const std::int32_t species = grains.species[i];
         if (species < 0 || species >= std::ssize(scene.species))
             fail(scene, fmt::format("has grains of species {}, but the scene lists only {}; list them all",
@@ -105,6 +101,15 @@ void check_grains_possible(const Scene& scene, const Grains& grains) {
     }
 }
 
+void check_grains_numbered(const Scene& scene, const Grains& grains) {
+    for (const std::int32_t id : grains.id) {
+        if (id >= 0 && id < std::ssize(grains.id)) continue;
+        fail(scene, fmt::format("has a grain of number {}, but its {} grains must have the numbers from 0 to "
+                                "{}; number them so",
+                                id, grains.size(), grains.size() - 1));
+    }
+}
+
 void check_masses(const Scene& scene, const Grains& grains) {
     Grains one;
     one.add(0, 0, Vec3::Zero(), 1, 1);
@@ -118,12 +123,10 @@ void check_masses(const Scene& scene, const Grains& grains) {
     }
 }
 
-void check_grains_match(const Scene& scene, const Grains& grains) {
-    std::vector<std::int64_t> count(scene.species.size());
+void check_sizes_match(const Scene& scene, const Grains& grains) {
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const Species& species = scene.species[grains.species[i]];
         const double diameter = 2 * grains.place[i].radius;
-        ++count[grains.species[i]];
         if (diameter < species.diameter.smallest * (1 - kSameSize) ||
             diameter > species.diameter.largest * (1 + kSameSize))
             fail(scene,
@@ -131,6 +134,12 @@ void check_grains_match(const Scene& scene, const Grains& grains) {
                              "allow; give the diameters of the run the file comes from",
                              grains.id[i], species.name, diameter));
     }
+}
+
+void check_grains_match(const Scene& scene, const Grains& grains) {
+    check_sizes_match(scene, grains);
+    std::vector<std::int64_t> count(scene.species.size());
+    for (const std::int32_t species : grains.species) ++count[species];
     for (std::size_t s = 0; s < count.size(); ++s) {
         if (count[s] != scene.species[s].count)
             fail(scene, fmt::format("has {} grains of \"{}\", but the scene says {}; write count = {}",

@@ -17,11 +17,17 @@ Grains grains_from_table(const Scene& scene);
 // Those of [[grain]], numbered as listed.
 Grains listed_grains(const Scene& scene);
 
-// Each a grain that there can be: numbered from 0 without gaps, of a species of the scene, with finite
-// values, not so far out that places there are coarse, turned by a unit quaternion if at all.
+// Each a grain that there can be: of a species of the scene, with finite values, not so far out that places
+// there are coarse, turned by a unit quaternion if at all; and its number is no other's.
 void check_grains_possible(const Scene& scene, const Grains& grains);
 
-// As many grains of each species as the scene says, and as large.
+// Numbered from 0 without gaps, as grains of which none have left.
+void check_grains_numbered(const Scene& scene, const Grains& grains);
+
+// Of the sizes that the scene says.
+void check_sizes_match(const Scene& scene, const Grains& grains);
+
+// Likewise, and as many grains of each species as the scene says, and as large.
 void check_grains_match(const Scene& scene, const Grains& grains);
 
 // With the masses that their species has.

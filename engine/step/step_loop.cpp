@@ -20,6 +20,8 @@ StepLoop::StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& g
 
 void StepLoop::restart() {
     grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
+    fresh_ = true;
+    if (grains_.size() == 0) return begin_empty();
     const Pose rest = around_.motion.at(-1);
     CostClock idle;
     skin_ = around_.skin;
@@ -40,11 +42,33 @@ void StepLoop::restart() {
                                           idle);
     });
     rebuilds_ = refreshes_ = 0;
-    fresh_ = true;
+}
+
+// Nobody is there yet: lists of nobody.
+void StepLoop::begin_empty() {
+    lists_ = {};
+    lists_.pairs.resize(0, 0);
+    listed_at_.clear();
+    share_.assign(team_.size() + 1, 0);
+    skin_ = around_.skin;
+    for (Member& m : members_) {
+        m.contacts = {};
+        m.reach = {};
+        m.contacts.own(rules_, lists_, 0, 0);
+    }
+    rebuilds_ = refreshes_ = 0;
 }
 
 void StepLoop::run(std::int64_t from, std::int64_t count, double step, double drag) {
-    if (count <= 0) return;
+    const std::int64_t to = from + count;
+    while (from < to && grains_.size() > 0) {
+        from = run_until_one_may_leave(from, to, step, drag);
+        if (!around_.exits.empty()) let_leave(from);
+    }
+}
+
+// The step that was reached.
+std::int64_t StepLoop::run_until_one_may_leave(std::int64_t from, std::int64_t to, double step, double drag) {
     grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
     KickInput kicks{around_.gravity, rules_.rubs};
     if (fresh_) {
@@ -54,13 +78,14 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
     }
     fresh_ = false;
     if (drag > 0) kicks.keep = std::exp(-drag * step / static_cast<double>(scheme_.stages.size()));
-    const auto work = [&](int member) { run_member(member, from, from + count, step, kicks); };
+    const auto work = [&](int member) { run_member(member, from, to, step, kicks); };
     team_.run(std::ref(work));  // by reference: no copy on the heap
     first_step_ = kGoesOn;
+    return members_[0].reached;
 }
 
-// Steps `from` to `to`, the part of one thread. A thread reads and writes its own grains only, and copies of
-// the others' that it gets in exchange().
+// Steps `from` to `to`, or fewer where one may leave, the part of one thread. A thread reads and writes its
+// own grains only, and copies of the others' that it gets in exchange().
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
     const FlushDenormals flush;
     Member& mine = members_[member];
@@ -73,9 +98,12 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
     copy_foreign(member);
     for (bool first = true; n < to; first = false) {
         move(member, first, kicks);
+        const bool last = stage + 1 == scheme_.stages.size();
+        mine.may_leave = last && may_leave(member);
         begin_evaluation(member, first, at, step, kicks);
         const Evaluation now = at;
         if (++stage == scheme_.stages.size()) stage = 0, ++n;
+        if (last && anyone_may_leave(mine)) to = n;
         if (n < to) {
             at = evaluation(n, stage, step);
             kicks = kicks_before(at, stage, false, step, kicks);
@@ -84,6 +112,7 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
         evaluate(member, now);
     }
     end_run(member, step, kicks);
+    mine.reached = n;
     mine.clock.lap(Cost::integrate);
 }
 
@@ -169,7 +198,7 @@ void StepLoop::copy_foreign(int member) {
 void StepLoop::exchange(int member, const Flight& flight) {
     Member& mine = members_[member];
     mine.box = 1 - mine.box;
-    mine.told[mine.box] = {mine.fastest, mine.contacts.parted()};
+    mine.told[mine.box] = {mine.fastest, mine.contacts.parted(), mine.may_leave};
     const Loaded* const loaded = scheme_.corrects ? nullptr : &mine.contacts.loaded();
     for (int other = 0; other < team_.size(); ++other)
         if (other != member) members_[other].contacts.halo().put(grains_, loaded, member, mine.box);
@@ -216,7 +245,8 @@ void StepLoop::renew_contacts(int member, const Evaluation& at, double step, con
     mine.farthest = farthest_of(share_[member], share_[member + 1], drift);
     team_.barrier(member);
     if (lists_expired(mine, at.now, drift)) {
-        rebuild(member, at.now, at.time, at.time - listed_step_);
+        const bool some_are_new = farthest() > kNowhere / 2;  // then the lists did not expire by themselves
+        rebuild(member, at.now, at.time, some_are_new ? kLastsWell : at.time - listed_step_);
         mine.reach.drift.setZero();
     } else {
         refresh(member);
@@ -264,10 +294,15 @@ bool StepLoop::contacts_expired(Member& mine, const Pose& now, const Vec3& drift
 }
 
 bool StepLoop::lists_expired(const Member& mine, const Pose& now, const Vec3& drift) const {
-    double moved = 0;
-    for (const Member& m : members_) moved = std::max(moved, m.farthest);
+    const double moved = farthest();
     const double used = moved + std::max(moved, farthest_face(around_.faces, listed_pose_, now, drift));
     return used + mine.reach.skin > skin_;
+}
+
+double StepLoop::farthest() const {
+    double moved = 0;
+    for (const Member& m : members_) moved = std::max(moved, m.farthest);
+    return moved;
 }
 
 double StepLoop::farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const {

@@ -24,6 +24,7 @@
 #include "engine/step/forces/scheme.hpp"
 #include "engine/step/grid/cells.hpp"
 #include "engine/step/grid/neighbours.hpp"
+#include "engine/step/traffic.hpp"
 
 namespace grainreel {
 
@@ -33,9 +34,10 @@ class Bytes;
 struct Surroundings {
     std::vector<Face> faces;
     WallMotion motion;
-    Vec3 gravity{0, 0, 0};  // m/s2
-    double period = 0;      // m, of x; 0 for none
-    double skin = 0;        // m, of the first neighbour lists; later ones follow the motion
+    Vec3 gravity{0, 0, 0};    // m/s2
+    double period = 0;        // m, of x; 0 for none
+    double skin = 0;          // m, of the first neighbour lists; later ones follow the motion
+    std::vector<Exit> exits;  // through which grains leave; may change between two runs
 };
 
 // One touching contact as an observer sees it.
@@ -65,7 +67,19 @@ class StepLoop {
 
     // Runs `count` steps of `step` seconds from absolute step `from` (which sets the walls' phase).
     // drag: 1/s, slows every grain's velocity and spin; 0 for none (settling and growing only).
+    // Grains in an exit at the end of a step leave then, and the others go on without them.
     void run(std::int64_t from, std::int64_t count, double step, double drag);
+
+    // Between two runs, `step` being the one that has been reached. Grains that are not there are left out.
+    void remove(const std::vector<std::int32_t>& ids, std::int64_t step);
+    // Likewise, after a restart(). New grains must touch nothing. They get rising ids, none of which any
+    // grain has had; returns the first of them.
+    std::int32_t insert(const std::vector<NewGrain>& grains);
+    const Traffic& traffic() const { return traffic_; }
+    // Who has left since the last call, by step, then by id.
+    std::vector<Departure> take_departures();
+    // From now on: nobody has come or left.
+    void begin_account() { traffic_ = {.next_id = traffic_.next_id}; }
 
     // In the same order on any number of threads.
     void visit_contacts(std::int64_t at_step, const std::function<void(const ContactView&)>& visit) const;
@@ -107,6 +121,7 @@ class StepLoop {
     struct alignas(64) Told {
         Vec3 fastest{0, 0, 0};    // m/s, largest components of its grains against the bed's free flight
         std::int64_t parted = 0;  // contacts of its grains that no longer touched in the last step
+        bool may_leave = false;   // one of its grains, at the end of this step
     };
 
     // What a thread writes; a cache line apart from the next thread's.
@@ -119,10 +134,12 @@ class StepLoop {
         Reach reach;
         Vanguard ahead;  // its grains that go on before the others
         CostClock clock;
-        Vec3 fastest{0, 0, 0};  // m/s, as it will be told
-        Told told[2];           // of this step and the one before, which others may still read
-        int box = 0;            // which of the two it is, and of its halo's boxes
-        double farthest = 0;    // m, from where they were listed
+        Vec3 fastest{0, 0, 0};     // m/s, as it will be told
+        Told told[2];              // of this step and the one before, which others may still read
+        int box = 0;               // which of the two it is, and of its halo's boxes
+        double farthest = 0;       // m, from where they were listed
+        bool may_leave = false;    // as it will be told
+        std::int64_t reached = 0;  // the step that a run ended at
         // Of its share of the grains: work in units of a grain, without contacts and of these when the
         // grains were shared out; ticks that it was busy, before and in all.
         double work = 0, contact_work = 0;
@@ -138,6 +155,8 @@ class StepLoop {
         double acts;   // s, that these will act
         Pose before, now;
     };
+    void begin_empty();
+    std::int64_t run_until_one_may_leave(std::int64_t from, std::int64_t to, double step, double drag);
     Evaluation evaluation(std::int64_t n, std::size_t stage, double step) const;
     void run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks);
     KickInput kicks_before(const Evaluation& at, std::size_t stage, bool first, double step,
@@ -151,9 +170,20 @@ class StepLoop {
     void end_run(int member, double step, KickInput kicks);
     void renew_contacts(int member, const Evaluation& at, double step, const KickInput& kicks);
 
+    bool in_exit(std::int32_t grain) const;
+    bool may_leave(int member) const;
+    bool anyone_may_leave(const Member& mine) const;
+    void let_leave(std::int64_t step);
+    void take_out(const std::vector<std::int32_t>& leavers, std::int64_t step);
+    void note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step);
+    void add(const NewGrain& grain);
+    void renew_shares();
+
     Vec3 drift_since_listing(double time, double step) const;
     bool contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double passed) const;
     bool lists_expired(const Member& mine, const Pose& now, const Vec3& drift) const;
+    double farthest() const;
+    static constexpr float kNowhere = 1e6;  // m: where grains count as listed that came after the lists
     double farthest_of(std::int32_t begin, std::int32_t end, const Vec3& drift) const;
     void set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame, double step) const;
     void rebuild(int member, const Pose& pose, double time, double lasted);
@@ -170,6 +200,7 @@ class StepLoop {
     ContactView view(bool rubs, std::int32_t first, std::int32_t second, int at, const TouchChunk& touch,
                      const ForceChunk& force, const EnergyChunk& energy) const;
     std::vector<KeptContacts> all_kept() const;
+    bool is_traffic_sound() const;
     bool is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const;
     template <class Loop, class Kept, class ReachType, class Each>
     static void transfer(Loop& loop, Kept& kept, std::int32_t& steps, ReachType& reach, const Each& each);
@@ -197,6 +228,9 @@ class StepLoop {
     std::int64_t first_step_ = kGoesOn;  // of the first run after a restart: nothing moved before it
     static constexpr std::int64_t kGoesOn = std::numeric_limits<std::int64_t>::min();
     std::int64_t rebuilds_ = 0, refreshes_ = 0;
+
+    Traffic traffic_;
+    std::vector<Departure> departures_;  // nobody has asked for yet
 };
 
 }  // namespace grainreel

@@ -107,6 +107,7 @@ void StepLoop::save(std::ostream& out) const {
     const std::vector<KeptContacts> kept = all_kept();
     std::int32_t steps = members_[0].contacts.steps_since_refresh();
     transfer(*this, kept, steps, members_[0].reach, Writing{out});
+    if (traffic_.any()) write_value(out, traffic_);
 }
 
 void StepLoop::load(Bytes& in) {
@@ -114,6 +115,7 @@ void StepLoop::load(Bytes& in) {
     Reach reach;
     std::int32_t steps = 0;
     transfer(*this, kept, steps, reach, Reading{in});
+    if (in.left() > 0) read_value(in, traffic_);
     if (!is_sound(kept, steps, reach)) in.fail();
     if (in.failed()) return;  // the caller says so
     fresh_ = false;
@@ -125,6 +127,7 @@ void StepLoop::load(Bytes& in) {
         mine.contacts = {};
         mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
         mine.contacts.restore(rules_, kept, steps);
+        mine.contacts.note_loads(grains_);
     }
     grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
     place_halos();
@@ -142,6 +145,15 @@ bool is_finite(const Pose& pose) {
 
 }  // namespace
 
+bool StepLoop::is_traffic_sound() const {
+    constexpr std::int64_t kMostIds = std::int64_t{1} << 31;
+    const Traffic& t = traffic_;
+    const auto known = [&](std::int32_t id) { return id < t.next_id; };
+    return !t.any() || (t.came >= 0 && t.left >= 0 && std::isfinite(t.energy_in) &&
+                        std::isfinite(t.energy_out) && std::isfinite(t.work_out) && t.next_id <= kMostIds &&
+                        (t.came == 0 || std::all_of(grains_.id.begin(), grains_.id.end(), known)));
+}
+
 // Of what load() read: whether the loop could have made it, with these grains and faces.
 bool StepLoop::is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const {
     constexpr std::int32_t kMostSteps = 1'000'000'000;  // without a refresh, even of a bed at rest
@@ -155,6 +167,7 @@ bool StepLoop::is_sound(const std::vector<KeptContacts>& kept, std::int32_t step
                  reach.moved >= 0 && std::isfinite(reach.moved) && std::isfinite(reach.fastest) &&
                  reach.parted >= 0 && reach.drift.allFinite() && is_finite(reach.pose) &&
                  std::all_of(listed_at_.begin(), listed_at_.end(), finite);
+    sound = sound && is_traffic_sound();
     for (std::size_t g = 0; sound && g < kept.size(); ++g)
         sound = are_sound(kept[g], rules_, g, grains_, faces, steps);
     return sound;

@@ -41,6 +41,11 @@ class ContactPass {
     // The other end of that.
     void take(int member, const std::vector<KeptContacts>& leaving);
 
+    // New numbers where some grains, whose new index is kGone, have left and the others keep their order. The
+    // contacts of those are dropped. own() and refresh() are to follow.
+    static constexpr std::int32_t kGone = -1;
+    void leave_out(const ContactRules& rules, const std::vector<std::int32_t>& index);
+
     // Sets the thread's own grains [begin, end) and finds its pairs in the new neighbour lists.
     void own(const ContactRules& rules, const NeighbourLists& lists, std::int32_t begin, std::int32_t end);
 
@@ -55,6 +60,9 @@ class ContactPass {
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                  const std::vector<Face>& faces, const Pose& pose, double skin);
 
+    // A force that is still to act, half a step long, of a contact with a grain that has left: the grain counts
+    // as one that has contacts.
+    void note_loads(const Grains& grains);
     // Of the own grains, those that have contacts.
     const Loaded& loaded() const { return loaded_; }
 

@@ -140,6 +140,19 @@ void ContactPass::take(int member, const std::vector<KeptContacts>& leaving) {
     }
 }
 
+void ContactPass::leave_out(const ContactRules& rules, const std::vector<std::int32_t>& index) {
+    for (std::size_t g = 0; g < tables_.size(); ++g) {
+        const bool pairs = rules.groups[g].of_pairs;
+        ContactTable& table = tables_[g];
+        for (std::int32_t c = 0; c < table.size(); ++c) {
+            if (!table.touches(c)) continue;
+            const std::int32_t i = index[table.first()[c]];
+            const std::int32_t j = pairs ? index[table.second()[c]] : table.second()[c];
+            i == kGone || j == kGone ? table.drop(c) : table.renumber(c, i, j);
+        }
+    }
+}
+
 void ContactPass::own(const ContactRules& rules, const NeighbourLists& lists, std::int32_t begin,
                       std::int32_t end) {
     begin_ = begin;
@@ -239,6 +252,11 @@ void ContactPass::note_loaded(const ContactRules& rules) {
             note_loaded(rules.groups[g].of_pairs, tables_[g], begin, end);
         });
     }
+}
+
+void ContactPass::note_loads(const Grains& grains) {
+    for (std::int32_t i = begin_; i < end_; ++i)
+        if (grains.load[i].force != Vec3::Zero() || grains.load[i].torque != Vec3::Zero()) loaded_.note(i);
 }
 
 void ContactPass::refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,

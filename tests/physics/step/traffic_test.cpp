@@ -1,0 +1,322 @@
+// Grains that leave and enter: the step in which they do, the same bits on any number of threads, and the
+// account of their energy.
+#include "engine/step/traffic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <sstream>
+
+#include "engine/base/binary.hpp"
+#include "engine/measure/energy_balance.hpp"
+#include "engine/start/restart.hpp"
+#include "tests/physics/world.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double kGravity = 9.81;  // m/s2
+
+std::uint64_t state_of(const World& w) {
+    std::ostringstream out;
+    write_state(out, w.step, w.grains, *w.loop);
+    return std::hash<std::string>()(out.str());
+}
+
+void expect_same(const std::vector<Departure>& a, const std::vector<Departure>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].step, b[i].step) << i;
+        EXPECT_EQ(a[i].id, b[i].id) << i;
+        EXPECT_EQ(a[i].position, b[i].position) << i;
+        EXPECT_EQ(a[i].velocity, b[i].velocity) << i;
+    }
+}
+
+struct Fall {
+    const char* name;
+    Integrator integrator;
+    // Steps of free fall after which v and half a step more of it have been added up: the original program's
+    // leapfrog has z_n = z_0 + v n dt - g dt^2 n (n + 1) / 2, the others the parabola itself.
+    double lag;
+};
+class FreeFall : public testing::TestWithParam<Fall> {};
+
+// z_n = z_0 + v t - g t^2 / 2 falls below the plane in step n and not before.
+TEST_P(FreeFall, LeavesInTheStepOfTheClosedForm) {
+    const double dt = 1e-4, up = 0.3, start = 0.05, plane = -0.1;
+    World w = make_world(walton_braun_pair(0.9, 0.3), dt);
+    w.plan.integrator = GetParam().integrator;
+    w.around.gravity = {0, 0, -kGravity};
+    w.around.exits = {exit_below(plane)};
+    w.grains.add(0, 0, Vec3(0, 0, start), kRadius, kDensity);
+    w.grains.add(1, 0, Vec3(0.1, 0, start + 10), kRadius, kDensity);
+    w.grains.motion[0].velocity = {0, 0, up};
+    w.start();
+    const auto height = [&](std::int64_t n) {
+        const double t = static_cast<double>(n) * dt;
+        return start + up * t - kGravity * t * (t + GetParam().lag * dt) / 2;
+    };
+    std::int64_t expected = 0;
+    while (height(expected) >= plane) ++expected;
+    ASSERT_GT(std::abs(height(expected) - plane), 1e-7) << "not decided by rounding";
+    ASSERT_GT(std::abs(height(expected - 1) - plane), 1e-7);
+    w.run(expected - 1);
+    EXPECT_EQ(w.grains.size(), 2u);
+    w.run(10);
+    const std::vector<Departure> gone = w.loop->take_departures();
+    ASSERT_EQ(gone.size(), 1u);
+    EXPECT_EQ(gone[0].step, expected);
+    EXPECT_EQ(gone[0].id, 0);
+    EXPECT_NEAR(gone[0].position.z(), height(expected), 1e-12);
+    ASSERT_EQ(w.grains.size(), 1u);
+    EXPECT_EQ(w.grains.id[0], 1);
+    EXPECT_TRUE(w.loop->take_departures().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Traffic, FreeFall,
+                         testing::Values(Fall{"velocity_verlet", Integrator::velocity_verlet, 0},
+                                         Fall{"leapfrog", Integrator::leapfrog, 1},
+                                         Fall{"position_verlet", Integrator::position_verlet, 0},
+                                         Fall{"forest_ruth", Integrator::forest_ruth, 0},
+                                         Fall{"gear", Integrator::gear, 0}),
+                         [](const auto& one) { return one.param.name; });
+
+TEST(Exits, ARegionIsWhereAllItsHalfSpacesAre) {
+    // The unit cube.
+    const Exit cube{{{Vec3(1, 0, 0), 1}, {Vec3(0, 1, 0), 1}, {Vec3(0, 0, 1), 1},
+                     {Vec3(-1, 0, 0), 0}, {Vec3(0, -1, 0), 0}, {Vec3(0, 0, -1), 0}}};
+    EXPECT_TRUE(cube.holds(Vec3(0.5, 0.9, 0.1)));
+    EXPECT_FALSE(cube.holds(Vec3(0.5, 1.1, 0.1)));
+    EXPECT_FALSE(cube.holds(Vec3(0.5, 0.9, -0.1)));
+    EXPECT_FALSE(Exit().holds(Vec3(0, 0, 0)));
+}
+
+// Grains slide along a rough plane under gravity that leans, fifty times that of the Earth, and leave at a
+// line: together and alone, in contact and free.
+World chute(int threads, double restitution = 0.7, double friction = 0.3) {
+    PairPlan pair = walton_braun_pair(restitution, friction);
+    World w = make_world(pair, 0.05 * std::sqrt(sphere_mass() / kStiffness) * std::numbers::pi);
+    w.team = std::make_unique<Team>(threads);
+    w.plan.wall[0].friction = 0.5 * friction;
+    w.around.gravity = {0, 300, -400};
+    w.around.faces = {floor_face()};
+    w.around.exits = {{{{Vec3(0, -1, 0), -0.02}}}};  // beyond y = 0.02 m
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> shift(-1e-4, 1e-4);
+    for (int i = 0; i < 240; ++i)
+        w.grains.add(i, 0,
+                     Vec3(4.3e-3 * (i % 6) + shift(random), -4.3e-3 * (i / 6 % 8) + shift(random),
+                          2.2e-3 + 4.3e-3 * (i / 48) + shift(random)),
+                     kRadius * (1 - 0.2 * ((i * 37) % 11) / 11.0), kDensity);
+    w.start();
+    return w;
+}
+
+TEST(Traffic, IsTheSameOnAnyNumberOfThreadsWhoeverLooks) {
+    constexpr std::int64_t kSteps = 4000;
+    World one = chute(1);
+    one.run(kSteps);
+    const std::vector<Departure> gone = one.loop->take_departures();
+    ASSERT_GT(gone.size(), 60u);
+    ASSERT_LT(gone.size(), 220u);
+    EXPECT_EQ(one.loop->traffic().left, std::ssize(gone));
+    EXPECT_EQ(one.grains.size() + gone.size(), 240u);
+    for (const int threads : {1, 2, 3}) {
+        World other = chute(threads);
+        double seen = 0;
+        for (std::int64_t look = 0; other.step < kSteps; ++look) {
+            other.run(std::min<std::int64_t>(1 + look * 37 % 200, kSteps - other.step));
+            other.loop->visit_contacts(other.step, [&](const ContactView& c) { seen += c.overlap; });
+        }
+        EXPECT_GT(seen, 0);
+        expect_same(other.loop->take_departures(), gone);
+        EXPECT_EQ(state_of(other), state_of(one)) << threads << " threads";
+    }
+}
+
+// No force acts between what is far apart, and what leaves takes its energy along.
+TEST(Traffic, OfFreeGrainsClosesToTheLastDigits) {
+    World w = make_world(walton_braun_pair(0.9, 0.3), 1e-4);
+    w.around.gravity = {0, 0, -kGravity};
+    w.around.exits = {exit_below(0)};
+    for (int i = 0; i < 20; ++i) {
+        w.grains.add(i, 0, Vec3(0.01 * i, 0, 0.003 * i), kRadius, kDensity);
+        w.grains.motion[i].spin = Vec3(i, 0, 3);
+    }
+    w.start();
+    const double before = w.energy();
+    for (int look = 0; look < 12; ++look) {
+        w.run(100);
+        EXPECT_NEAR(w.energy() + w.loop->traffic().energy_out, before, 1e-12 * before) << look;
+    }
+    EXPECT_EQ(w.loop->traffic().left, 20);
+    EXPECT_EQ(w.grains.size(), 0u);
+}
+
+// Elastic and smooth: what collisions turn over stays, up to the error of the step.
+TEST(Traffic, OfCollidingGrainsKeepsTheEnergy) {
+    World w = chute(1, 1, 0);
+    const double before = w.energy();
+    double turned_over = 0;
+    for (int look = 0; look < 40; ++look) {
+        w.run(100);
+        const Kinetic kinetic = kinetic_energy(w.grains);
+        turned_over = std::max(turned_over, kinetic.translation + w.loop->traffic().energy_out);
+        EXPECT_NEAR(w.energy() + w.loop->traffic().energy_out, before, 1e-3 * std::abs(before)) << look;
+    }
+    EXPECT_GT(w.loop->traffic().left, 60);
+}
+
+// With losses, term by term: the bound is that of the vibrated bed (energy_balance_test), over the energy that
+// was turned over. What a leaving grain's contacts held goes with it and is not friction.
+TEST(Traffic, BalancesTermByTerm) {
+    World w = chute(1);
+    EnergyBalance balance(w.around, w.grains, *w.loop, 0, w.plan.clock.step);
+    double worst = 0;
+    while (w.step < 4000) {
+        w.run(1);
+        balance.note(w.step);
+        worst = std::max(worst, std::abs(balance.residual()));
+        if (w.step == 2000) {
+            w.loop->insert({{0, kRadius, kDensity, Vec3(0.01, -0.05, 0.02), Vec3(0, 1, -1), Vec3(0, 9, 0)}});
+            w.loop->remove({100}, w.step);
+        }
+    }
+    const EnergyTerms& t = balance.terms();
+    ASSERT_GT(w.loop->traffic().left, 60);
+    EXPECT_GT(t.lost(), 0);
+    EXPECT_LT(worst, 1e-3 * (t.lost() + std::abs(t.left)));
+}
+
+// A grain that comes onto another which lies on the floor, as if it had been there all the time.
+TEST(Traffic, ANewGrainIsLikeOneThatWasAlwaysThere) {
+    const double dt = 0.05 * std::sqrt(sphere_mass() / kStiffness);
+    const double high = 4 * kRadius, gravity = 100 * kGravity;
+    constexpr std::int64_t kComes = 300, kEnds = 3000;
+    const auto make = [&](int threads) {
+        World w = make_world(walton_braun_pair(0.8, 0.3), dt);
+        w.team = std::make_unique<Team>(threads);
+        w.around.gravity = {0, 0, -gravity};
+        w.around.faces = {floor_face()};
+        w.grains.add(0, 0, Vec3(0, 0, kRadius), kRadius, kDensity);
+        return w;
+    };
+    World always = make(1);
+    always.grains.add(1, 0, Vec3(1e-4, 0, high), kRadius, kDensity);
+    always.start();
+    always.run(kEnds);
+    ASSERT_LT(always.velocity(0).x(), -1e-3) << "it has been hit";
+    std::uint64_t bits = 0;
+    for (const int threads : {1, 2, 3}) {
+        World w = make(threads);
+        w.start();
+        w.run(kComes);
+        const double t = static_cast<double>(kComes) * dt;
+        NewGrain grain{0, kRadius, kDensity, Vec3(1e-4, 0, high - gravity * t * t / 2),
+                       Vec3(0, 0, -gravity * t), Vec3(0, 0, 0)};
+        EXPECT_EQ(w.loop->insert({grain}), 1);
+        ASSERT_EQ(w.grains.size(), 2u);
+        const Traffic& traffic = w.loop->traffic();
+        EXPECT_EQ(traffic.came, 1);
+        EXPECT_NEAR(traffic.energy_in, sphere_mass() * gravity * high, 1e-12 * traffic.energy_in);
+        w.run(kEnds - kComes);
+        for (const std::int32_t id : {0, 1}) {
+            EXPECT_LT((w.position(id) - always.position(id)).norm(), of_rounding(1e-9, 1e-5)) << id;
+            EXPECT_LT((w.velocity(id) - always.velocity(id)).norm(), of_rounding(1e-6, 1e-2)) << id;
+        }
+        const std::uint64_t now = state_of(w);
+        if (bits == 0) bits = now;
+        EXPECT_EQ(now, bits) << threads << " threads";
+    }
+}
+
+TEST(Traffic, NoIdIsUsedTwice) {
+    World w = make_world(walton_braun_pair(0.8, 0.3), 1e-5);
+    for (int i = 0; i < 4; ++i) w.grains.add(i, 0, Vec3(0.01 * i, 0, 0), kRadius, kDensity);
+    w.start();
+    w.loop->remove({3, 1, 17}, 0);
+    EXPECT_EQ(w.grains.id, (std::vector<std::int32_t>{0, 2}));
+    NewGrain grain{0, kRadius, kDensity, Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
+    EXPECT_EQ(w.loop->insert({grain}), 4);
+    w.loop->remove({0, 2, 4}, 0);
+    EXPECT_EQ(w.grains.size(), 0u);
+    w.run(10);  // of nobody
+    EXPECT_EQ(w.loop->insert({grain, grain}), 5);
+    w.run(10);
+    EXPECT_EQ(w.grains.id, (std::vector<std::int32_t>{5, 6}));
+    const std::vector<Departure> gone = w.loop->take_departures();
+    ASSERT_EQ(gone.size(), 5u);
+    EXPECT_EQ(gone[0].id, 1);
+    EXPECT_EQ(gone[1].id, 3);
+}
+
+// Into a run that begins with nobody, on more threads than there are grains.
+TEST(Traffic, MayBeginWithNobody) {
+    std::uint64_t bits = 0;
+    for (const int threads : {1, 2, 3}) {
+        World w = make_world(walton_braun_pair(0.8, 0.3), 1e-5);
+        w.team = std::make_unique<Team>(threads);
+        w.around.gravity = {0, 0, -kGravity};
+        w.around.faces = {floor_face()};
+        w.around.skin = 1e-3;
+        w.start();
+        for (int i = 0; i < 10; ++i) {
+            w.loop->insert({{0, kRadius, kDensity, Vec3(5e-3 * i, 0, 3 * kRadius), Vec3(0, 0, -1), Vec3(0, 0, 0)},
+                            {0, kRadius, kDensity, Vec3(5e-3 * i, 0.01, 3 * kRadius), Vec3(0, 0, -1), Vec3(0, 0, 0)}});
+            w.run(300);
+        }
+        EXPECT_EQ(w.grains.size(), 20u);
+        for (const Place& place : w.grains.place) EXPECT_GT(place.position.z(), 0.5 * kRadius);
+        const std::uint64_t now = state_of(w);
+        if (bits == 0) bits = now;
+        EXPECT_EQ(now, bits) << threads << " threads";
+    }
+}
+
+// Saved after some left, and between an insertion and the step that follows it.
+TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
+    const auto add_some = [](World& w) {
+        std::vector<NewGrain> rain;
+        for (int i = 0; i < 6; ++i)
+            rain.push_back({0, kRadius, kDensity, Vec3(4.3e-3 * i, -0.02, 0.03), Vec3(0, 0, -0.5), Vec3(0, 0, 0)});
+        w.loop->insert(rain);
+    };
+    World whole = chute(1);
+    whole.run(3000);
+    add_some(whole);
+    const std::uint64_t saved = state_of(whole);
+    const std::int64_t left = whole.loop->traffic().left;
+    ASSERT_GT(left, 5);
+    whole.run(800);
+    ASSERT_GT(whole.loop->traffic().left, left);
+    for (const int threads : {1, 2, 3}) {
+        World other = chute(threads);
+        other.run(3000);
+        add_some(other);
+        ASSERT_EQ(state_of(other), saved);
+        std::ostringstream lists;
+        other.loop->save(lists);
+        World on = chute(threads);
+        on.grains = other.grains;
+        on.loop = std::make_unique<StepLoop>(on.plan, on.around, on.grains, *on.team);
+        const std::string bytes = lists.str();
+        Bytes in(bytes);
+        on.loop->load(in);
+        ASSERT_FALSE(in.failed());
+        ASSERT_EQ(in.left(), 0u);
+        EXPECT_EQ(on.loop->traffic().came, 6);
+        on.step = other.step;
+        on.run(800);
+        EXPECT_EQ(state_of(on), state_of(whole)) << threads << " threads";
+        // Half an account is none.
+        Bytes cut(std::string_view(bytes).substr(0, bytes.size() - 8));
+        on.loop->load(cut);
+        EXPECT_TRUE(cut.failed());
+    }
+}
+
+}  // namespace
+}  // namespace grainreel
