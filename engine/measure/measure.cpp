@@ -119,7 +119,8 @@ Measures measure(const Scene& scene, const Clock& clock, const Surroundings& aro
     m.elastic = contacts.stored;
     const Traffic& traffic = loop.traffic();
     m.wall_work = wall_work(grains) + traffic.work_out;
-    m.lost = start_energy + traffic.energy_in - traffic.energy_out + m.wall_work - m.kinetic - m.rotational - m.gravitational - m.elastic;
+    m.lost = start_energy + traffic.energy_in - traffic.energy_out + m.wall_work - m.kinetic - m.rotational -
+             m.gravitational - m.elastic;
     m.contact_number = contacts.carrying / static_cast<double>(grains.size());
     m.largest_overlap = contacts.largest_overlap;
     const Pose pose = around.motion.at(step);

@@ -7,10 +7,10 @@
 // cell_lengths is 0 where nothing is periodic.
 //
 // docs/reference/scenes.md lists all dimensions and variables. Numbers of a frame that need 64 bits are
-// doubles: classic NetCDF has no such integer. A frame's grains fill the first places, the rest hold id -1 and
-// the format's fill value, by which OVITO knows where a frame ends. In a file with traffic a grain keeps its
-// place when it has gone: id, type, radius and position stay what they were in its last frame, velocity and
-// spin are zero, and `present` is 0; programs that do not know of that show it where it was last. Every
+// doubles: classic NetCDF has no such integer. A frame's grains fill the first places, the rest hold id -1
+// and the format's fill value, by which OVITO knows where a frame ends. In a file with traffic a grain keeps
+// its place when it has gone: id, type, radius and position stay what they were in its last frame, velocity
+// and spin are zero, and `present` is 0; programs that do not know of that show it where it was last. Every
 // frame has a checksum of its moment and pose and one of its grains.
 #pragma once
 

@@ -60,11 +60,11 @@ void TrajectoryWriter::Impl::define() {
     file.attribute(NC_GLOBAL, "programVersion", info.program_version);
     file.attribute(NC_GLOBAL, "Conventions", "AMBER");
     file.attribute(NC_GLOBAL, "ConventionVersion", "1.0");
-    file.attribute(NC_GLOBAL, "deviations",
-                   std::string("SI units, see the units of each variable; time and coordinates are double; a "
-                               "place without a grain has id -1 and fill values") +
-                       (info.traffic ? "; a grain that has gone stays where it was last, and `present` is 0"
-                                     : ""));
+    file.attribute(
+        NC_GLOBAL, "deviations",
+        std::string("SI units, see the units of each variable; time and coordinates are double; a "
+                    "place without a grain has id -1 and fill values") +
+            (info.traffic ? "; a grain that has gone stays where it was last, and `present` is 0" : ""));
     define_dimensions();
     const int cell_angular = dimensions["cell_angular"];
     variables["spatial"] = file.variable("spatial", NC_CHAR, {dimensions["spatial"]});
@@ -216,9 +216,10 @@ void TrajectoryWriter::Impl::keep(const Frame& frame) {
 
 void TrajectoryWriter::Impl::add_place(const Frame& frame, std::size_t i) {
     if (kept.size() == places)
-        throw RunError(fmt::format("{}: more grains came than the {} that the file has places for; give "
-                                   "TrajectoryInfo a larger capacity",
-                                   name, places));
+        throw RunError(
+            fmt::format("{}: more grains came than the {} that the file has places for; give "
+                        "TrajectoryInfo a larger capacity",
+                        name, places));
     kept.id.push_back(frame.id[i]);
     kept.species.push_back(frame.species[i]);
     kept.radius.push_back(frame.radius[i]);
@@ -248,8 +249,8 @@ void TrajectoryWriter::write(const Frame& frame) {
                         "larger capacity",
                         impl_->name, frame.size(), impl_->info.capacity));
     }
-    impl_->write_pose(frame);
     if (impl_->info.traffic) impl_->keep(frame);
+    impl_->write_pose(frame);
     impl_->write_grains(impl_->info.traffic ? impl_->kept : frame);
     impl_->file.sync(impl_->frames + 1);
     ++impl_->frames;  // only now: one that failed does not count

@@ -67,6 +67,7 @@ struct Simulation::Impl {
     HealthLimits limits;
     EnergyWatch energy_watch;
     std::int64_t next_look = 0;  // step
+    ExpectedTraffic expected;
 
     bool continued = false;  // goes on where the file stopped
 
@@ -200,6 +201,18 @@ void Simulation::advance(std::int64_t target) {
         m.step += count;
         if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
+}
+
+void Simulation::expect(const ExpectedTraffic& traffic) {
+    impl_->expected = traffic;
+}
+
+const ExpectedTraffic& Simulation::expected() const {
+    return impl_->expected;
+}
+
+std::size_t Simulation::capacity() const {
+    return impl_->grains.size() + impl_->expected.comes;
 }
 
 void Simulation::set_exits(std::vector<Exit> exits) {

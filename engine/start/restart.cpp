@@ -72,8 +72,8 @@ std::vector<std::int32_t> numbers_of(const std::vector<std::int32_t>& ids) {
     std::vector<std::int32_t> rising = ids, numbers;
     std::sort(rising.begin(), rising.end());
     for (const std::int32_t id : ids)
-        numbers.push_back(static_cast<std::int32_t>(std::lower_bound(rising.begin(), rising.end(), id) -
-                                                    rising.begin()));
+        numbers.push_back(
+            static_cast<std::int32_t>(std::lower_bound(rising.begin(), rising.end(), id) - rising.begin()));
     return numbers;
 }
 

@@ -136,7 +136,8 @@ void StepLoop::note_departures(const std::vector<std::int32_t>& leavers, std::in
     for (const std::int32_t i : leavers) leaves[i] = true;
     visit_contacts(step, [&](const ContactView& c) {
         const bool first = leaves[c.first];
-        if (first || (c.second >= 0 && leaves[c.second])) stored[first ? c.first : c.second] += c.stored_energy;
+        if (first || (c.second >= 0 && leaves[c.second]))
+            stored[first ? c.first : c.second] += c.stored_energy;
     });
     std::vector<Departure> gone;
     for (const std::int32_t i : leavers) {

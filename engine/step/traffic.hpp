@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -44,6 +45,13 @@ struct NewGrain {
     std::int32_t species = 0;
     double radius = 0, density = 0;                            // m, kg/m3
     Vec3 position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};  // m, m/s, rad/s
+};
+
+// What a run may do, for those who make room for it: whether grains leave, and how many may come.
+struct ExpectedTraffic {
+    bool leaves = false;
+    std::size_t comes = 0;
+    bool any() const { return leaves || comes > 0; }
 };
 
 // The account: what a run had at its start, plus what came, less what left, is what it has.

@@ -12,12 +12,13 @@ std::vector<std::string> species_names(const Scene& scene) {
     return names;
 }
 
-TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains, const std::string& version) {
+TrajectoryInfo trajectory_info(const Scene& scene, const Simulation& simulation, const std::string& version) {
     TrajectoryInfo info;
     info.title = scene.title;
     info.program_version = version;
     info.species = species_names(scene);
-    info.capacity = grains;
+    info.capacity = simulation.capacity();
+    info.traffic = simulation.expected().any();
     for (const FreeWall& wall : scene.walls) info.planes.push_back(wall.name);
     info.orientation = scene.keeps_orientations();
     info.cell_origin = extent_of(scene).low;
@@ -28,11 +29,11 @@ TrajectoryInfo trajectory_info(const Scene& scene, std::size_t grains, const std
 }  // namespace
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
-                   std::size_t grains, const std::string& program_version)
+                   const Simulation& simulation, const std::string& program_version)
     : measures_(folder / "measures.csv", species_names(scene)) {
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (plan.trajectory_every == 0) return;
-    trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, grains, program_version));
+    trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, simulation, program_version));
     if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, program_version);
 }
 

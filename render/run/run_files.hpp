@@ -18,9 +18,10 @@ namespace grainreel {
 
 class RunFiles {
   public:
-    // grains: the most a frame can have. Throws RunError when a file cannot be made.
-    RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan, std::size_t grains,
-             const std::string& program_version);
+    // With room for all grains of the simulation, and for those that may come. Throws RunError when a file
+    // cannot be made.
+    RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+             const Simulation& simulation, const std::string& program_version);
 
     // The frame, and the contacts of the same moment when the scene asks for them.
     void add_frame(const Frame& frame, const Simulation& simulation);

@@ -89,7 +89,7 @@ void SceneRun::start(const Pictures& pictures) {
     const std::vector<Shot> shots = shots_of(pictures);
     segments_ = pictures.segments;
     bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
-    files_.emplace(folder_->folder(), scene_, plan_, simulation_.grains(), program_version_);
+    files_.emplace(folder_->folder(), scene_, plan_, simulation_, program_version_);
     want_moments(shots);
     agenda_.emplace(shots, plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
                     kept_.steps(), bed_periods_->every());

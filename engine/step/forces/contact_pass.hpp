@@ -60,8 +60,8 @@ class ContactPass {
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                  const std::vector<Face>& faces, const Pose& pose, double skin);
 
-    // A force that is still to act, half a step long, of a contact with a grain that has left: the grain counts
-    // as one that has contacts.
+    // A force that is still to act, half a step long, of a contact with a grain that has left: the grain
+    // counts as one that has contacts.
     void note_loads(const Grains& grains);
     // Of the own grains, those that have contacts.
     const Loaded& loaded() const { return loaded_; }

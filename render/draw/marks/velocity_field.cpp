@@ -28,6 +28,7 @@ std::vector<FieldCell> velocity_field(const Scene& scene, const Frame& frame) {
         const int column = static_cast<int>(std::floor(at.y() / side)),
                   row = static_cast<int>(std::floor(at.z() / side));
         if (column < 0 || column >= across || row < 0 || row >= upward) continue;
+        if (arrows.period && frame.displacement[i].hasNaN()) continue;  // it was not there a period before
         const std::size_t c = static_cast<std::size_t>(row) * across + column;
         const double m = scene.species[static_cast<std::size_t>(frame.species[i])].density *
                          std::pow(frame.radius[i], 3);  // up to a factor

@@ -15,6 +15,7 @@ Frame places_of(const Frame& frame) {
     places.cycles = frame.cycles;
     places.phase = frame.phase;
     places.bodies = frame.bodies;
+    places.id = frame.id;
     places.position = frame.position;
     return places;
 }

@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-// Positions and bodies alone, and the moment.
+// Ids, positions and bodies alone, and the moment.
 Frame places_of(const Frame& frame);
 
 // What a source has of its run.

@@ -5,9 +5,8 @@
 
 namespace grainreel {
 
-// From `before` to where the grains are now, by the periods between. Both list the same grains in the same
-// order; nothing is set when grains have come or gone. depth: m, along x, after which a periodic container
-// repeats; 0 for none.
+// From `before` to where the grains are now, by the periods between; NaN for a grain that was not there
+// before. depth: m, along x, after which a periodic container repeats; 0 for none.
 void set_displacement(Frame& now, const Frame& before, int periods, double depth);
 
 }  // namespace grainreel

@@ -10,7 +10,7 @@ namespace grainreel {
 // Positions become means over the moments, velocities how far the span has moved things, of grains and
 // bodies. moments: by rising time, the first of them closes the span and is not in the mean, the last is the
 // frame's own. span: s between these two. depth: m, along x, after which a periodic container repeats; 0 for
-// none. Leaves the frame as it is when grains have come or gone.
+// none. A grain that was not there at all of the moments stays as it is.
 void set_mean(Frame& frame, const std::vector<FramePtr>& moments, double span, double depth);
 
 }  // namespace grainreel

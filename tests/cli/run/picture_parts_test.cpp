@@ -239,15 +239,33 @@ TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
     EXPECT_TRUE(now.displacement.empty());
 }
 
+// Of a grain that came since, and of one that has gone: those that were there all the time have theirs.
 TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
-    Frame now = frame_at(1600, Vec3(1, 2, 3));
-    now.id.push_back(1);
-    now.position.emplace_back(4, 5, 6);
-    now.velocity.emplace_back(0, 0, 0);
-    parts.add(now, mean_of(1), 1, AnyMoment(at_rest, at_rest, 0));
+    const auto with = [](Frame frame, std::int32_t id, const Vec3& at) {
+        frame.id.push_back(id);
+        frame.position.push_back(at);
+        frame.velocity.emplace_back(0, 0, 0);
+        return frame;
+    };
+    class WithAnother final : public Moments {
+      public:
+        explicit WithAnother(std::function<Frame(std::int64_t)> at) : at_(std::move(at)) {}
+        FramePtr at(std::int64_t step) const override { return std::make_shared<const Frame>(at_(step)); }
+
+      private:
+        std::function<Frame(std::int64_t)> at_;
+    };
+    const WithAnother before(
+        [&](std::int64_t step) { return with(frame_at(step, Vec3(0, 0, 1)), 1, Vec3(7, 8, 9)); });
+    Frame now = with(frame_at(1600, Vec3(0, 0, 3)), 2, Vec3(4, 5, 6));
+    parts.add(now, mean_of(1), 1, before);
     EXPECT_EQ(now.position[1], Vec3(4, 5, 6));
-    EXPECT_TRUE(now.displacement.empty());
+    EXPECT_EQ(now.velocity[1], Vec3(0, 0, 0));
+    EXPECT_LT(now.position[0].z(), 3) << "a mean with where it was before";
+    ASSERT_EQ(now.displacement.size(), 2u);
+    EXPECT_GT(now.displacement[0].z(), 0);
+    EXPECT_TRUE(now.displacement[1].hasNaN());
 }
 
 TEST(KeptMoments, AreKeptUntilTheLastPictureThatWantsThem) {
@@ -257,8 +275,8 @@ TEST(KeptMoments, AreKeptUntilTheLastPictureThatWantsThem) {
     EXPECT_THAT(kept.steps(), testing::ElementsAre(10, 20, 30));
     for (const std::int64_t step : {10, 15, 20, 30}) kept.keep(frame_at(step, Vec3(0, 0, 1)));
     EXPECT_FALSE(kept.at(15)) << "nobody wants it";
-    EXPECT_EQ(kept.at(20)->size(), 1u) << "one of two wants it whole";
-    EXPECT_EQ(kept.at(30)->size(), 0u);
+    EXPECT_EQ(kept.at(20)->velocity.size(), 1u) << "one of two wants it whole";
+    EXPECT_TRUE(kept.at(30)->velocity.empty()) << "places alone";
     EXPECT_EQ(kept.at(30)->position.size(), 1u);
     kept.done_with(40);
     EXPECT_FALSE(kept.at(10));

@@ -125,6 +125,77 @@ TEST(Trajectory, GrainsMayComeAndGo) {
     expect_same(reader.read(2), made_frame(0, 2));
 }
 
+// A frame of grains with these ids, at places that no other frame has.
+Frame frame_with(const std::vector<std::int32_t>& ids, int number) {
+    Frame frame = made_frame(static_cast<int>(ids.size()), number, true);
+    frame.id = ids;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        frame.species[i] = ids[i] % 3;
+        frame.radius[i] = 1e-3 * (1 + ids[i]);
+    }
+    return frame;
+}
+
+// Who has gone keeps its place and stays there; who comes gets the next one.
+TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
+    const TemporaryFolder here;
+    const std::vector<Frame> frames{frame_with({0, 1, 2, 5}, 0), frame_with({0, 2, 5}, 1),
+                                    frame_with({0, 5, 6}, 2), frame_with({}, 3), frame_with({8}, 4)};
+    TrajectoryInfo info = made_info(6, true);
+    info.traffic = true;
+    {
+        TrajectoryWriter writer(here / "t.nc", info);
+        for (const Frame& frame : frames) writer.write(frame);
+        EXPECT_THROW(writer.write(frame_with({9}, 5)), RunError) << "a seventh grain";
+    }
+    const TrajectoryReader reader(here / "t.nc");
+    EXPECT_TRUE(reader.info().traffic);
+    ASSERT_EQ(reader.frames(), frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) expect_same(reader.read(i), frames[i]);
+
+    int file = -1, variable = -1;
+    ASSERT_EQ(nc_open((here / "t.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+    std::array<std::array<int, 6>, 5> present{}, id{};
+    std::array<std::array<double, 18>, 5> x{};
+    std::array<std::array<float, 18>, 5> v{};
+    ASSERT_EQ(nc_inq_varid(file, "present", &variable), NC_NOERR);
+    ASSERT_EQ(nc_get_var_int(file, variable, present[0].data()), NC_NOERR);
+    ASSERT_EQ(nc_inq_varid(file, "id", &variable), NC_NOERR);
+    ASSERT_EQ(nc_get_var_int(file, variable, id[0].data()), NC_NOERR);
+    ASSERT_EQ(nc_inq_varid(file, "coordinates", &variable), NC_NOERR);
+    ASSERT_EQ(nc_get_var_double(file, variable, x[0].data()), NC_NOERR);
+    ASSERT_EQ(nc_inq_varid(file, "velocities", &variable), NC_NOERR);
+    ASSERT_EQ(nc_get_var_float(file, variable, v[0].data()), NC_NOERR);
+    nc_close(file);
+    EXPECT_THAT(present[0], testing::ElementsAre(1, 1, 1, 1, 0, 0));
+    EXPECT_THAT(present[1], testing::ElementsAre(1, 0, 1, 1, 0, 0));
+    EXPECT_THAT(present[2], testing::ElementsAre(1, 0, 0, 1, 1, 0));
+    EXPECT_THAT(present[3], testing::ElementsAre(0, 0, 0, 0, 0, 0));
+    EXPECT_THAT(present[4], testing::ElementsAre(0, 0, 0, 0, 0, 1));
+    EXPECT_THAT(id[1], testing::ElementsAre(0, 1, 2, 5, -1, -1));
+    EXPECT_THAT(id[4], testing::ElementsAre(0, 1, 2, 5, 6, 8));
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(x[4][3 + k], frames[0].position[1][static_cast<int>(k)]) << "where grain 1 was last";
+        EXPECT_EQ(v[4][3 + k], 0);
+        EXPECT_EQ(x[1][12 + k], NC_FILL_DOUBLE) << "nobody has been there yet";
+    }
+}
+
+// No run writes it, but somebody's program may.
+TEST(Trajectory, FlagsThatDoNotMatchTheCountAreDamage) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(3, true);
+    info.traffic = true;
+    TrajectoryWriter(here / "t.nc", info).write(frame_with({0, 1}, 0));
+    int file = -1, variable = -1;
+    ASSERT_EQ(nc_open((here / "t.nc").c_str(), NC_WRITE, &file), NC_NOERR);
+    ASSERT_EQ(nc_inq_varid(file, "present", &variable), NC_NOERR);
+    const std::array<int, 3> one{1, 0, 0};
+    ASSERT_EQ(nc_put_var_int(file, variable, one.data()), NC_NOERR);
+    nc_close(file);
+    EXPECT_THROW(TrajectoryReader(here / "t.nc").read(0), DamagedFrame);
+}
+
 // By the trailing fill values OVITO knows how many grains a frame has.
 TEST(Trajectory, PlacesWithoutAGrainHoldFillValues) {
     const TemporaryFolder here;

@@ -86,8 +86,12 @@ INSTANTIATE_TEST_SUITE_P(Traffic, FreeFall,
 
 TEST(Exits, ARegionIsWhereAllItsHalfSpacesAre) {
     // The unit cube.
-    const Exit cube{{{Vec3(1, 0, 0), 1}, {Vec3(0, 1, 0), 1}, {Vec3(0, 0, 1), 1},
-                     {Vec3(-1, 0, 0), 0}, {Vec3(0, -1, 0), 0}, {Vec3(0, 0, -1), 0}}};
+    const Exit cube{{{Vec3(1, 0, 0), 1},
+                     {Vec3(0, 1, 0), 1},
+                     {Vec3(0, 0, 1), 1},
+                     {Vec3(-1, 0, 0), 0},
+                     {Vec3(0, -1, 0), 0},
+                     {Vec3(0, 0, -1), 0}}};
     EXPECT_TRUE(cube.holds(Vec3(0.5, 0.9, 0.1)));
     EXPECT_FALSE(cube.holds(Vec3(0.5, 1.1, 0.1)));
     EXPECT_FALSE(cube.holds(Vec3(0.5, 0.9, -0.1)));
@@ -170,8 +174,8 @@ TEST(Traffic, OfCollidingGrainsKeepsTheEnergy) {
     EXPECT_GT(w.loop->traffic().left, 60);
 }
 
-// With losses, term by term: the bound is that of the vibrated bed (energy_balance_test), over the energy that
-// was turned over. What a leaving grain's contacts held goes with it and is not friction.
+// With losses, term by term: the bound is that of the vibrated bed (energy_balance_test), over the energy
+// that was turned over. What a leaving grain's contacts held goes with it and is not friction.
 TEST(Traffic, BalancesTermByTerm) {
     World w = chute(1);
     EnergyBalance balance(w.around, w.grains, *w.loop, 0, w.plan.clock.step);
@@ -215,8 +219,12 @@ TEST(Traffic, ANewGrainIsLikeOneThatWasAlwaysThere) {
         w.start();
         w.run(kComes);
         const double t = static_cast<double>(kComes) * dt;
-        NewGrain grain{0, kRadius, kDensity, Vec3(1e-4, 0, high - gravity * t * t / 2),
-                       Vec3(0, 0, -gravity * t), Vec3(0, 0, 0)};
+        NewGrain grain{0,
+                       kRadius,
+                       kDensity,
+                       Vec3(1e-4, 0, high - gravity * t * t / 2),
+                       Vec3(0, 0, -gravity * t),
+                       Vec3(0, 0, 0)};
         EXPECT_EQ(w.loop->insert({grain}), 1);
         ASSERT_EQ(w.grains.size(), 2u);
         const Traffic& traffic = w.loop->traffic();
@@ -264,8 +272,9 @@ TEST(Traffic, MayBeginWithNobody) {
         w.around.skin = 1e-3;
         w.start();
         for (int i = 0; i < 10; ++i) {
-            w.loop->insert({{0, kRadius, kDensity, Vec3(5e-3 * i, 0, 3 * kRadius), Vec3(0, 0, -1), Vec3(0, 0, 0)},
-                            {0, kRadius, kDensity, Vec3(5e-3 * i, 0.01, 3 * kRadius), Vec3(0, 0, -1), Vec3(0, 0, 0)}});
+            w.loop->insert(
+                {{0, kRadius, kDensity, Vec3(5e-3 * i, 0, 3 * kRadius), Vec3(0, 0, -1), Vec3(0, 0, 0)},
+                 {0, kRadius, kDensity, Vec3(5e-3 * i, 0.01, 3 * kRadius), Vec3(0, 0, -1), Vec3(0, 0, 0)}});
             w.run(300);
         }
         EXPECT_EQ(w.grains.size(), 20u);
@@ -281,7 +290,8 @@ TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
     const auto add_some = [](World& w) {
         std::vector<NewGrain> rain;
         for (int i = 0; i < 6; ++i)
-            rain.push_back({0, kRadius, kDensity, Vec3(4.3e-3 * i, -0.02, 0.03), Vec3(0, 0, -0.5), Vec3(0, 0, 0)});
+            rain.push_back(
+                {0, kRadius, kDensity, Vec3(4.3e-3 * i, -0.02, 0.03), Vec3(0, 0, -0.5), Vec3(0, 0, 0)});
         w.loop->insert(rain);
     };
     World whole = chute(1);

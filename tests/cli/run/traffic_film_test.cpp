@@ -1,0 +1,154 @@
+// A run that grains leave and enter, through its files and onto pictures.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "engine/base/error.hpp"
+#include "engine/output/trajectory.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/run/simulation.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "render/draw/picture/renderer.hpp"
+#include "render/film/files/png.hpp"
+#include "render/run/run_files.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using test::TemporaryFolder;
+
+Scene sink_scene(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> sets{"output.trajectory_interval=0.01", "film.size=\"480x360\"",
+                                  "output.contacts=true"};
+    sets.insert(sets.end(), more.begin(), more.end());
+    return read_scene_text(test::small_scene_text, "sink.toml", sets);
+}
+
+// Grains leave at the right end of the floor, and two come from above every now and then.
+struct Sink {
+    Scene scene;
+    Plan plan = make_plan(scene);
+    Simulation simulation;
+
+    explicit Sink(const Scene& of, int threads = 1) : scene(of), simulation(scene, plan, threads) {
+        simulation.expect({true, 20});
+        simulation.pack();
+        Exit corner;
+        corner.sides = {{Vec3(0, 0, 1), 0.006}, {Vec3(0, -1, 0), -0.008}};
+        simulation.set_exits({corner});
+    }
+    void rain(int number) {
+        std::vector<NewGrain> pair;
+        for (const double x : {-0.005, 0.005})
+            pair.push_back({0, 0.002, scene.species[0].density, Vec3(x, -0.01 + 0.001 * number, 0.036), Vec3(0, 0, -0.2),
+                            Vec3(0, 0, 0)});
+        simulation.insert(pair);
+    }
+};
+
+TEST(TrafficFilm, FilesHaveWhoIsThere) {
+    const TemporaryFolder here;
+    Sink sink(sink_scene());
+    RunFiles files(here.path(), sink.scene, sink.plan, sink.simulation, "test");
+    std::vector<Frame> frames;
+    std::vector<Measures> measures;
+    const std::int64_t every = sink.plan.steps / 20;
+    for (int i = 0; i < 20; ++i) {
+        if (i % 2 == 1) sink.rain(i / 2);
+        frames.push_back(sink.simulation.frame());
+        measures.push_back(sink.simulation.measures());
+        files.add_frame(frames.back(), sink.simulation);
+        files.add_measures(measures.back());
+        sink.simulation.advance((i + 1) * every);
+    }
+    const Traffic& traffic = sink.simulation.traffic();
+    EXPECT_EQ(traffic.came, 20);
+    ASSERT_GT(traffic.left, 10);
+    EXPECT_EQ(sink.simulation.grains(), static_cast<std::size_t>(50 + traffic.came - traffic.left));
+    EXPECT_EQ(std::ssize(sink.simulation.take_departures()), traffic.left);
+    const TrajectoryReader reader(here / "trajectory.nc");
+    ASSERT_EQ(reader.frames(), frames.size());
+    std::set<std::int32_t> gone, all;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Frame frame = reader.read(i);
+        EXPECT_EQ(frame.id, frames[i].id) << i;
+        EXPECT_EQ(frame.position, frames[i].position) << i;
+        for (const std::int32_t id : frame.id) EXPECT_FALSE(gone.contains(id)) << id << " came back";
+        const std::set<std::int32_t> now(frame.id.begin(), frame.id.end());
+        all.insert(now.begin(), now.end());
+        for (const std::int32_t id : all)
+            if (!now.contains(id)) gone.insert(id);
+        // Measures are of those who are there.
+        Vec3 small(0, 0, 0);
+        double count = 0;
+        for (std::size_t k = 0; k < frame.size(); ++k)
+            if (frame.species[k] == 0) small += frame.position[k], ++count;
+        EXPECT_LT((measures[i].species_centre[0] - small / count).norm(), 1e-12) << i;
+    }
+    EXPECT_LE(all.size(), reader.info().capacity);
+    // What was lost, of all that came in, does not fall: nothing gains energy.
+    for (std::size_t i = 1; i < measures.size(); ++i)
+        EXPECT_GT(measures[i].lost, measures[i - 1].lost - 1e-3 * measures[i].wall_work) << i;
+}
+
+TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
+    const TemporaryFolder here;
+    Sink whole(sink_scene());
+    const std::int64_t quarter = whole.plan.steps / 4;
+    whole.simulation.advance(quarter);
+    whole.rain(3);
+    whole.simulation.save_checkpoint(here / "c.grs");
+    ASSERT_GT(whole.simulation.traffic().left, 3);
+    whole.simulation.advance(2 * quarter);
+    Scene scene = whole.scene;
+    scene.start.method = Start::Method::file;
+    scene.start.file = (here / "c.grs").string();
+    scene.start.keep_clock = true;
+    Simulation on(scene, whole.plan, 2);
+    EXPECT_EQ(on.traffic().came, 2);
+    on.pack();
+    Exit corner;
+    corner.sides = {{Vec3(0, 0, 1), 0.006}, {Vec3(0, -1, 0), -0.008}};
+    on.set_exits({corner});
+    on.advance(2 * quarter);
+    EXPECT_EQ(on.state_hash(), whole.simulation.state_hash());
+    EXPECT_EQ(on.traffic().left, whole.simulation.traffic().left);
+    // To start anew with those who are left: the scene has to say how many there are.
+    scene.start.keep_clock = false;
+    EXPECT_THROW(Simulation(scene, whole.plan, 1), UserError);
+}
+
+// Colours, trails, chains and arrows of a bed whose grains change; a picture shows those of its frame alone.
+TEST(TrafficFilm, PicturesShowWhoIsThere) {
+    Sink sink(sink_scene({"film.trails.species=[\"big\"]", "film.trails.duration=\"0.1 s\"",
+                          "film.force_chains=true", "film.arrows.grid=8", "film.highlight=[3, 17]",
+                          "film.colour.by=\"displacement\""}));
+    Renderer renderer(sink.scene, 1);
+    const std::int64_t every = sink.plan.steps / 20;
+    Frame before = sink.simulation.frame();
+    for (int i = 1; i <= 16; ++i) {
+        sink.simulation.advance(i * every);
+        if (i % 2 == 1) sink.rain(i / 2);
+        Frame frame = sink.simulation.frame();
+        for (const Simulation::ContactRecord& c : sink.simulation.contacts())
+            frame.touches.push_back({c.first, c.second, c.normal});
+        const Picture picture = renderer.draw(frame, "");
+        if (const char* at = std::getenv("GRAINREEL_LOOK"))
+            write_png(std::string(at) + "/sink_" + std::to_string(i) + ".png", picture, {});
+        if (i != 16) continue;
+        // Nothing is left of who has gone: without trails a renderer that saw only this frame draws the same.
+        Scene plain = sink.scene;
+        plain.film.shows.trails = {};
+        Renderer one(plain, 1), other(plain, 1);
+        one.draw(before, "");
+        EXPECT_EQ(one.draw(frame, "").rgba, other.draw(frame, "").rgba);
+        EXPECT_NE(one.draw(before, "").rgba, other.draw(frame, "").rgba);
+    }
+    ASSERT_GT(sink.simulation.traffic().left, 10);
+}
+
+}  // namespace
+}  // namespace grainreel
