@@ -43,8 +43,8 @@ struct Sink {
     void rain(int number) {
         std::vector<NewGrain> pair;
         for (const double x : {-0.005, 0.005})
-            pair.push_back({0, 0.002, scene.species[0].density, Vec3(x, -0.01 + 0.001 * number, 0.036), Vec3(0, 0, -0.2),
-                            Vec3(0, 0, 0)});
+            pair.push_back({0, 0.002, scene.species[0].density, Vec3(x, -0.01 + 0.001 * number, 0.036),
+                            Vec3(0, 0, -0.2), Vec3(0, 0, 0)});
         simulation.insert(pair);
     }
 };
