@@ -57,6 +57,13 @@ void expect_round_trip(const Scene& original) {
     }
 }
 
+// Keys of [film] that stood below [film.cut] belonged to that, and a run with a cut could not be drawn again.
+TEST(Writer, ACutAndWhatTheFilmShowsReadBack) {
+    expect_round_trip(read_text(wedge_text +
+                                "[film]\nhide = [\"big\"]\nforce_chains = true\nhighlight = [3]\n" +
+                                "[film.cut]\nat = \"1 mm\"\nthickness = \"5 mm\"\n"));
+}
+
 TEST(Writer, ResolvedScenesReadBackBitByBit) {
     expect_round_trip(read_text(wedge_text));
     expect_round_trip(read_text(box_text));

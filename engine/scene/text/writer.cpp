@@ -235,11 +235,15 @@ void write_film_look(SceneText& out, const FilmLook& look) {
     if (look.shadows != implied.shadows) out.flag("shadows", look.shadows);
     if (look.ground != implied.ground) out.flag("ground", look.ground);
     out.flag("rotation", look.rotation);
-    if (!look.cut.present) return;
+}
+
+// After all keys of [film] itself, which would belong to this table below it.
+void write_cut(SceneText& out, const FilmCut& cut) {
+    if (!cut.present) return;
     out.table("film.cut");
-    out.put("normal", vector(look.cut.normal));
-    out.put("at", look.cut.at);
-    if (look.cut.thickness > 0) out.put("thickness", look.cut.thickness);
+    out.put("normal", vector(cut.normal));
+    out.put("at", cut.at);
+    if (cut.thickness > 0) out.put("thickness", cut.thickness);
 }
 
 void write_camera(SceneText& out, const Camera& camera) {
@@ -341,6 +345,7 @@ void write_film(SceneText& out, const Film& film, const std::vector<Species>& sp
     if (!film.shows.highlighted.empty()) out.put("highlight", ids(film.shows.highlighted));
     if (film.shows.highlight_if.wanted()) out.words("highlight_if", film.shows.highlight_if.text);
     out.flag("force_chains", film.shows.force_chains);
+    write_cut(out, film.look.cut);
     write_colour(out, film.shows.colour);
     write_marks(out, film.shows, species);
     write_camera(out, film.camera);
