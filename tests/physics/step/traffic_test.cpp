@@ -195,49 +195,92 @@ TEST(Traffic, BalancesTermByTerm) {
     EXPECT_LT(worst, 1e-3 * (t.lost() + std::abs(t.left)));
 }
 
-// A grain that comes onto another which lies on the floor, as if it had been there all the time.
+// One grain lies on the floor, another falls onto it with a hundred times the Earth's gravity.
+constexpr double kDropGravity = 100 * kGravity, kDropHeight = 4 * kRadius;
+constexpr std::int64_t kDropSteps = 3000;
+NewGrain falling(double t) {
+    return {0,
+            kRadius,
+            kDensity,
+            Vec3(1e-4, 0, kDropHeight - kDropGravity * t * t / 2),
+            Vec3(0, 0, -kDropGravity * t),
+            Vec3(0, 0, 0)};
+}
+World drop(int threads) {
+    World w = make_world(walton_braun_pair(0.8, 0.3), 0.05 * std::sqrt(sphere_mass() / kStiffness));
+    w.team = std::make_unique<Team>(threads);
+    w.around.gravity = {0, 0, -kDropGravity};
+    w.around.faces = {floor_face()};
+    w.grains.add(0, 0, Vec3(0, 0, kRadius), kRadius, kDensity);
+    return w;
+}
+// With the second grain there from the start.
+World dropped() {
+    World w = drop(1);
+    w.grains.add(1, 0, falling(0).position, kRadius, kDensity);
+    w.start();
+    w.run(kDropSteps);
+    return w;
+}
+void expect_close(const World& w, const World& wanted) {
+    for (const std::int32_t id : {0, 1}) {
+        EXPECT_LT((w.position(id) - wanted.position(id)).norm(), of_rounding(1e-9, 1e-5)) << id;
+        EXPECT_LT((w.velocity(id) - wanted.velocity(id)).norm(), of_rounding(1e-6, 1e-2)) << id;
+    }
+}
+
+// As if it had been there all the time: long before the two meet, and two steps before.
 TEST(Traffic, ANewGrainIsLikeOneThatWasAlwaysThere) {
-    const double dt = 0.05 * std::sqrt(sphere_mass() / kStiffness);
-    const double high = 4 * kRadius, gravity = 100 * kGravity;
-    constexpr std::int64_t kComes = 300, kEnds = 3000;
-    const auto make = [&](int threads) {
-        World w = make_world(walton_braun_pair(0.8, 0.3), dt);
-        w.team = std::make_unique<Team>(threads);
-        w.around.gravity = {0, 0, -gravity};
-        w.around.faces = {floor_face()};
-        w.grains.add(0, 0, Vec3(0, 0, kRadius), kRadius, kDensity);
-        return w;
-    };
-    World always = make(1);
-    always.grains.add(1, 0, Vec3(1e-4, 0, high), kRadius, kDensity);
-    always.start();
-    always.run(kEnds);
+    const World always = dropped();
     ASSERT_LT(always.velocity(0).x(), -1e-3) << "it has been hit";
-    std::uint64_t bits = 0;
-    for (const int threads : {1, 2, 3}) {
-        World w = make(threads);
-        w.start();
-        w.run(kComes);
-        const double t = static_cast<double>(kComes) * dt;
-        NewGrain grain{0,
-                       kRadius,
-                       kDensity,
-                       Vec3(1e-4, 0, high - gravity * t * t / 2),
-                       Vec3(0, 0, -gravity * t),
-                       Vec3(0, 0, 0)};
-        EXPECT_EQ(w.loop->insert({grain}), 1);
-        ASSERT_EQ(w.grains.size(), 2u);
-        const Traffic& traffic = w.loop->traffic();
-        EXPECT_EQ(traffic.came, 1);
-        EXPECT_NEAR(traffic.energy_in, sphere_mass() * gravity * high, 1e-12 * traffic.energy_in);
-        w.run(kEnds - kComes);
-        for (const std::int32_t id : {0, 1}) {
-            EXPECT_LT((w.position(id) - always.position(id)).norm(), of_rounding(1e-9, 1e-5)) << id;
-            EXPECT_LT((w.velocity(id) - always.velocity(id)).norm(), of_rounding(1e-6, 1e-2)) << id;
+    const double dt = always.plan.clock.step;
+    const double meet = std::sqrt(2 * (kDropHeight - 3 * kRadius) / kDropGravity);
+    for (const std::int64_t comes : {std::int64_t{300}, static_cast<std::int64_t>(meet / dt) - 2}) {
+        std::uint64_t bits = 0;
+        for (const int threads : {1, 2, 3}) {
+            World w = drop(threads);
+            w.start();
+            w.run(comes);
+            EXPECT_EQ(w.loop->insert({falling(static_cast<double>(comes) * dt)}), 1);
+            ASSERT_EQ(w.grains.size(), 2u);
+            const Traffic& traffic = w.loop->traffic();
+            EXPECT_EQ(traffic.came, 1);
+            const double energy = sphere_mass() * kDropGravity * kDropHeight;
+            EXPECT_NEAR(traffic.energy_in, energy, 1e-12 * energy);
+            w.run(kDropSteps - comes);
+            expect_close(w, always);
+            const std::uint64_t now = state_of(w);
+            if (bits == 0) bits = now;
+            EXPECT_EQ(now, bits) << threads << " threads";
         }
-        const std::uint64_t now = state_of(w);
-        if (bits == 0) bits = now;
-        EXPECT_EQ(now, bits) << threads << " threads";
+    }
+}
+
+// Those that left stood before the others in every list: the two meet as if nobody had been there.
+TEST(Traffic, ListsCloseUpBehindThoseThatLeave) {
+    const World alone = dropped();
+    const double dt = alone.plan.clock.step;
+    const double meet = std::sqrt(2 * (kDropHeight - 3 * kRadius) / kDropGravity);
+    const std::int64_t leave = static_cast<std::int64_t>(meet / dt) - 4;
+    for (const int threads : {1, 2}) {
+        World w = drop(threads);
+        w.around.skin = kRadius;
+        w.grains.add(1, 0, falling(0).position, kRadius, kDensity);
+        std::vector<std::int32_t> others;
+        for (int i = 0; i < 12; ++i) {
+            others.push_back(2 + i);
+            w.grains.add(others.back(), 0, Vec3(0, -0.1 + 4.1e-3 * i, kRadius), kRadius, kDensity);
+        }
+        w.start();
+        w.run(leave);
+        const std::int64_t listed = w.loop->rebuilds();
+        w.loop->remove(others, leave);
+        ASSERT_EQ(w.grains.size(), 2u);
+        EXPECT_EQ(w.loop->listed_pairs(), 1u);
+        w.run(20);
+        ASSERT_EQ(w.loop->rebuilds(), listed) << "they met by the lists that had been there";
+        w.run(kDropSteps - leave - 20);
+        expect_close(w, alone);
     }
 }
 
