@@ -84,8 +84,15 @@ bool StepLoop::in_exit(std::int32_t i) const {
 bool StepLoop::may_leave(int member) const {
     if (around_.exits.empty()) return false;
     if (scheme_.corrects || scheme_.closing_drift > 0) return true;
-    for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i)
-        if (in_exit(i)) return true;
+    // Of most exits the first half-space tells that a grain is not in them.
+    for (const Exit& exit : around_.exits) {
+        if (exit.sides.empty()) continue;
+        const Exit::HalfSpace first = exit.sides.front();
+        for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) {
+            const Vec3& centre = grains_.place[i].position;
+            if (first.normal.dot(centre) < first.distance && exit.holds(centre)) return true;
+        }
+    }
     return false;
 }
 
