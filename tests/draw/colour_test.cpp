@@ -237,6 +237,11 @@ TEST(Ticks, AreRoundAndInside) {
     EXPECT_EQ(round_ticks(0, 0.78, 6), (std::vector<double>{0, 0.2, 2 * 0.2, 3 * 0.2}));
     EXPECT_EQ(round_ticks(-6, 6, 4), (std::vector<double>{-5, 0, 5}));
     EXPECT_EQ(round_ticks(0, 1, 11).size(), 11u);
+    // Two fit, and of the round numbers a distance of 1 apart only 0 lies inside: the ends say more.
+    const AxisTicks ends = axis_ticks(-0.5, 0.5, 2, 5);
+    EXPECT_EQ(ends.at, (std::vector<double>{-0.5, 0.5}));
+    EXPECT_EQ(tick_text(ends.at[0], ends.distance), "−0.5");
+    EXPECT_EQ(axis_ticks(-0.5, 0.5, 3, 5).at, (std::vector<double>{-0.5, 0, 0.5}));
     EXPECT_EQ(tick_text(0.4, 0.2), "0.4");
     EXPECT_EQ(tick_text(-50, 50), "−50");
     EXPECT_EQ(tick_text(-1e-17, 0.05), "0.00");

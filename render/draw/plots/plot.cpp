@@ -172,16 +172,14 @@ void Plot::draw_axes() {
     const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);
     // Zeros alone span nothing that has a unit.
     const bool zeros = high - low < 10 * least_room && low <= 0 && high >= 0;
-    const std::vector<double> values =
-        zeros ? std::vector<double>{0} : round_ticks(low / size, high / size, fit);
-    for (const double value : values) {
+    const AxisTicks ticks =
+        zeros ? AxisTicks{{0}, 1} : axis_ticks(low / size, high / size, fit, most_ticks + 1);
+    for (const double value : ticks.at) {
         const double y = y_of(value * size);
         cairo_set_line_width(on.get(), 0.7 * pen);
         cairo_set_source_rgba(on.get(), palette_.ink.red, palette_.ink.green, palette_.ink.blue, 0.15);
         line(on.get(), left_, y, right_, y);
-        const std::string text =
-            zeros ? "0"
-                  : tick_text(value, values.size() > 1 ? values[1] - values[0] : std::abs(value) + 1e-30);
+        const std::string text = tick_text(value, ticks.distance);
         const TextSize words = measure_text(text, minor);
         draw_text(on.get(), left_ - tick - words.width, y - 0.5 * words.height, text, minor,
                   palette_.faint_ink);

@@ -29,6 +29,16 @@ std::vector<double> round_ticks(double low, double high, int most) {
     return ticks;
 }
 
+AxisTicks axis_ticks(double low, double high, int most, int finest) {
+    for (int many = most; many <= std::max(most, finest); ++many) {
+        const std::vector<double> ticks = round_ticks(low, high, many);
+        if (ticks.size() < 2) continue;
+        if (many == most) return {ticks, ticks[1] - ticks[0]};
+        return {{ticks.front(), ticks.back()}, ticks[1] - ticks[0]};
+    }
+    return {round_ticks(low, high, most), high - low};
+}
+
 std::array<double, 2> round_limits(double low, double high, int most) {
     const double least = std::max({high - low, 1e-6 * std::max(std::abs(low), std::abs(high)), 1e-30});
     double step = round_step(least / (most - 1));

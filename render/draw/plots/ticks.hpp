@@ -11,6 +11,15 @@ namespace grainreel {
 // 2).
 std::vector<double> round_ticks(double low, double high, int most);
 
+// The ticks of an axis from `low` to `high`, and the distance that their decimals follow.
+struct AxisTicks {
+    std::vector<double> at;
+    double distance = 1;
+};
+// At most `most` (>= 2) round ticks. Where only one of them lies inside, and one does not make an axis, the
+// first and the last of up to `finest` round ticks.
+AxisTicks axis_ticks(double low, double high, int most, int finest);
+
 // The narrowest interval around [low, high] whose ends are such multiples, `most` of them at most. Equal ends
 // are taken a little apart.
 std::array<double, 2> round_limits(double low, double high, int most);
