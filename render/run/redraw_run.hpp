@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "render/run/film_run.hpp"
-#include "render/run/frames/recorded_run.hpp"
+#include "render/run/frames/frame_source.hpp"
 
 namespace grainreel {
 
 class RedrawRun final : public FilmRun {
   public:
     // Throws UserError for what the options get wrong; nothing is on disk then.
-    RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener, RecordedRun& run);
+    // source: one with an archive.
+    RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
+              FrameSource& source);
 
   private:
     bool work() override;
@@ -20,7 +22,8 @@ class RedrawRun final : public FilmRun {
     void report_written() override;
     std::vector<std::string> warnings() const;
 
-    RecordedRun& run_;
+    FrameSource& source_;
+    const FrameArchive& archive_;
     const std::vector<Frame> moments_;  // that are drawn
     Scene scene_;                       // the run's, with a film of those
 };

@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Beside the run: "wedge-1.250s.png", and a number when that is taken.
-fs::path free_name(const RecordedRun& run, double time) {
-    const std::string stem = fmt::format("{}-{:.3f}s", run.scene().name, time);
+fs::path free_name(const Scene& scene, const FrameArchive& run, double time) {
+    const std::string stem = fmt::format("{}-{:.3f}s", scene.name, time);
     const fs::path beside = run.folder().parent_path();
     fs::path path = beside / (stem + ".png");
     for (int number = 2; fs::exists(path); ++number) path = beside / fmt::format("{}-{}.png", stem, number);
@@ -42,7 +42,7 @@ void check_free(const fs::path& path, bool force) {
 }
 
 // --at beyond the run by more than its frames are apart.
-void check_at(const RecordedRun& run, double at) {
+void check_at(const FrameArchive& run, double at) {
     const double first = run.moments().front().time, last = run.moments().back().time;
     const double apart =
         run.moments().size() > 1 ? (last - first) / static_cast<double>(run.moments().size() - 1) : 0;
@@ -54,19 +54,20 @@ void check_at(const RecordedRun& run, double at) {
 
 }  // namespace
 
-fs::path draw_still(const FilmRequest& request, double at, RunListener& listener, const RecordedRun& run) {
+fs::path draw_still(const FilmRequest& request, double at, RunListener& listener, const FrameSource& source) {
+    const FrameArchive& run = *source.archive();
     check_at(run, at);
     const std::size_t index = run.nearest(at);
     const Frame frame = run.frame(index);
     if (request.out) check_free(*request.out, request.force);
-    const fs::path path = request.out ? *request.out : free_name(run, frame.time);
+    const fs::path path = request.out ? *request.out : free_name(source.scene(), run, frame.time);
     // A camera that moves is where it would be in the film of all the run's frames.
-    Scene scene = run.scene();
+    Scene scene = source.scene();
     const auto seconds = [&](std::size_t frames) { return static_cast<double>(frames) / scene.film.rate; };
     settle_orbit(scene.film.camera, seconds(run.moments().size()));
     Renderer renderer(scene, drawing_threads(scene.run.threads).raster, request.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) listener.info(note);
-    for (const std::string& line : run.news()) listener.warning(line);
+    for (const std::string& line : source.news()) listener.warning(line);
     for (const std::string& line : film_warnings(scene, 1)) listener.warning(line);
     renderer.start_from(run.first_whole());
     const FilmTrails& trails = scene.film.shows.trails;

@@ -8,6 +8,7 @@
 #include "render/cli/report/record.hpp"
 #include "render/cli/report/result.hpp"
 #include "render/cli/verbs/verb.hpp"
+#include "render/run/frames/recorded_run.hpp"
 #include "render/run/redraw_run.hpp"
 #include "render/run/still.hpp"
 

@@ -22,7 +22,7 @@ void CompareRun::begin() {
     const std::vector<Instant>& instants = all_.pictures.instants;
     for (const auto& member : all_.members) {
         record_.panels.push_back(member->place());
-        if (member->record() != nullptr)
+        if (member->archive() != nullptr)
             record_.drawn.push_back({member->place(), static_cast<std::int64_t>(instants.size()),
                                      instants.front().time, instants.back().time});
     }

@@ -15,6 +15,7 @@
 #include "render/film/sampling/pacing.hpp"
 #include "render/run/compare/comparison_words.hpp"
 #include "render/run/frames/choice.hpp"
+#include "render/run/frames/recorded_run.hpp"
 
 namespace grainreel {
 
@@ -109,15 +110,16 @@ double mean_interval(const std::vector<Frame>& moments) {
                : (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
 }
 
-// Of the finished runs that with the fewest frames a second, whose moments the others can follow.
-const RecordedRun* coarsest(const Comparison& all, std::size_t& index) {
-    const RecordedRun* found = nullptr;
+// Of the finished runs the number of that with the fewest frames a second, whose moments the others can
+// follow; none when there is no finished run.
+std::optional<std::size_t> coarsest(const Comparison& all) {
+    std::optional<std::size_t> found;
+    double longest = 0;
     for (std::size_t i = 0; i < all.members.size(); ++i) {
-        const RecordedRun* record = all.members[i]->record();
-        if (!record || (found && mean_interval(record->moments()) <= mean_interval(found->moments())))
-            continue;
-        found = record;
-        index = i;
+        const FrameArchive* archive = all.members[i]->archive();
+        if (!archive || (found && mean_interval(archive->moments()) <= longest)) continue;
+        longest = mean_interval(archive->moments());
+        found = i;
     }
     return found;
 }
@@ -137,11 +139,12 @@ Span common_time(const Comparison& all) {
 int common_periods(const Comparison& all) {
     int periods = 1;
     for (const auto& member : all.members)
-        if (member->record()) periods = std::lcm(periods, member->record()->periods());
+        if (member->archive()) periods = std::lcm(periods, member->archive()->periods());
     return periods;
 }
 
-void take_moments_of(const RecordedRun& run, Comparison& all) {
+void take_moments_of_record(Comparison& all) {
+    const FrameArchive& run = *all.members[all.reference]->archive();
     const auto [from, to] = common_time(all);
     const double hair = 1e-3 * mean_interval(run.moments());
     std::vector<Frame> moments;
@@ -152,7 +155,7 @@ void take_moments_of(const RecordedRun& run, Comparison& all) {
                                     run.folder().string(), from, to));
     moments = alike(moments, common_periods(all));
     for (const Frame& moment : moments) all.pictures.instants.push_back({moment.time, 0});
-    const Drive& drive = run.scene().drive;
+    const Drive& drive = all.members[all.reference]->scene().drive;
     all.film.film.segments = {pacing_of(moments, drive, all.film.film.rate).value_or(FilmSegment())};
 }
 
@@ -235,7 +238,7 @@ Scene whole(const std::vector<Scene>& scenes) {
 }  // namespace
 
 bool Comparison::all_recorded() const {
-    return std::all_of(members.begin(), members.end(), [](const auto& member) { return member->record(); });
+    return std::all_of(members.begin(), members.end(), [](const auto& member) { return member->archive(); });
 }
 
 Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) {
@@ -248,8 +251,9 @@ Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) 
     Comparison all;
     make_members(what, all);
     all.film = whole(scenes_of(all));
-    if (const RecordedRun* recorded = coarsest(all, all.reference)) {
-        take_moments_of(*recorded, all);
+    if (const auto record = coarsest(all)) {
+        all.reference = *record;
+        take_moments_of_record(all);
     } else {
         take_moments_of_schedule(all);
     }

@@ -60,8 +60,9 @@ void warn_of_pace(Comparison& all) {
 void warn_of_single_moments(Comparison& all) {
     std::set<std::string> said;
     for (const auto& member : all.members) {
-        if (!member->record()) continue;
-        if (const auto warning = periods_warning(*member->record()); warning && said.insert(*warning).second)
+        if (!member->archive()) continue;
+        if (const auto warning = periods_warning(member->scene(), *member->archive());
+            warning && said.insert(*warning).second)
             all.warnings.push_back(*warning);
     }
     if (of_schedule(all)) return;

@@ -9,8 +9,14 @@
 
 namespace grainreel {
 
+Member::Member(const Scene& scene, const Plan& plan, int threads) {
+    auto run = std::make_unique<SceneRun>(scene, plan, threads);
+    run_ = run.get();
+    source_ = std::move(run);
+}
+
 std::string Member::place() const {
-    return run_ ? run_->scene().name : std::filesystem::absolute(record_of_->folder()).string();
+    return run_ ? scene().name : std::filesystem::absolute(archive()->folder()).string();
 }
 
 void Member::begin(const std::filesystem::path& folder, const std::string& command,
@@ -43,7 +49,7 @@ bool Member::pack(const GoOn& go_on) {
 
 void Member::start(const Pictures& pictures) {
     done_ = 0;
-    frames().start(pictures);
+    source_->start(pictures);
 }
 
 // Progress is noted on the thread that runs the scene and read on another.
@@ -55,7 +61,7 @@ FramePtr Member::next(const GoOn& go_on) {
         }
         return go_on();
     };
-    std::optional<Taken> picture = frames().next(noting);
+    std::optional<Taken> picture = source_->next(noting);
     return picture ? std::move(picture->frame) : nullptr;
 }
 

@@ -13,7 +13,6 @@
 #include "engine/output/run_json.hpp"
 #include "render/run/first_failure.hpp"
 #include "render/run/frames/frame_source.hpp"
-#include "render/run/frames/recorded_run.hpp"
 #include "render/run/scene_run.hpp"
 
 namespace grainreel {
@@ -22,14 +21,13 @@ class Member {
   public:
     using GoOn = FrameSource::GoOn;
 
-    Member(const Scene& scene, const Plan& plan, int threads)
-        : run_(std::make_unique<SceneRun>(scene, plan, threads)) {}
-    explicit Member(std::unique_ptr<RecordedRun> record) : record_of_(std::move(record)) {}
+    Member(const Scene& scene, const Plan& plan, int threads);
+    explicit Member(std::unique_ptr<FrameSource> record) : source_(std::move(record)) {}
 
-    const FrameSource& source() const { return run_ ? static_cast<const FrameSource&>(*run_) : *record_of_; }
-    const Scene& scene() const { return source().scene(); }
-    const SceneRun* run() const { return run_.get(); }              // null for a record
-    const RecordedRun* record() const { return record_of_.get(); }  // null for a scene
+    const FrameSource& source() const { return *source_; }
+    const Scene& scene() const { return source_->scene(); }
+    const FrameArchive* archive() const { return source_->archive(); }  // null for what is run
+    const SceneRun* run() const { return run_; }                        // null for a record
     // Where its files are, as run.json of the whole tells it.
     std::string place() const;
 
@@ -51,10 +49,8 @@ class Member {
     double speed() const { return speed_; }  // particle-steps/s
 
   private:
-    FrameSource& frames() { return run_ ? static_cast<FrameSource&>(*run_) : *record_of_; }
-
-    std::unique_ptr<SceneRun> run_;  // one of the two
-    std::unique_ptr<RecordedRun> record_of_;
+    std::unique_ptr<FrameSource> source_;
+    SceneRun* run_ = nullptr;           // the source, when it is run
     std::optional<FolderLock> folder_;  // of what is run, once it is made
     RunRecord report_;                  // likewise
     std::atomic<double> done_ = 0, speed_ = 0;

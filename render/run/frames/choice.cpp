@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-std::vector<Frame> chosen_moments(const RenderRequest& what, const RecordedRun& run) {
+std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run) {
     constexpr double hair = 1e-9;  // s
     const std::vector<Frame>& moments = run.moments();
     const double from = what.from.value_or(moments.front().time) - hair;
@@ -47,8 +47,8 @@ std::vector<std::string> single_moment_warnings(const Scene& scene, const std::s
     return warnings;
 }
 
-std::optional<std::string> periods_warning(const RecordedRun& run) {
-    if (run.periods() == 1 || run.scene().film.periods > 0) return std::nullopt;
+std::optional<std::string> periods_warning(const Scene& scene, const FrameArchive& run) {
+    if (run.periods() == 1 || scene.film.periods > 0) return std::nullopt;
     return fmt::format(
         "the bed repeats itself only every {0} periods of the drive: frames at one phase and "
         "displacements go by {0} periods; film.periods = 1 lets them go by one",

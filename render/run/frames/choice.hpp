@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "render/run/film_request.hpp"
-#include "render/run/frames/recorded_run.hpp"
+#include "render/run/frames/frame_source.hpp"
 
 namespace grainreel {
 
 // Those from `from` to `to`, every so many, and of frames at one phase of the drive only those at which the
 // bed looks alike. Throws UserError when there is none.
-std::vector<Frame> chosen_moments(const RenderRequest& what, const RecordedRun& run);
+std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run);
 
 // Of moments at one phase of the drive, those that lie whole multiples of `periods` behind the first: a bed
 // that repeats itself after so many looks alike there. Others are left as they are.
@@ -24,6 +24,6 @@ std::vector<std::string> single_moment_warnings(const Scene& scene, const std::s
 
 // What is to be said of a run whose bed repeats itself only every so many periods, where the scene leaves it
 // open.
-std::optional<std::string> periods_warning(const RecordedRun& run);
+std::optional<std::string> periods_warning(const Scene& scene, const FrameArchive& run);
 
 }  // namespace grainreel

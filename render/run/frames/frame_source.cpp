@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/output/trajectory.hpp"
+
 namespace grainreel {
 
 std::size_t FrameArchive::nearest(double time) const {
@@ -13,6 +15,17 @@ std::size_t FrameArchive::nearest(double time) const {
     if (index == 0) return 0;
     if (index == all.size()) return index - 1;
     return time - all[index - 1].time <= all[index].time - time ? index - 1 : index;
+}
+
+Frame FrameArchive::first_whole() const {
+    for (std::size_t i = 0; i + 1 < moments().size(); ++i) {
+        try {
+            return grains(i);
+        } catch (const DamagedFrame&) {
+            continue;  // whoever draws it says so
+        }
+    }
+    return grains(moments().size() - 1);
 }
 
 std::vector<std::size_t> FrameArchive::before(std::size_t index, double duration) const {

@@ -64,6 +64,8 @@ class FrameArchive {
     virtual int periods() const = 0;
 
     std::size_t nearest(double time) const;  // s
+    // Grains of the first frame that is not damaged.
+    Frame first_whole() const;
     // Those before `index` that reach no further back than `duration` (s): what its trails go through.
     std::vector<std::size_t> before(std::size_t index, double duration) const;
 };

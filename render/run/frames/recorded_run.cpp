@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/period_multiple.hpp"
+#include "engine/output/folder_lock.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "render/run/frames/choice.hpp"
 #include "render/run/frames/recorded_scene.hpp"
@@ -126,17 +127,6 @@ void RecordedRun::check_same_run() const {
     if (measures_) check_measures(scene_, clock_, *measures_, *this, name_of("measures.csv"));
 }
 
-Frame RecordedRun::first_whole() const {
-    for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
-        try {
-            return trajectory_.read(places_[i]);
-        } catch (const DamagedFrame&) {
-            continue;  // whoever draws it says so
-        }
-    }
-    return trajectory_.read(places_.back());
-}
-
 // The camera of a run that is over need not estimate how high the grains get.
 void RecordedRun::frame_what_is_reached() {
     Camera& camera = scene_.film.camera;
@@ -160,6 +150,34 @@ void RecordedRun::read_contacts() {
     if (!contacts_->has_checksums() && trajectory_.info().checksums)
         news_.push_back(fmt::format(
             "{}: has no checksums; damage that leaves possible numbers would not show", file.string()));
+    leave_out_unfinished_contacts();
+    check_contacts_of_run();
+}
+
+// A run that goes on writes a frame's contacts after the frame.
+void RecordedRun::leave_out_unfinished_contacts() {
+    if (moments_.size() < 2 || !FolderLock::holder(folder_)) return;
+    if (!contacts_->touches(places_.back()).empty()) return;
+    places_.pop_back();
+    moments_.pop_back();
+    news_.push_back(
+        fmt::format("{}: the run goes on, and the last frame's contacts may not be written yet; it is "
+                    "left out",
+                    name_of("contacts.nc")));
+}
+
+void RecordedRun::check_contacts_of_run() const {
+    std::vector<Touch> touches;
+    Frame frame;
+    for (std::size_t i = moments_.size(); i-- > 0 && touches.empty();) {
+        try {
+            frame = grains(i);
+            touches = contacts_->touches(places_[i]);
+        } catch (const UserError&) {
+            continue;  // damage; whoever draws it says so
+        }
+    }
+    check_contacts(scene_, touches, frame, name_of("contacts.nc"));
 }
 
 void RecordedRun::read_measures_of_run() {
@@ -214,12 +232,13 @@ void RecordedRun::find_periods() {
     if (found >= 1 && found <= PeriodMultiple::kMost) periods_ = static_cast<int>(found);
 }
 
-// The frame of that moment, when there is one.
+// The frame of that moment, when there is one: frames lie on steps, and so do the moments that are wanted.
 std::optional<std::size_t> RecordedRun::index_at(double time) const {
-    constexpr double room = 1e-3;  // periods
+    constexpr double periods = 1e-3, steps = 1.01;
+    const double period = scene_.drive.present ? 1 / scene_.drive.frequency : 0;
     const std::size_t index = nearest(time);
-    const double off = scene_.drive.present ? room / scene_.drive.frequency : 0.5 * clock_.step;
-    if (std::abs(moments_[index].time - time) > off) return std::nullopt;
+    if (std::abs(moments_[index].time - time) > std::max(periods * period, steps * clock_.step))
+        return std::nullopt;
     return index;
 }
 

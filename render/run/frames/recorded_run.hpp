@@ -47,7 +47,6 @@ class RecordedRun final : public FrameSource, public FrameArchive, private PartS
     Frame grains(std::size_t index) const override;
     Frame frame(std::size_t index) const override;
     int periods() const override { return periods_; }
-    Frame first_whole() const;  // the first that is not damaged
 
   private:
     FramePtr at(std::int64_t step) const override;
@@ -60,6 +59,8 @@ class RecordedRun final : public FrameSource, public FrameArchive, private PartS
     void check_same_run() const;
     void frame_what_is_reached();
     void read_contacts();
+    void leave_out_unfinished_contacts();
+    void check_contacts_of_run() const;
     void read_measures_of_run();
     void leave_out_measures(const std::string& why);
     void check_columns() const;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/nearest_image.hpp"
 #include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double same_size = 1e-4;   // relative; an early version kept radii as floats
 constexpr double same_time = 1e-6;   // relative, and in turns
-constexpr double same_place = 1e-6;  // of the drive's amplitude, or of a diameter
+constexpr double same_place = 1e-6;  // of the drive's amplitude or speed, or of a diameter
 
 [[noreturn]] void of_two_runs(const std::string& what) {
     throw UserError(what + "; they are of two runs");
@@ -35,6 +36,20 @@ void check_times(const Scene& scene, double step_length, double step, double tim
         of_two_runs(fmt::format(
             "{} has {:.6g} periods of the drive at {:.6g} s, but scene.toml beside it has {}", file, cycles,
             time, frequency > 0 ? fmt::format("{:.6g} Hz", frequency) : "no drive"));
+}
+
+void check_pose(const Drive& drive, const BodyPose& is, const Pose& by_scene, const std::string& what) {
+    const auto near = [](const Vec3& a, const Vec3& b, double scale) {
+        return (a - b).norm() <= same_place * std::max(scale, a.norm());
+    };
+    if (near(is.place, by_scene.offset, drive.amplitude) &&
+        near(is.velocity, by_scene.velocity, drive.speed()))
+        return;
+    const auto along = [&](const Vec3& vector) { return vector.dot(drive.direction); };
+    of_two_runs(fmt::format(
+        "{} {:.4g} m from rest along the drive, at {:.4g} m/s, but the drive of scene.toml "
+        "beside it has it at {:.4g} m and {:.4g} m/s then",
+        what, along(is.place), along(is.velocity), along(by_scene.offset), along(by_scene.velocity)));
 }
 
 }  // namespace
@@ -87,17 +102,10 @@ void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, co
                         "it begins at phase {:.4g}",
                         frame, moment.phase, moment.cycles, scene.drive.phase));
     if (clock.step <= 0) return;
-    const Vec3 drive = WallMotion(scene.drive, clock).at(moment.step).offset;
+    const Pose drive = WallMotion(scene.drive, clock).at(moment.step);
     const bool all_moves = scene.drive.moves == Drive::Moves::container;
-    const auto check = [&](const char* what, const Vec3& is, const Vec3& by_scene) {
-        if ((is - by_scene).norm() > same_place * std::max(scene.drive.amplitude, is.norm()))
-            of_two_runs(
-                fmt::format("{} has the {} {:.4g} m from rest along the drive, but the drive of "
-                            "scene.toml beside it has it {:.4g} m from rest then",
-                            frame, what, is.dot(scene.drive.direction), by_scene.dot(scene.drive.direction)));
-    };
-    check("floor", moment.floor().place, drive);
-    check("container", moment.container().place, all_moves ? drive : Vec3(0, 0, 0));
+    check_pose(scene.drive, moment.floor(), drive, frame + " has the floor");
+    check_pose(scene.drive, moment.container(), all_moves ? drive : Pose(), frame + " has the container");
 }
 
 namespace {
@@ -157,6 +165,31 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
         } catch (const DamagedFrame&) {
             continue;  // whoever draws it says so
         }
+    }
+}
+
+void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
+                    const std::string& contacts) {
+    constexpr double room = 1.05;  // over the radii; overlaps are what carries force
+    const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
+    const auto index_of = [&](std::int32_t id) -> std::optional<std::size_t> {
+        const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+        if (found == frame.id.end() || *found != id) return std::nullopt;
+        return static_cast<std::size_t>(found - frame.id.begin());
+    };
+    const auto apart = [&](std::size_t a, std::size_t b) {
+        Vec3 way = frame.position[b] - frame.position[a];
+        way.x() = nearest_image(way.x(), depth);
+        return way.norm() > room * (frame.radius[a] + frame.radius[b]);
+    };
+    for (const Touch& touch : touches) {
+        const auto first = index_of(touch.first);
+        const auto second = touch.second < 0 ? first : index_of(touch.second);  // a wall
+        if (first && second && (touch.second < 0 || !apart(*first, *second))) continue;
+        of_two_runs(
+            fmt::format("{}: has grains {} and {} push each other at {:.6g} s, but in trajectory.nc "
+                        "beside it they do not touch",
+                        contacts, touch.first, touch.second, frame.time));
     }
 }
 

@@ -27,6 +27,9 @@ void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, co
 // Times and periods of the rows, and the grains' centre of mass at a moment that both files have.
 void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
                     const FrameArchive& trajectory, const std::string& measures);
+// Grains that push each other touch in the frame too.
+void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
+                    const std::string& contacts);
 
 // Where a column of measures.csv is; none when the file lacks it.
 std::optional<std::size_t> column_of(const MeasureTable& table, const std::string& name);

@@ -169,6 +169,12 @@ TEST_F(DoubledBed, IsDrawnAgainEverySecondPeriod) {
     const Ended fourth = grainreel({"render", "run", "--frames", "--out", "fourth", "--every", "4"});
     ASSERT_EQ(fourth.status, 0) << fourth.err;
     EXPECT_EQ(pictures("fourth"), 6) << "every fourth is in step already";
+    const Ended both =
+        grainreel({"compare", "run", "run", "--size", "480x270", "--no-film", "--frames", "--out", "both"});
+    ASSERT_EQ(both.status, 0) << both.err;
+    EXPECT_EQ(pictures("both"), 11) << "the same frames as render";
+    EXPECT_THAT(both.err, HasSubstr("only every 2 periods of the drive"));
+    EXPECT_THAT(text_of(here / "both/frames/000000.png"), HasSubstr("1 frame every 2 periods"));
 }
 
 }  // namespace

@@ -1,0 +1,268 @@
+// Runs that lie on disk as sources of frames: what they supply, files that do not belong together, files that
+// lack something, files that grow.
+#include "render/run/frames/recorded_run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Recorded : public testing::Test {
+  protected:
+    Recorded() { write_small_scene(here.path()); }
+    Ended program(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
+    // A run in `name`, with all that can be kept, of the small scene with other values for some keys.
+    void run(const std::string& name, const std::vector<std::string>& sets = {}) {
+        std::vector<std::string> words = {"movie", "fifty.toml", "--no-film", "--out", name,
+                                          "--set", "output.contacts=true"};
+        for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+        const Ended ended = program(words);
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+    // run/ with one of its files replaced by that of other/.
+    void mix(const char* file) {
+        fs::remove_all(here / "mixed");
+        fs::copy(here / "run", here / "mixed");
+        fs::copy(here / "other" / file, here / "mixed" / file, fs::copy_options::overwrite_existing);
+    }
+    void edit_scene(const std::string& from, const std::string& to) {
+        fs::remove_all(here / "mixed");
+        fs::copy(here / "run", here / "mixed");
+        std::string text = text_of(here / "mixed/scene.toml");
+        ASSERT_NE(text.find(from), std::string::npos) << text;
+        text.replace(text.find(from), from.size(), to);
+        write_text(here / "mixed/scene.toml", text);
+    }
+    // Refused in one line by all who draw, with nothing written.
+    void expect_refused(const testing::Matcher<std::string>& words) {
+        for (const std::vector<std::string>& command :
+             {std::vector<std::string>{"render", "mixed", "--at", "0.1", "--set", "film.force_chains=true"},
+              {"render", "mixed", "--set", "film.force_chains=true", "--out", "film"},
+              {"compare", "run", "mixed", "--size", "480x270", "--set", "film.force_chains=true", "--out",
+               "film"}}) {
+            const Ended ended = program(command);
+            EXPECT_EQ(ended.status, 2) << testing::PrintToString(command);
+            EXPECT_THAT(ended.err, AllOf(words, HasSubstr("they are of two runs")));
+            EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+            EXPECT_FALSE(fs::exists(here / "film"));
+        }
+    }
+
+    TemporaryFolder here;
+};
+
+TEST_F(Recorded, AnotherRunsTrajectoryIsRefused) {
+    run("run");
+    run("other", {"drive.frequency=25 Hz"});
+    mix("trajectory.nc");
+    expect_refused(AllOf(HasSubstr("mixed/trajectory.nc: frame "), HasSubstr("scene.toml beside it")));
+}
+
+TEST_F(Recorded, AnEditedSceneIsRefused) {
+    run("run");
+    const auto trajectory = AllOf(HasSubstr("mixed/trajectory.nc: "), HasSubstr("scene.toml beside it"));
+    edit_scene("frequency = 20", "frequency = 21");
+    expect_refused(AllOf(trajectory, HasSubstr("1 periods of the drive at 0.05 s"), HasSubstr("has 21 Hz")));
+    // After one of the three periods of the ramp 2 g at 20 Hz have this share of their speed.
+    const double u = 1.0 / 3, share = u * u * u * (10 + u * (6 * u - 15));
+    const double speed = share * 2 * 9.81 / (2 * std::numbers::pi * 20);
+    edit_scene("amplitude = 0.", "amplitude = 0.1");
+    expect_refused(AllOf(trajectory, HasSubstr("frame 1 has the floor "),
+                         HasSubstr(fmt::format("at {:.4g} m/s, but", speed))));
+    edit_scene("phase = 0.0", "phase = 0.25");
+    expect_refused(AllOf(trajectory, HasSubstr("frame 0 is at phase 0 after 0 periods")));
+    edit_scene("step = ", "step = 1e-5 #");
+    expect_refused(AllOf(trajectory, HasSubstr("a step is 1e-05 s")));
+    edit_scene("count = 40", "count = 41");
+    expect_refused(AllOf(trajectory, HasSubstr("has 50 grains, but scene.toml beside it has 51")));
+    edit_scene("diameter = 0.006", "diameter = 0.005");
+    expect_refused(trajectory);
+    // As many grains and of those sizes, but not as many of each.
+    std::string text = text_of(here / "run/scene.toml");
+    text.replace(text.find("count = 40"), 10, "count = 39");
+    text.replace(text.find("count = 10"), 10, "count = 11");
+    write_text(here / "mixed/scene.toml", text);
+    expect_refused(AllOf(trajectory, HasSubstr("has 40 grains of 'small'")));
+}
+
+// Of the same scene but for the seed: only what the grains did tells them apart.
+TEST_F(Recorded, AnotherRunsMeasuresAndContactsAreRefused) {
+    run("run");
+    run("other", {"run.seed=2"});
+    mix("measures.csv");
+    expect_refused(AllOf(HasSubstr("mixed/measures.csv: has the centre of "), HasSubstr("trajectory.nc")));
+    mix("contacts.nc");
+    expect_refused(AllOf(HasSubstr("mixed/contacts.nc: has grains "), HasSubstr("trajectory.nc")));
+    fs::remove_all(here / "other");
+    run("other", {"run.overlap=0.02"});
+    mix("measures.csv");
+    expect_refused(AllOf(HasSubstr("mixed/measures.csv: its last row has "), HasSubstr("a step is")));
+}
+
+TEST_F(Recorded, MeasuresThatAreMissingOrEmptyAreNamed) {
+    run("run", {"film.plot=[{y=\"lacey\"}]", "film.text=mixing {lacey}", "film.size=640x360"});
+    const std::string file = (fs::path("run") / "measures.csv").string();
+    const std::string header = text_of(here / "run/measures.csv").substr(0, 4 + text_of(here / "run/measures.csv").find('\n'));
+    const auto drawn = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"render", "run", "--at", "0.1", "--out", "still.png", "--force"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return ended.err;
+    };
+    EXPECT_THAT(drawn({}), Not(HasSubstr("measures.csv")));
+    write_text(here / "run/measures.csv", header);
+    EXPECT_THAT(drawn({}), HasSubstr(file + ": holds no row; plots and live words are left out"));
+    write_text(here / "run/measures.csv", "");
+    EXPECT_THAT(drawn({"--set", "film.text="}), HasSubstr(file + ": holds no row; plots are left out"));
+    fs::remove(here / "run/measures.csv");
+    EXPECT_THAT(drawn({"--set", "film.plot=[]"}), HasSubstr(file + ": is missing; live words are left out"));
+    const std::string without = text_of(here / "still.png");
+    EXPECT_THAT(drawn({"--set", "film.plot=[]", "--set", "film.text="}), Not(HasSubstr("measures.csv")));
+    EXPECT_TRUE(text_of(here / "still.png") == without) << "left out, not left empty";
+    const Ended both = program({"compare", "run", "run", "--size", "640x360", "--out", "both"});
+    EXPECT_EQ(both.status, 0) << both.err;
+    EXPECT_THAT(both.err, HasSubstr(file + ": is missing; plots and live words are left out"));
+}
+
+TEST_F(Recorded, GivesItsFramesInAnyOrder) {
+    run("run", {"film.colour.by=displacement", "film.force_chains=true", "film.text=mixing {lacey}"});
+    RecordedRun record(here / "run", {});
+    const FrameArchive& archive = *record.archive();
+    EXPECT_FALSE(record.supply().any_moment);
+    EXPECT_TRUE(record.supply().contacts && record.supply().measures && !record.supply().orientations);
+    ASSERT_EQ(archive.moments().size(), 5u);  // 0.2 s at 20 Hz
+    EXPECT_EQ(record.span().from, 0);
+    EXPECT_NEAR(record.span().to, 0.2, 1e-12);
+    EXPECT_EQ(archive.nearest(-3), 0u);
+    EXPECT_EQ(archive.nearest(0.07), 1u);
+    EXPECT_EQ(archive.nearest(0.08), 2u);
+    EXPECT_EQ(archive.nearest(9), 4u);
+    EXPECT_THAT(archive.before(3, 0.1), testing::ElementsAre(1, 2));
+
+    // The same frame, whoever asks for it and after whatever other.
+    const Frame last = archive.frame(4), first = archive.frame(0), again = archive.frame(4);
+    EXPECT_EQ(last.position, again.position);
+    EXPECT_EQ(last.displacement, again.displacement);
+    EXPECT_EQ(last.displacement.size(), 50u);
+    EXPECT_TRUE(first.displacement.empty()) << "there is nothing a period before";
+    EXPECT_FALSE(last.touches.empty());
+    EXPECT_EQ(last.measure_rows, 4u * 8 + 1);  // eight a period
+    EXPECT_EQ(first.measure_rows, 1u);
+    const Frame bare = archive.grains(4), before = archive.grains(3);
+    EXPECT_EQ(bare.position, last.position);
+    EXPECT_TRUE(bare.displacement.empty() && bare.touches.empty() && !bare.measures);
+    EXPECT_EQ(last.displacement[7], (last.position[7] - before.position[7]).eval());
+
+    const Pictures pictures{{{0.06, 0}, {0.19, 0}}, {FilmSegment()}, false};
+    EXPECT_EQ(record.moments(pictures).at(1).step, last.step);
+    record.start(pictures);
+    const auto go_on = [] { return true; };
+    EXPECT_EQ(record.next(go_on)->frame->step, archive.moments()[1].step);
+    const std::optional<Taken> picture = record.next(go_on);
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->frame->position, last.position);
+    EXPECT_EQ(picture->frame->displacement, last.displacement);
+    EXPECT_EQ(picture->frame->touches.size(), last.touches.size());
+    EXPECT_FALSE(record.next(go_on)) << "there are only two";
+}
+
+// A record that has every moment of a mean gives the mean.
+TEST_F(Recorded, GivesMeansAndExposuresWhereItHasTheirMoments) {
+    run("run", {"output.trajectory_interval=0.003125"});  // 16 a period
+    RecordedRun record(here / "run", {});
+    FilmSegment mean, exposed;
+    mean.average = 1;
+    exposed.exposure = 0.0125;
+    exposed.exposures = 4;
+    record.start({{{0.15, 1}, {0.2, 0}}, {mean, exposed}, false});
+    const auto go_on = [] { return true; };
+    const Frame four = *record.next(go_on)->frame, averaged = *record.next(go_on)->frame;
+    const std::size_t at = record.nearest(0.2);
+    Vec3 expected = Vec3::Zero();
+    for (std::size_t k = 0; k < 16; ++k) expected += record.grains(at - k).position[7] / 16;
+    EXPECT_LT((averaged.position[7] - expected).norm(), 1e-12);
+    EXPECT_LT(averaged.container().place.norm(), 1e-6) << "the drive goes round";
+    ASSERT_EQ(four.exposed.size(), 3u);
+    EXPECT_EQ(four.exposed[2]->position, record.grains(record.nearest(0.15) - 1).position);
+}
+
+// What is whole is read while the run goes on: each frame with its contacts and its row of measures.
+TEST_F(Recorded, IsReadWhileItGrows) {
+    Program movie({"movie", "fifty.toml", "--no-film", "--out", "run", "--duration", "3600 s", "--set",
+                   "output.contacts=true", "--set", "drive.g_level=0.5", "--set",
+                   "output.trajectory_interval=0.002", "--set", "film.force_chains=true", "--set",
+                   "film.text=mixing {lacey}"},
+                  {here.path(), {}});
+    const auto frames = [&]() -> std::size_t {
+        try {
+            return RecordedRun(here / "run", {}).moments().size();
+        } catch (const UserError&) {
+            return 0;  // none yet
+        }
+    };
+    ASSERT_TRUE(wait_until(movie, [&] { return frames() > 5; }));
+    std::size_t first = 0, last = 0;
+    for (int turn = 0; turn < 20; ++turn) {
+        RecordedRun record(here / "run", {});
+        record.leave_out_damaged();
+        EXPECT_THAT(record.news(), Not(testing::Contains(HasSubstr("damaged:"))));
+        last = record.moments().size();
+        if (turn == 0) first = last;
+        const Frame frame = record.frame(last - 1);
+        EXPECT_FALSE(frame.touches.empty()) << "frame " << last - 1;
+        const double row = record.moments()[last - 1].time / (0.05 / 8);  // the last until then
+        EXPECT_GE(static_cast<double>(frame.measure_rows), row - 1e-6);
+    }
+    const Ended film = program({"render", "run", "--out", "film", "--every", "100"});
+    EXPECT_EQ(film.status, 0) << film.err;
+    movie.send(SIGKILL);
+    movie.wait();
+    EXPECT_GT(last, first) << "it did not grow";
+}
+
+// Nothing is run, and the progress says so.
+TEST_F(Recorded, ComparedIsDrawingAlone) {
+    run("run");
+    const Ended ended = program({"compare", "run", "run", "--out", "both", "--size", "480x270", "--progress", "json"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    std::istringstream lines(ended.err);
+    int shown = 0;
+    for (std::string line; std::getline(lines, line);) {
+        const nlohmann::json object = nlohmann::json::parse(line);
+        if (object["event"] != "progress") continue;
+        ++shown;
+        EXPECT_EQ(object["stage"], "drawing") << line;
+        EXPECT_EQ(object["frames_planned"], 5);
+    }
+    EXPECT_GT(shown, 0);
+}
+
+// A scene beside a finished run shows that run's moments, and no means of its own.
+TEST_F(Recorded, WhatAMixedFilmLeavesOutIsNamed) {
+    run("run");
+    const Ended ended = program({"compare", "run", "fifty.toml", "--out", "both", "--size", "480x270", "--set",
+                                 "film.segment=[{kind=\"locked\",average=1}]"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("'average' is left out: beside a finished run, frames are single moments"));
+}
+
+}  // namespace
+}  // namespace grainreel
