@@ -30,8 +30,8 @@ class Recorded : public testing::Test {
     Ended program(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
     // A run in `name`, with all that can be kept, of the small scene with other values for some keys.
     void run(const std::string& name, const std::vector<std::string>& sets = {}) {
-        std::vector<std::string> words = {"movie", "fifty.toml", "--no-film", "--out", name,
-                                          "--set", "output.contacts=true"};
+        std::vector<std::string> words = {"movie", "fifty.toml", "--no-film",           "--out",
+                                          name,    "--set",      "output.contacts=true"};
         for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
         const Ended ended = program(words);
         ASSERT_EQ(ended.status, 0) << ended.err;
@@ -119,7 +119,8 @@ TEST_F(Recorded, AnotherRunsMeasuresAndContactsAreRefused) {
 TEST_F(Recorded, MeasuresThatAreMissingOrEmptyAreNamed) {
     run("run", {"film.plot=[{y=\"lacey\"}]", "film.text=mixing {lacey}", "film.size=640x360"});
     const std::string file = (fs::path("run") / "measures.csv").string();
-    const std::string header = text_of(here / "run/measures.csv").substr(0, 4 + text_of(here / "run/measures.csv").find('\n'));
+    const std::string header =
+        text_of(here / "run/measures.csv").substr(0, 4 + text_of(here / "run/measures.csv").find('\n'));
     const auto drawn = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"render", "run", "--at", "0.1", "--out", "still.png", "--force"};
         words.insert(words.end(), more.begin(), more.end());
@@ -206,11 +207,11 @@ TEST_F(Recorded, GivesMeansAndExposuresWhereItHasTheirMoments) {
 
 // What is whole is read while the run goes on: each frame with its contacts and its row of measures.
 TEST_F(Recorded, IsReadWhileItGrows) {
-    Program movie({"movie", "fifty.toml", "--no-film", "--out", "run", "--duration", "3600 s", "--set",
-                   "output.contacts=true", "--set", "drive.g_level=0.5", "--set",
-                   "output.trajectory_interval=0.002", "--set", "film.force_chains=true", "--set",
-                   "film.text=mixing {lacey}"},
-                  {here.path(), {}});
+    Program movie(
+        {"movie", "fifty.toml", "--no-film", "--out", "run", "--duration", "3600 s", "--set",
+         "output.contacts=true", "--set", "drive.g_level=0.5", "--set", "output.trajectory_interval=0.002",
+         "--set", "film.force_chains=true", "--set", "film.text=mixing {lacey}"},
+        {here.path(), {}});
     const auto frames = [&]() -> std::size_t {
         try {
             return RecordedRun(here / "run", {}).moments().size();
@@ -241,7 +242,8 @@ TEST_F(Recorded, IsReadWhileItGrows) {
 // Nothing is run, and the progress says so.
 TEST_F(Recorded, ComparedIsDrawingAlone) {
     run("run");
-    const Ended ended = program({"compare", "run", "run", "--out", "both", "--size", "480x270", "--progress", "json"});
+    const Ended ended =
+        program({"compare", "run", "run", "--out", "both", "--size", "480x270", "--progress", "json"});
     ASSERT_EQ(ended.status, 0) << ended.err;
     std::istringstream lines(ended.err);
     int shown = 0;
@@ -258,10 +260,11 @@ TEST_F(Recorded, ComparedIsDrawingAlone) {
 // A scene beside a finished run shows that run's moments, and no means of its own.
 TEST_F(Recorded, WhatAMixedFilmLeavesOutIsNamed) {
     run("run");
-    const Ended ended = program({"compare", "run", "fifty.toml", "--out", "both", "--size", "480x270", "--set",
-                                 "film.segment=[{kind=\"locked\",average=1}]"});
+    const Ended ended = program({"compare", "run", "fifty.toml", "--out", "both", "--size", "480x270",
+                                 "--set", "film.segment=[{kind=\"locked\",average=1}]"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("'average' is left out: beside a finished run, frames are single moments"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("'average' is left out: beside a finished run, frames are single moments"));
 }
 
 }  // namespace
