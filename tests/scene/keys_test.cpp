@@ -97,7 +97,9 @@ TEST(Keys, ExamplesAreInsideTheirBounds) {
         const bool number = text.find_first_not_of("0123456789.e+-") == std::string::npos;
         const double value = number ? std::stod(text) : parse_quantity(text, key.dimension);
         EXPECT_TRUE(key.bounds().contains(value)) << key.path << " = " << key.example();
-        if (key.kind == KeyKind::integer) EXPECT_EQ(value, std::round(value)) << key.path;
+        if (key.kind == KeyKind::integer) {
+            EXPECT_EQ(value, std::round(value)) << key.path;
+        }
     }
 }
 
