@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/step/step_loop.hpp"
+
 namespace grainreel {
 
 Kinetic kinetic_energy(const Grains& grains) {
@@ -33,6 +35,13 @@ ContactSummary summarise_contacts(const StepLoop& loop, std::int64_t step) {
         if (c.normal_force > 0) sum.carrying += c.second >= 0 ? 2 : 1;
     });
     return sum;
+}
+
+double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop,
+                    std::int64_t step) {
+    const Kinetic kinetic = kinetic_energy(grains);
+    return kinetic.translation + kinetic.rotation + gravitational_energy(grains, around.gravity) +
+           summarise_contacts(loop, step).stored;
 }
 
 }  // namespace grainreel

@@ -1,10 +1,14 @@
 // Energies of the grains. J.
 #pragma once
 
+#include <cstdint>
+
 #include "engine/state/grains.hpp"
-#include "engine/step/step_loop.hpp"
 
 namespace grainreel {
+
+class StepLoop;
+struct Surroundings;
 
 struct Kinetic {
     double translation = 0, rotation = 0;
@@ -21,5 +25,9 @@ struct ContactSummary {
     double largest_overlap = 0;  // over the smaller radius
 };
 ContactSummary summarise_contacts(const StepLoop& loop, std::int64_t step);
+
+// J: kinetic, rotational, gravitational and elastic together.
+double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop,
+                    std::int64_t step);
 
 }  // namespace grainreel

@@ -1,42 +1,42 @@
-// The numbers of one instant: one row of measures.csv.
+// The numbers of one moment, by the names of their columns: a row of measures.csv, or a part of one.
 #pragma once
 
-#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "engine/base/vector.hpp"
+#include "engine/base/error.hpp"
 
 namespace grainreel {
 
-struct Measures {
-    std::int64_t step = 0;
-    double time = 0;   // s
-    double phase = 0;  // turns
-    double cycles = 0;
+class Measures {
+  public:
+    using Names = std::shared_ptr<const std::vector<std::string>>;
 
-    // J. `elastic` is what the contacts would give back; `wall_work` was done by moving walls on the grains
-    // since the drive started; `lost` is what the balance leaves: start + wall_work - all the others.
-    double kinetic = 0, rotational = 0, gravitational = 0, elastic = 0, wall_work = 0, lost = 0;
+    // A value for each name.
+    Measures(Names names, std::vector<double> values) : names_(std::move(names)), values_(std::move(values)) {
+        GRAINREEL_CHECK(names_->size() == values_.size());
+    }
 
-    Vec3 centre_of_mass{0, 0, 0};        // m, all grains
-    std::vector<Vec3> species_centre;    // m, a species each
-    std::vector<double> species_height;  // m, mean height above the moving floor, a species each
+    // The column must be there.
+    double at(std::string_view column) const { return values_[index_of(column)]; }
+    void set(std::string_view column, double value) { values_[index_of(column)] = value; }
 
-    // NaN with one species. `big` and `small`: the species of the largest and of the smallest mean diameter.
-    double height_difference = 0;   // (mean height of big - of small) / bed height
-    double big_above_small = 0;     // probability that a big grain lies above a small one
-    double big_in_top_quarter = 0;  // share of the big ones above 3/4 of the bed height
-    double unlike_neighbours = 0;   // over chance: 0 segregated, 1 random
-    double lacey = 0;               // mixing index: 0 segregated, 1 random; NaN too where one kind is rare
+    const std::vector<std::string>& names() const { return *names_; }
+    const std::vector<double>& values() const { return values_; }
 
-    double contact_number = 0;   // mean number of force-carrying contacts a grain, walls included
-    double largest_overlap = 0;  // overlap / smaller radius
-    double floor_position = 0;   // m, along the drive's direction
-    int bed_periods =
-        0;  // of the drive, after which the bed repeats itself (PeriodMultiple); 0 without a drive
+  private:
+    std::size_t index_of(std::string_view column) const {
+        std::size_t index = 0;
+        while (index < names_->size() && (*names_)[index] != column) ++index;
+        GRAINREEL_CHECK(index < names_->size());
+        return index;
+    }
+
+    Names names_;
+    std::vector<double> values_;
 };
-
-// One number a column of measures.csv, in the order of measure_columns().
-std::vector<double> values_of(const Measures& measures);
 
 }  // namespace grainreel

@@ -43,9 +43,8 @@ MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, const std::vec
 }
 
 void MeasuresWriter::write(const Measures& measures) {
-    const std::vector<double> row = values_of(measures);
-    GRAINREEL_CHECK(row.size() == columns_.size());
-    file_.write(fmt::format("{}\n", fmt::join(row, ",")));
+    GRAINREEL_CHECK(measures.names() == columns_);
+    file_.write(fmt::format("{}\n", fmt::join(measures.values(), ",")));
     ++rows_;
 }
 

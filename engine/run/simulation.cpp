@@ -13,7 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
-#include "engine/measure/measure.hpp"
+#include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
 #include "engine/run/health.hpp"
 #include "engine/run/surroundings.hpp"
@@ -52,6 +52,7 @@ struct Simulation::Impl {
           around(make_surroundings(s, p)),
           bodies(bodies_of(s.drive, s.walls)),
           limits(health_limits(s, p)) {
+        for (const Species& one : scene.species) species_names.push_back(one.name);
         if (scene.start.method != Start::Method::layers) take_grains();
     }
 
@@ -71,6 +72,9 @@ struct Simulation::Impl {
 
     bool continued = false;  // goes on where the file stopped
 
+    std::vector<std::string> species_names;
+    std::unique_ptr<Observers> observers;  // of all columns; made when they are first wanted
+
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     void take_grains();
     void go_on();
@@ -78,6 +82,7 @@ struct Simulation::Impl {
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
     void look_at_health();
+    Measures look(Observers& by) const;
 };
 
 void check_start(const Scene& scene, const Plan& plan) {
@@ -285,9 +290,25 @@ double Simulation::centre_height() const {
     return moment / mass - m.around.motion.at(m.step).offset.z();
 }
 
+Measures Simulation::Impl::look(Observers& by) const {
+    const Moment moment{
+        scene,        plan.clock,     grains, step, around.gravity, around.period, around.motion.at(step),
+        start_energy, loop->traffic()};
+    return by.look(moment, [&](const auto& see) { loop->visit_contacts(step, see); });
+}
+
 Measures Simulation::measures() const {
-    const Impl& m = *impl_;
-    return measure(m.scene, m.plan.clock, m.around, m.grains, *m.loop, m.step, m.start_energy);
+    Impl& m = *impl_;
+    if (!m.observers)
+        m.observers = std::make_unique<Observers>(all_observers(), m.species_names,
+                                                  [](const std::string&) { return true; });
+    return m.look(*m.observers);
+}
+
+double Simulation::measure(const std::string& column) const {
+    Observers of_column(all_observers(), impl_->species_names,
+                        [&](const std::string& name) { return name == column; });
+    return impl_->look(of_column).at(column);
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -76,7 +76,9 @@ class Simulation {
 
     Frame frame() const;
     double centre_height() const;  // m, of the centre of mass above the floor where that is now
-    Measures measures() const;
+    Measures measures() const;     // all columns of measures.csv
+    // One of them. Looks at no more than that needs.
+    double measure(const std::string& column) const;
     std::uint64_t state_hash() const;  // of every bit that decides the future
 
     // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.

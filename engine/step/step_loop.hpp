@@ -19,6 +19,7 @@
 #include "engine/state/container_faces.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/state/wall_motion.hpp"
+#include "engine/step/contact_view.hpp"
 #include "engine/step/forces/contact_pass.hpp"
 #include "engine/step/forces/integrate.hpp"
 #include "engine/step/forces/scheme.hpp"
@@ -38,23 +39,6 @@ struct Surroundings {
     double period = 0;        // m, of x; 0 for none
     double skin = 0;          // m, of the first neighbour lists; later ones follow the motion
     std::vector<Exit> exits;  // through which grains leave; may change between two runs
-};
-
-// One touching contact as an observer sees it.
-struct ContactView {
-    std::int32_t first;      // index of a grain
-    std::int32_t second;     // index of a grain, or -1 - face
-    Vec3 normal;             // unit, from first to second
-    double overlap;          // m
-    double smaller_radius;   // m
-    double normal_force;     // N
-    Vec3 tangential;         // N, on second
-    double stored_energy;    // J, that unloading would give back
-    double sideways_energy;  // J, the part of it in tangential and rolling springs
-    double latched_energy;   // J, that latching has taken since the bodies met, if they were unloaded now
-    double damping_power;    // W, into the normal dashpot
-    double rubbing_power;    // W, that slip and rolling put into springs, friction, tangential dashpots
-    Vec3 point;              // m
 };
 
 class StepLoop {

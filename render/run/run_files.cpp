@@ -45,7 +45,7 @@ void RunFiles::add_frame(const Frame& frame, const Simulation& simulation) {
 
 void RunFiles::add_measures(const Measures& measures) {
     measures_.write(measures);
-    if (table_) table_->add(values_of(measures));
+    if (table_) table_->add(measures.values());
     if (!first_) first_ = measures;
     last_ = measures;
 }

@@ -184,7 +184,7 @@ FramePtr SceneRun::serve(const Stop& stop) {
 
 void SceneRun::add_measures() {
     Measures measures = simulation_.measures();
-    measures.bed_periods = bed_periods_->found();
+    measures.set("bed_periods", bed_periods_->found());
     files_->add_measures(measures);
 }
 
@@ -199,7 +199,8 @@ void SceneRun::save_checkpoint() {
 void SceneRun::close(FirstFailure& failure) {
     if (!packed_ || !folder_->is_there()) return;
     failure.attempt([&] {
-        if (files_ && files_->last_measures() && files_->last_measures()->step != simulation_.step())
+        if (files_ && files_->last_measures() &&
+            files_->last_measures()->at("step") != static_cast<double>(simulation_.step()))
             add_measures();
     });
     failure.attempt([&] { write_grain_table(path_of("final.csv"), simulation_.frame()); });

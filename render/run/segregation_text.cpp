@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/measure.hpp"
+#include "engine/measure/big_and_small.hpp"
 
 namespace grainreel {
 
@@ -13,20 +13,20 @@ std::string segregation_text(const Scene& scene, const Measures& from, const Mea
     const BigAndSmall kinds = big_and_small(scene.species);
     const std::string &big = scene.species[kinds.big].name, &small = scene.species[kinds.small].name;
     std::vector<std::string> parts;
-    const auto say = [&](const std::string& what, double Measures::*index, const char* meaning, bool sign) {
-        const double first = from.*index, last = to.*index;
+    const auto say = [&](const std::string& what, const char* column, const char* meaning, bool sign) {
+        const double first = from.at(column), last = to.at(column);
         if (!std::isfinite(first) || !std::isfinite(last)) return;
         const auto number = [&](double value) {
             return sign ? fmt::format("{:+.2f}", value) : fmt::format("{:.2f}", value);
         };
         parts.push_back(fmt::format("{} from {} to {}{}", what, number(first), number(last), meaning));
     };
-    say(fmt::format("mean height of {} minus {}, over the bed's height,", big, small),
-        &Measures::height_difference, "", true);
-    say(fmt::format("probability that {} lies above {}", big, small), &Measures::big_above_small,
-        " (1/2 is mixed)", false);
-    say("unlike neighbours over chance", &Measures::unlike_neighbours, " (1 is mixed)", false);
-    say("Lacey mixing index", &Measures::lacey, " (1 is mixed)", false);
+    say(fmt::format("mean height of {} minus {}, over the bed's height,", big, small), "height_difference",
+        "", true);
+    say(fmt::format("probability that {} lies above {}", big, small), "big_above_small", " (1/2 is mixed)",
+        false);
+    say("unlike neighbours over chance", "unlike_neighbours", " (1 is mixed)", false);
+    say("Lacey mixing index", "lacey", " (1 is mixed)", false);
     return fmt::format("segregation: {}", fmt::join(parts, "; "));
 }
 

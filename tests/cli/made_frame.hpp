@@ -5,6 +5,7 @@
 
 #include "engine/frame.hpp"
 #include "engine/measure/measures.hpp"
+#include "engine/scene/film/measure_columns.hpp"
 
 namespace grainreel::test {
 
@@ -34,32 +35,17 @@ inline Frame made_frame(int grains, int number, bool orientation = false) {
     return f;
 }
 
-// Of two species.
-inline Measures made_measures(int number) {
-    Measures m;
-    m.step = number;
-    m.time = number / 3.0;
-    m.phase = number / 11.0;
-    m.cycles = number / 7.0;
-    m.kinetic = 1e-7 / (number + 1);
-    m.rotational = 2e-7 / (number + 1);
-    m.gravitational = 3e-7 / (number + 1);
-    m.elastic = 4e-7 / (number + 1);
-    m.wall_work = 5e-7 / (number + 1);
-    m.lost = -1e-17;
-    m.centre_of_mass = vector_of(number);
-    m.species_centre = {vector_of(number + 1), vector_of(number + 2)};
-    m.species_height = {number + 0.1, number + 0.2};
-    m.height_difference = 0.1 * number - 1.0 / 3;
-    m.big_above_small = 1.0 / 19;
-    m.big_in_top_quarter = 1.0 / 17;
-    m.unlike_neighbours = 1.0 / 13;
-    m.lacey = 1.0 / 7;
-    m.contact_number = number + 0.3;
-    m.largest_overlap = 1e-4 / (number + 3);
-    m.floor_position = -0.3;
-    m.bed_periods = number + 2;
-    return m;
+// A row of measures.csv, `number` its step.
+inline Measures made_measures(int number, const std::vector<std::string>& species) {
+    std::vector<std::string> names;
+    std::vector<double> values;
+    for (const MeasureColumn& column : measure_columns(species)) {
+        values.push_back(std::sin(number + static_cast<double>(names.size())) * 1e-7);
+        names.push_back(column.name);
+    }
+    Measures measures(std::make_shared<const std::vector<std::string>>(names), values);
+    measures.set("step", number);
+    return measures;
 }
 
 }  // namespace grainreel::test

@@ -24,12 +24,9 @@ Scene of_sizes(const std::vector<double>& diameters) {
 }
 
 Measures indices(double height, double above, double unlike, double lacey) {
-    Measures m;
-    m.height_difference = height;
-    m.big_above_small = above;
-    m.unlike_neighbours = unlike;
-    m.lacey = lacey;
-    return m;
+    const std::vector<std::string> names{"height_difference", "big_above_small", "unlike_neighbours",
+                                         "lacey"};
+    return {std::make_shared<const std::vector<std::string>>(names), {height, above, unlike, lacey}};
 }
 
 TEST(SegregationText, SpeaksOfTheLargestAndTheSmallestSpecies) {

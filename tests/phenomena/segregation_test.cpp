@@ -31,7 +31,7 @@ HeightDifference height_difference(const std::string& scene_file, int seed) {
     std::vector<double> values;
     for (std::int64_t at = 0; at <= plan.steps; at += plan.clock.steps_per_period) {
         simulation.advance(at);
-        values.push_back(simulation.measures().height_difference);
+        values.push_back(simulation.measure("height_difference"));
     }
     const HeightDifference h{mean_of_ten(values, 3), mean_of_ten(values, values.size() - 10)};
     fmt::print("{}, seed {}: height difference {:+.3f} -> {:+.3f}\n", scene_file, seed, h.after_ramp,

@@ -35,7 +35,8 @@ double restlessness(double step, int grains) {
     Simulation simulation(scene, plan, 1);
     simulation.pack();
     simulation.advance(plan.steps);
-    return simulation.measures().kinetic / (grains * bench_mass() * scene.gravity.norm() * 2 * bench_radius);
+    return simulation.measure("kinetic_J") /
+           (grains * bench_mass() * scene.gravity.norm() * 2 * bench_radius);
 }
 
 // Loose and with losses: from where on the health check stops it.
@@ -125,7 +126,7 @@ Finding hard_shaking(bool quick) {
         for (std::int64_t step = 0; step < plan.steps;) {
             step = std::min(plan.steps, step + 20);
             simulation.advance(step);
-            largest = std::max(largest, 0.5 * simulation.measures().largest_overlap);
+            largest = std::max(largest, 0.5 * simulation.measure("largest_overlap"));
         }
         finding.curve.push_back({level, largest, plan.expected_overlap});
         finding.measured = std::max(finding.measured, largest / plan.expected_overlap);

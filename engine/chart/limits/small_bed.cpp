@@ -72,7 +72,7 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
             result.temperature += share * (frame.velocity[i] - mean).squaredNorm() / 3;
             result.height += share * (frame.position[i].z() - frame.floor().place.z());
         }
-        result.contacts += simulation.measures().contact_number;
+        result.contacts += simulation.measure("contact_number");
         ++looks;
     }
     const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;

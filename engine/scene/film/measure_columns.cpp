@@ -1,10 +1,40 @@
 #include "engine/scene/film/measure_columns.hpp"
 
+#include <fmt/format.h>
+
+#include "engine/measure/observer_list.hpp"
+
 namespace grainreel {
 namespace {
 
-// A name as a part of a column's name: quotes and separators of CSV would break the row.
-std::string plain(const std::string& name) {
+// Of these classes only columns() is used here, which needs nothing of the libraries above.
+template <class... Each>
+std::vector<ColumnGroup> groups_of(ObserverList<Each...>, const std::vector<std::string>& species) {
+    std::vector<ColumnGroup> all;
+    const auto add = [&](std::vector<ColumnGroup> groups) {
+        for (ColumnGroup& group : groups) all.push_back(std::move(group));
+    };
+    (add(Each::columns(species)), ...);
+    return all;
+}
+
+std::string names_of(const std::vector<MeasureColumn>& columns) {
+    const std::string first = fmt::format("`{}`", columns.front().name);
+    if (columns.size() == 1) return first;
+    return fmt::format("{}{}`{}`", first, columns.size() > 2 ? " to " : ", ", columns.back().name);
+}
+
+}  // namespace
+
+std::vector<MeasureColumn> measure_columns(const std::vector<std::string>& species) {
+    std::vector<MeasureColumn> columns;
+    for (ColumnGroup& group : groups_of(RowObservers(), species))
+        for (MeasureColumn& column : group.columns) columns.push_back(std::move(column));
+    return columns;
+}
+
+// Quotes and separators of CSV would break the row.
+std::string column_part(const std::string& name) {
     std::string result = name;
     for (char& c : result) {
         if (c == ',' || c == '"' || c == '\n' || c == '\r') c = '_';
@@ -12,38 +42,11 @@ std::string plain(const std::string& name) {
     return result;
 }
 
-}  // namespace
-
-std::vector<MeasureColumn> measure_columns(const std::vector<std::string>& species) {
-    std::vector<MeasureColumn> columns{{"step", "step"},
-                                       {"time_s", "time", Dimension::time},
-                                       {"phase_turns", "phase (turns)"},
-                                       {"cycles", "periods"},
-                                       {"kinetic_J", "kinetic energy", Dimension::energy},
-                                       {"rotational_J", "energy of rotation", Dimension::energy},
-                                       {"gravitational_J", "potential energy", Dimension::energy},
-                                       {"elastic_J", "elastic energy", Dimension::energy},
-                                       {"wall_work_J", "work of the walls", Dimension::energy},
-                                       {"lost_J", "energy lost", Dimension::energy},
-                                       {"centre_x_m", "centre of mass, x", Dimension::length},
-                                       {"centre_y_m", "centre of mass, y", Dimension::length},
-                                       {"centre_z_m", "centre of mass, z", Dimension::length}};
-    for (const std::string& name : species) {
-        for (const char* axis : {"x", "y", "z"})
-            columns.push_back({plain(name) + "_centre_" + axis + "_m", "centre of " + name + ", " + axis,
-                               Dimension::length});
-        columns.push_back({plain(name) + "_height_m", "mean height of " + name, Dimension::length});
-    }
-    columns.push_back({"height_difference", "height of big − small"});
-    columns.push_back({"big_above_small", "P(big above small)"});
-    columns.push_back({"big_in_top_quarter", "big grains in top quarter"});
-    columns.push_back({"unlike_neighbours", "unlike pairs / chance"});
-    columns.push_back({"lacey", "Lacey mixing index"});
-    columns.push_back({"contact_number", "contacts per grain"});
-    columns.push_back({"largest_overlap", "largest overlap / radius"});
-    columns.push_back({"floor_position_m", "floor position", Dimension::length});
-    columns.push_back({"bed_periods", "periods until the bed repeats itself"});
-    return columns;
+std::string column_table_markdown() {
+    std::string text = "| column | unit | what it is |\n|---|---|---|\n";
+    for (const ColumnGroup& group : groups_of(RowObservers(), {"NAME"}))
+        text += fmt::format("| {} | {} | {} |\n", names_of(group.columns), group.unit, group.about);
+    return text;
 }
 
 }  // namespace grainreel

@@ -1,4 +1,5 @@
-// The columns of measures.csv: their names there, and what to call them where people read.
+// The columns of measures.csv: their names there, what to call them where people read, and what they are.
+// They are those of the observers in engine/measure/observer_list.hpp.
 #pragma once
 
 #include <string>
@@ -14,7 +15,20 @@ struct MeasureColumn {
     Dimension dimension = Dimension::number;
 };
 
+// Columns that share a line of the documentation.
+struct ColumnGroup {
+    std::vector<MeasureColumn> columns;
+    const char* unit;   // of the documentation: "J", "turns, 0 to 1"
+    const char* about;  // Markdown
+};
+
 // species: their names, in the scene's order.
 std::vector<MeasureColumn> measure_columns(const std::vector<std::string>& species);
+
+// A species' name as a part of a column's name.
+std::string column_part(const std::string& name);
+
+// The table of all columns in Markdown, as in docs/reference/scenes.md.
+std::string column_table_markdown();
 
 }  // namespace grainreel

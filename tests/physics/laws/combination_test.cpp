@@ -46,7 +46,7 @@ std::string crowd(const std::string& law, const std::string& friction, bool roll
 }
 
 double energy(const Measures& m) {
-    return m.kinetic + m.rotational + m.gravitational + m.elastic;
+    return m.at("kinetic_J") + m.at("rotational_J") + m.at("gravitational_J") + m.at("elastic_J");
 }
 
 // What the scene says when it is refused, or "" after a sound run: no grain lost, no energy from nowhere.

@@ -1,0 +1,37 @@
+// Lacey's mixing index of the big grains among all.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "engine/measure/big_and_small.hpp"
+#include "engine/measure/observer.hpp"
+#include "engine/measure/segregation.hpp"
+
+namespace grainreel::observers {
+
+class Lacey final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+        return {
+            {{{"lacey", "Lacey mixing index"}}, "1", "Lacey's mixing index: 0 segregated, 1 randomly mixed"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!m.has_two_kinds()) return row.push_back(std::numeric_limits<double>::quiet_NaN());
+        const BigAndSmall kinds = big_and_small(m.scene.species);
+        const Grains& grains = m.grains;
+        std::vector<std::size_t> by_id(grains.size());
+        std::iota(by_id.begin(), by_id.end(), std::size_t{0});
+        std::sort(by_id.begin(), by_id.end(), [&](auto a, auto b) { return grains.id[a] < grains.id[b]; });
+        std::vector<Vec3> position;
+        std::vector<std::uint8_t> marked;
+        for (const std::size_t i : by_id) {
+            position.push_back(grains.place[i].position);
+            marked.push_back(static_cast<std::size_t>(grains.species[i]) == kinds.big);
+        }
+        row.push_back(lacey_index(position, marked));
+    }
+};
+
+}  // namespace grainreel::observers

@@ -1,0 +1,28 @@
+// Do grains of different species lie side by side as often as by chance?
+#pragma once
+
+#include <limits>
+
+#include "engine/measure/big_and_small.hpp"
+#include "engine/measure/observer.hpp"
+#include "engine/measure/unlike_neighbours.hpp"
+
+namespace grainreel::observers {
+
+class Unlike final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+        return {{{{"unlike_neighbours", "unlike pairs / chance"}},
+                 "1",
+                 "pairs of neighbours of different species over what chance would give: 0 segregated, 1 "
+                 "randomly mixed"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!m.has_two_kinds()) return row.push_back(std::numeric_limits<double>::quiet_NaN());
+        const BigAndSmall kinds = big_and_small(m.scene.species);
+        const double gap = kNeighbourGap * m.scene.species[kinds.small].diameter.mean;
+        row.push_back(unlike_neighbours(m.grains.place, m.grains.species, gap, m.period));
+    }
+};
+
+}  // namespace grainreel::observers

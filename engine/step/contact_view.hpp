@@ -1,0 +1,26 @@
+// One touching contact as an observer sees it.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/base/vector.hpp"
+
+namespace grainreel {
+
+struct ContactView {
+    std::int32_t first;      // index of a grain
+    std::int32_t second;     // index of a grain, or -1 - face
+    Vec3 normal;             // unit, from first to second
+    double overlap;          // m
+    double smaller_radius;   // m
+    double normal_force;     // N
+    Vec3 tangential;         // N, on second
+    double stored_energy;    // J, that unloading would give back
+    double sideways_energy;  // J, the part of it in tangential and rolling springs
+    double latched_energy;   // J, that latching has taken since the bodies met, if they were unloaded now
+    double damping_power;    // W, into the normal dashpot
+    double rubbing_power;    // W, that slip and rolling put into springs, friction, tangential dashpots
+    Vec3 point;              // m
+};
+
+}  // namespace grainreel

@@ -1,0 +1,187 @@
+// Who looks, and how often; and every column on three grains whose numbers are plain.
+#include "engine/measure/observers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/physics/world.hpp"
+
+namespace grainreel {
+namespace {
+
+struct Calls {
+    int made = 0, begun = 0, contacts = 0, looks = 0;
+};
+
+// An observer of one column, which counts its calls.
+template <int number, bool of_contacts>
+struct Counting final : Observer {
+    static inline Calls calls;
+    static std::string name() { return "column_" + std::to_string(number); }
+    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+        return {{{{name(), "a column"}}, "1", "of a test"}};
+    }
+    Counting() { ++calls.made; }
+    bool needs_contacts() const override { return of_contacts; }
+    void begin(const Moment&) override { ++calls.begun; }
+    void contact(const Moment&, const ContactView&) override { ++calls.contacts; }
+    void look(const Moment&, std::vector<double>& row) override {
+        ++calls.looks;
+        row.push_back(number);
+    }
+};
+using Plain = Counting<1, false>;
+using First = Counting<2, true>;
+using Second = Counting<3, true>;
+
+// Three grains of two species on a raised floor: two small ones side by side and a big one above them.
+struct Bed {
+    Scene scene;
+    Clock clock{1e-5, 1000, 0.25};
+    Grains grains;
+    Traffic traffic;
+
+    Bed() {
+        scene.species.resize(2);
+        scene.species[0].name = "small";
+        scene.species[0].diameter.mean = 2;
+        scene.species[1].name = "big";
+        scene.species[1].diameter.mean = 4;
+        scene.drive.direction = {0, 0, 1};
+        grains.add(0, 0, {0, -1, 2}, 1, 1);
+        grains.add(2, 1, {0, 0, 5}, 2, 1);
+        grains.add(1, 0, {0, 1, 2}, 1, 1);
+        grains.motion[1].velocity = {3, 0, 4};
+        grains.motion[2].spin = {0, 2, 0};
+        grains.wall_work[0] = 7;
+        traffic.work_out = 3, traffic.energy_in = 20, traffic.energy_out = 5;
+    }
+    Moment moment() const {
+        return {scene, clock, grains, 2500, {0, 0, -10}, 0, {{0, 0, 0.5}, {0, 0, 0}, 0}, 100, traffic};
+    }
+};
+
+ContactView touch(std::int32_t second, double overlap, double force, double energy) {
+    ContactView c{};
+    c.normal = c.tangential = c.point = Vec3::Zero();
+    c.second = second;
+    c.overlap = overlap;
+    c.smaller_radius = 1;
+    c.normal_force = force;
+    c.stored_energy = energy;
+    return c;
+}
+
+// A pair, a wall, and a pair that touches without force.
+void three_contacts(const std::function<void(const ContactView&)>& see) {
+    see(touch(1, 0.01, 5, 0.5));
+    see(touch(-1, 0.03, 5, 0.25));
+    see(touch(2, 0.02, 0, 0));
+}
+
+Observers those_of(const std::vector<std::string>& wanted) {
+    Plain::calls = First::calls = Second::calls = {};
+    return {{entry_of<Plain>(), entry_of<First>(), entry_of<Second>()}, {}, [=](const std::string& name) {
+                return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+            }};
+}
+
+TEST(Observers, VisitContactsOnceAMoment) {
+    const Bed bed;
+    Observers all = those_of({"column_1", "column_2", "column_3"});
+    int visits = 0;
+    for (int looks = 1; looks <= 2; ++looks) {
+        const Measures m = all.look(bed.moment(), [&](const auto& see) {
+            ++visits;
+            three_contacts(see);
+        });
+        EXPECT_EQ(m.values(), (std::vector<double>{1, 2, 3}));
+        EXPECT_EQ(visits, looks);
+        EXPECT_EQ(First::calls.contacts, 3 * looks);
+        EXPECT_EQ(Second::calls.contacts, 3 * looks);
+        EXPECT_EQ(Plain::calls.contacts, 0);
+        EXPECT_EQ(First::calls.begun, looks);
+    }
+}
+
+TEST(Observers, ThatNobodyWantsAreNotMade) {
+    const Bed bed;
+    Observers one = those_of({"column_1"});
+    const Measures m = one.look(bed.moment(), [](const auto&) { ADD_FAILURE() << "contacts were visited"; });
+    EXPECT_EQ(m.names(), std::vector<std::string>{"column_1"});
+    EXPECT_EQ(Plain::calls.looks, 1);
+    EXPECT_EQ(First::calls.made, 0);
+    EXPECT_EQ(Second::calls.made, 0);
+    EXPECT_EQ(those_of({}).look(bed.moment(), [](const auto&) { ADD_FAILURE(); }).names().size(), 0u);
+}
+
+TEST(Observers, GiveEveryColumnOfThreeGrains) {
+    const Bed bed;
+    Observers all(all_observers(), {"small", "big"}, [](const std::string&) { return true; });
+    const Measures m = all.look(bed.moment(), three_contacts);
+    const double small = 4.0 / 3 * std::numbers::pi, big = 8 * small, mass = 2 * small + big;  // kg
+    const double kinetic = 0.5 * big * 25, rotational = 0.5 * 0.4 * small * 4;
+    const double high = 10 * (2 * small * 2 + big * 5);
+    const double nan = std::nan("");
+    // Bed height: of three centres, the index 0.95 * 2 is the second, 1.5 above the floor.
+    const std::vector<std::pair<std::string, double>> expected{
+        {"step", 2500},
+        {"time_s", 0.025},
+        {"phase_turns", 0.75},
+        {"cycles", 2.5},
+        {"kinetic_J", kinetic},
+        {"rotational_J", rotational},
+        {"gravitational_J", high},
+        {"elastic_J", 0.75},
+        {"wall_work_J", 7 + 3},
+        {"lost_J", 100 + 20 - 5 + 7 + 3 - kinetic - rotational - high - 0.75},
+        {"centre_x_m", 0},
+        {"centre_y_m", 0},
+        {"centre_z_m", (2 * small * 2 + big * 5) / mass},
+        {"small_centre_x_m", 0},
+        {"small_centre_y_m", 0},
+        {"small_centre_z_m", 2},
+        {"small_height_m", 1.5},
+        {"big_centre_x_m", 0},
+        {"big_centre_y_m", 0},
+        {"big_centre_z_m", 5},
+        {"big_height_m", 4.5},
+        {"height_difference", (4.5 - 1.5) / 1.5},
+        {"big_above_small", 1},
+        {"big_in_top_quarter", 1},
+        // All three are neighbours of each other: two pairs of three are unlike; by chance pairs weigh
+        // (r + r)^2, the like one 4 and each unlike one 9.
+        {"unlike_neighbours", (2.0 / 3) / (18.0 / 22)},
+        {"lacey", nan},
+        {"contact_number", (2 + 1) / 3.0},
+        {"largest_overlap", 0.03},
+        {"floor_position_m", 0.5},
+        {"bed_periods", 1}};
+    ASSERT_EQ(m.names().size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const auto& [name, value] = expected[i];
+        EXPECT_EQ(m.names()[i], name);
+        if (std::isnan(value))
+            EXPECT_TRUE(std::isnan(m.at(name))) << name;
+        else
+            EXPECT_NEAR(m.at(name), value, 1e-12 * std::max(1.0, std::abs(value))) << name;
+    }
+}
+
+TEST(Observers, OfSegregationGiveNothingForOneSpecies) {
+    Bed bed;
+    bed.scene.species.resize(1);
+    bed.grains.species = {0, 0, 0};
+    Observers all(all_observers(), {"small"}, [](const std::string&) { return true; });
+    const Measures m = all.look(bed.moment(), three_contacts);
+    for (const char* name :
+         {"height_difference", "big_above_small", "big_in_top_quarter", "unlike_neighbours", "lacey"})
+        EXPECT_TRUE(std::isnan(m.at(name))) << name;
+    EXPECT_NEAR(m.at("small_height_m"), 2.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,48 @@
+#include "engine/scene/film/measure_columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace grainreel {
+namespace {
+
+TEST(MeasureColumns, DocsTellWhatTheObserversSay) {
+    const std::string page = GRAINREEL_SOURCE "/docs/reference/scenes.md";
+    const std::string begin_mark =
+        "<!-- table of columns: generated from engine/measure/observer_list.hpp, begin -->\n";
+    std::ostringstream whole;
+    whole << std::ifstream(page).rdbuf();
+    std::string text = whole.str();
+    const auto begin = text.find(begin_mark), end = text.find("<!-- table of columns: end -->\n");
+    ASSERT_NE(begin, std::string::npos);
+    ASSERT_NE(end, std::string::npos);
+    const auto start = begin + begin_mark.size();
+    if (std::getenv("GRAINREEL_WRITE_DOCS") != nullptr) {
+        text.replace(start, end - start, column_table_markdown());
+        std::ofstream(page) << text;
+        return;
+    }
+    EXPECT_EQ(text.substr(start, end - start), column_table_markdown())
+        << "docs/reference/scenes.md is not what the observers say; write it anew with\n"
+           "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=MeasureColumns.DocsTellWhatTheObserversSay";
+}
+
+// A column with a unit ends in it, so that live words and plots find it with and without.
+TEST(MeasureColumns, UnitsEndTheNames) {
+    std::set<std::string> names;
+    for (const MeasureColumn& column : measure_columns({"small", "big"})) {
+        EXPECT_TRUE(names.insert(column.name).second) << column.name;
+        EXPECT_FALSE(column.label.empty()) << column.name;
+        if (column.dimension == Dimension::number) continue;
+        const std::string unit = std::string("_") + text_of(column.dimension).unit;
+        ASSERT_GT(column.name.size(), unit.size());
+        EXPECT_EQ(column.name.substr(column.name.size() - unit.size()), unit);
+    }
+}
+
+}  // namespace
+}  // namespace grainreel
