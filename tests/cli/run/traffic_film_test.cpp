@@ -86,12 +86,17 @@ TEST(TrafficFilm, FilesHaveWhoIsThere) {
         double count = 0;
         for (std::size_t k = 0; k < frame.size(); ++k)
             if (frame.species[k] == 0) small += frame.position[k], ++count;
-        EXPECT_LT((measures[i].species_centre[0] - small / count).norm(), 1e-12) << i;
+        const Measures& row = measures[i];
+        const std::string name = column_part(sink.scene.species[0].name) + "_centre_";
+        const Vec3 centre(row.at(name + "x_m"), row.at(name + "y_m"), row.at(name + "z_m"));
+        EXPECT_LT((centre - small / count).norm(), 1e-12) << i;
     }
     EXPECT_LE(all.size(), reader.info().capacity);
     // What was lost, of all that came in, does not fall: nothing gains energy.
     for (std::size_t i = 1; i < measures.size(); ++i)
-        EXPECT_GT(measures[i].lost, measures[i - 1].lost - 1e-3 * measures[i].wall_work) << i;
+        EXPECT_GT(measures[i].at("lost_J"),
+                  measures[i - 1].at("lost_J") - 1e-3 * measures[i].at("wall_work_J"))
+            << i;
 }
 
 TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
