@@ -75,6 +75,4 @@ inline Key of_choices(Key key, std::vector<std::string> choices) {
 
 using Keys = std::vector<Key>;
 
-void add_film(Keys& keys);
-
 }  // namespace grainreel::keys

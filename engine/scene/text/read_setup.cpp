@@ -1,13 +1,12 @@
-// Species, container, drive and start.
+// Species and container.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
 #include "engine/scene/film/colours.hpp"
+#include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/text/reader_parts.hpp"
 
 namespace grainreel {
@@ -64,15 +63,8 @@ Species read_one_species(Document& document, const std::string& path) {
     } else {
         species.density = document.required_quantity(path + ".density");
     }
-    if (const auto text = document.text(path + ".colour")) {
-        const auto colour = parse_colour(*text);
-        if (!colour)
-            document.fail(
-                path + ".colour",
-                fmt::format("must be a colour, but is {}; write for example \"orange\" or \"#e69f00\"",
-                            document.written_value(path + ".colour")));
-        species.colour = *colour;
-    }
+    if (const std::string key = path + ".colour"; document.has(key))
+        species.colour = read_colour(document, key, "\"orange\" or \"#e69f00\"");
     return species;
 }
 
@@ -143,73 +135,6 @@ void read_container(Document& document, Scene& scene) {
         document.fail("container.outlet",
                       fmt::format("is {}, but open outlets are not modelled yet; write \"closed\"",
                                   document.written_value("container.outlet")));
-}
-
-void read_drive(Document& document, Scene& scene) {
-    Drive& drive = scene.drive;
-    drive.present = document.has("drive");
-    if (!drive.present) return;
-    drive.frequency = document.required_quantity("drive.frequency");
-    const double gravity = scene.gravity.norm();
-    if (const auto amplitude = document.quantity("drive.amplitude")) {
-        document.refuse("drive.g_level", "'amplitude' is given");
-        drive.amplitude = *amplitude;
-    } else {
-        const double omega = 2 * std::numbers::pi * drive.frequency;
-        drive.amplitude = document.required_quantity("drive.g_level") * gravity / (omega * omega);
-        if (gravity == 0)
-            document.fail("drive.g_level", "means nothing without gravity; give 'amplitude' instead");
-    }
-    if (const auto direction = document.vector("drive.direction")) {
-        const double length = direction->norm();
-        if (length == 0) document.fail("drive.direction", "must not be zero; write for example [0, 0, 1]");
-        // A unit vector keeps its bits, so that a resolved scene reads back as it was.
-        drive.direction = std::abs(length - 1) < 1e-15 ? *direction : Vec3(*direction / length);
-    }
-    drive.phase = document.quantity("drive.phase").value_or(drive.phase);
-    drive.ramp = document.quantity("drive.ramp").value_or(drive.ramp);
-    if (drive.ramp != 0 && drive.ramp < 3)
-        document.fail("drive.ramp",
-                      fmt::format("must be 0 or at least 3 periods, but is {:.6g}", drive.ramp));
-    drive.moves = chosen<Drive::Moves>(
-        document, "drive.moves", {{"container", Drive::Moves::container}, {"floor", Drive::Moves::floor}},
-        Drive::Moves::container);
-}
-
-void read_start(Document& document, Scene& scene) {
-    using Method = Start::Method;
-    Start& start = scene.start;
-    const bool listed = !start.grains.empty();
-    start.method =
-        chosen<Method>(document, "start.method",
-                       {{"layers", Method::layers}, {"file", Method::file}, {"grains", Method::grains}},
-                       listed ? Method::grains : Method::layers);
-    if (listed && start.method != Method::grains)
-        document.fail("start.method",
-                      "must be \"grains\" where grains are listed; remove it or the [[grain]]s");
-    if (!listed && start.method == Method::grains)
-        document.fail("start.method", "is \"grains\", but none is listed; write [[grain]] and its position");
-    if (start.method != Method::file)
-        for (const char* key : {"start.file", "start.keep_clock"})
-            document.refuse(key, "the start is not from a file");
-    if (start.method != Method::layers)
-        for (const char* key : {"start.settle_limit", "start.settle_damping"})
-            document.refuse(key, start.method == Method::file ? "a start from a file does not settle"
-                                                              : "grains placed by hand do not settle");
-    if (start.method == Method::layers) {
-        if (scene.container.shape == Container::Shape::none)
-            document.fail("container.shape",
-                          "is \"none\", so nothing holds layers; list the grains or start from a file");
-        start.settle_limit = document.quantity("start.settle_limit").value_or(start.settle_limit);
-        start.settle_damping = document.quantity("start.settle_damping").value_or(start.settle_damping);
-    }
-    if (start.method != Method::file) return;
-    const std::filesystem::path file = document.required_text("start.file");
-    const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
-    start.file = std::filesystem::absolute(folder / file).lexically_normal().string();
-    if (const std::string wrong = complaint_of_utf8(start.file); !wrong.empty())
-        document.fail("start.file", fmt::format("lies at {}; rename the folder", wrong));
-    start.keep_clock = document.flag("start.keep_clock").value_or(start.keep_clock);
 }
 
 }  // namespace grainreel

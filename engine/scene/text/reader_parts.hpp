@@ -17,12 +17,8 @@ void read_exact(Document& document, Scene& scene);  // after the species
 void size_empty_space(Scene& scene);                // when all else is read
 void read_drive(Document& document, Scene& scene);  // after gravity
 void read_start(Document& document, Scene& scene);
+void read_run(Document& document, Scene& scene);   // with [output]; after the contacts
 void read_film(Document& document, Scene& scene);  // after drive and run
-void read_camera(Document& document, Film& film);
-void read_film_look(Document& document, Film& film);
-void read_shows(Document& document, Scene& scene);      // part of it
-void take_purpose(Document& document, Film& film);      // first of the film: sets defaults only
-void read_film_file(Document& document, Scene& scene);  // format, quality, size of the file; after the rate
 
 // What can be wrong between keys that are right by themselves. Throws UserError.
 void check_scene(const Scene& scene);

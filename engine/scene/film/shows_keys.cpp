@@ -1,0 +1,138 @@
+// The keys of what the film hides, rings and writes beside the grains: part of [film].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "engine/scene/film/film_keys.hpp"
+#include "engine/scene/film/grain_values.hpp"
+#include "engine/scene/film/live_text.hpp"
+#include "engine/scene/film/named_grains.hpp"
+#include "engine/scene/keys/bound_key.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace keys;
+
+// "speed > 20 cm/s": a quantity that can colour grains, < or >, a value of it.
+void read_condition(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
+    GrainCondition& condition = shows.highlight_if;
+    const auto text = document.text(path);
+    if (!text || text->empty()) return;
+    const std::size_t sign = text->find_first_of("<>");
+    const std::string name = text->substr(0, text->find_last_not_of(' ', sign == 0 ? 0 : sign - 1) + 1);
+    const auto known = std::find_if(grain_value_words.begin() + 1, grain_value_words.end(),
+                                    [&](const auto& word) { return word.first == name; });
+    if (sign == std::string::npos || known == grain_value_words.end())
+        document.fail(path,
+                      fmt::format("must be a quantity of film.colour.by, < or >, and a value, but is {}; "
+                                  "write for example \"speed > 20 cm/s\"",
+                                  document.written_value(path)));
+    condition = {known->second, (*text)[sign] == '>', 0, *text};
+    const std::size_t at = text->find_first_not_of(' ', sign + 1);
+    const std::string value = at == std::string::npos ? "" : text->substr(at);
+    const Dimension dimension = dimension_of(condition.of);
+    if (dimension == Dimension::number) {
+        const char* const end = value.data() + value.size();
+        const auto read = std::from_chars(value.data(), end, condition.limit);
+        if (read.ec != std::errc() || read.ptr != end)
+            document.fail(path,
+                          fmt::format("wants a plain number after its sign, but has \"{}\"", excerpt(value)));
+        return;
+    }
+    try {
+        condition.limit = parse_quantity(value, dimension);
+    } catch (const UserError& error) {
+        document.fail(path, error.what());
+    }
+    if (!scene.drive.present &&
+        (condition.of == GrainValue::displacement || condition.of == GrainValue::rise))
+        document.fail(path, "counts from one period of the drive to the next, but nothing oscillates");
+}
+
+void read_words(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
+    shows.text = document.text(path).value_or("");
+    try {
+        shows.live_words = parse_live_text(shows.text, columns_of(scene));
+    } catch (const UserError& error) {
+        document.fail(path, error.what());
+    }
+}
+
+const KeyTable<FilmShows>& mark_table() {
+    using S = FilmShows;
+    static const KeyTable<S> table{
+        species_key("hide", &S::hidden, "Species that are not drawn."),
+        species_key("ghost", &S::ghosts, "Species that the others are seen through, as if of glass."),
+        ids_key("highlight", &S::highlighted, "Ids of grains that are ringed."),
+        bound_by<S>(
+            entry("highlight_if", KeyKind::text, note("none"),
+                  "Rings around grains of which this holds: \"speed > 20 cm/s\", \"coordination < 2\"."),
+            read_condition,
+            [](const S& shows, const Scene&) {
+                return shows.highlight_if.wanted() ? quoted(shows.highlight_if.text) : "";
+            }),
+        flag("force_chains", &S::force_chains, initial(),
+             "Lines between grains that touch, as wide as they push."),
+    };
+    return table;
+}
+
+const KeyTable<FilmShows>& text_table() {
+    static const KeyTable<FilmShows> table{
+        bound_by<FilmShows>(
+            entry("text", KeyKind::text, note("none"),
+                  "Words beside the grains; {lacey} or {kinetic:mJ} are values of measures.csv."),
+            read_words,
+            [](const FilmShows& shows, const Scene&) {
+                return shows.text.empty() ? "" : quoted(shows.text);
+            }),
+    };
+    return table;
+}
+
+}  // namespace
+
+void list_marks(Keys& all) {
+    mark_table().list(all, "film");
+}
+
+void list_shows(Keys& all) {
+    list_colour(all);
+    text_table().list(all, "film");
+    list_plots(all);
+    list_arrows_and_trails(all);
+}
+
+void read_shows(Document& document, Scene& scene) {
+    FilmShows& shows = scene.film.shows;
+    read_colour(document, scene);
+    mark_table().read(document, scene, "film", shows);
+    for (const std::size_t ghost : shows.ghosts)
+        if (std::find(shows.hidden.begin(), shows.hidden.end(), ghost) != shows.hidden.end())
+            document.fail("film.ghost",
+                          fmt::format("names \"{}\", which film.hide takes away; keep one of them",
+                                      scene.species[ghost].name));
+    text_table().read(document, scene, "film", shows);
+    read_plots(document, scene);
+    read_arrows_and_trails(document, scene);
+}
+
+void write_text(SceneText& out, const Scene& scene) {
+    text_table().write(out, scene, scene.film.shows);
+}
+
+void write_marks(SceneText& out, const Scene& scene) {
+    mark_table().write(out, scene, scene.film.shows);
+}
+
+void write_shows(SceneText& out, const Scene& scene) {
+    write_colour(out, scene);
+    write_plots(out, scene);
+    write_arrows_and_trails(out, scene);
+}
+
+}  // namespace grainreel

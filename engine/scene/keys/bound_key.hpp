@@ -1,0 +1,213 @@
+// A key bound to the member of a struct. One entry says how it is called and documented, how it is read and
+// written, what it is when the scene says nothing, and beside which others it means nothing.
+//
+//   quantity("zoom", &Camera::zoom, Dimension::number, magnification, initial(), "Over the automatic
+//   framing.")
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/keys/key_parts.hpp"
+#include "engine/scene/text/document.hpp"
+#include "engine/scene/text/toml_text.hpp"
+#include "engine/scene/text/words.hpp"
+
+namespace grainreel::keys {
+
+// Stands for the value that a member has by itself.
+inline Fallback initial() {
+    return {"", ""};
+}
+
+// As documented: numbers without ".0".
+template <class V>
+std::string initial_text(const V& value) {
+    return as_toml(value);
+}
+std::string initial_text(double value);
+std::string initial_text(const Vec3& value);
+
+// Nothing happens to the value where the key is not there.
+void read_value(Document& document, const std::string& path, double& value);
+void read_value(Document& document, const std::string& path, bool& value);
+void read_value(Document& document, const std::string& path, int& value);
+void read_value(Document& document, const std::string& path, std::uint64_t& value);
+void read_value(Document& document, const std::string& path, std::string& value);
+void read_value(Document& document, const std::string& path, Vec3& value);
+template <class V>
+void read_value(Document& document, const std::string& path, std::optional<V>& value) {
+    if (!document.has(path)) return;
+    value.emplace();
+    read_value(document, path, *value);
+}
+
+template <class T>
+struct BoundKey {
+    using Read = std::function<void(Document&, const Scene&, const std::string& path, T&)>;
+    using Write = std::function<std::string(const T&, const Scene&)>;
+    using Useless = std::function<const char*(const T&)>;
+    using Usual = std::function<void(T&, const Scene&)>;
+
+    Key key;  // its path is the name inside a table
+    Read read;
+    Write write;                                     // as TOML; empty: nothing
+    std::function<void(const T& from, T& to)> copy;  // of this one member
+    Useless useless;  // why the key means nothing beside what the others say; null: it does mean something
+    Usual usual;      // sets the member when the scene says nothing, by what the others say
+    std::function<bool(const T&)> unwritten;
+    int turn = 0, line = 0;  // of reading and writing; those of the same number as they are listed
+
+    BoundKey useless_for(Useless reason) const {
+        return changed([&](BoundKey& k) { k.useless = std::move(reason); });
+    }
+    BoundKey usually(Usual value) const {
+        return changed([&](BoundKey& k) { k.usual = std::move(value); });
+    }
+    BoundKey unwritten_if(std::function<bool(const T&)> is) const {
+        return changed([&](BoundKey& k) { k.unwritten = std::move(is); });
+    }
+    BoundKey never_written() const {
+        return unwritten_if([](const T&) { return true; });
+    }
+    BoundKey read_at(int when) const {
+        return changed([&](BoundKey& k) { k.turn = when; });
+    }
+    BoundKey written_at(int where) const {
+        return changed([&](BoundKey& k) { k.line = where; });
+    }
+
+  private:
+    template <class Change>
+    BoundKey changed(const Change& change) const {
+        BoundKey copy_of_this = *this;
+        change(copy_of_this);
+        return copy_of_this;
+    }
+};
+
+template <class T>
+BoundKey<T> bound_by(Key key, typename BoundKey<T>::Read read, typename BoundKey<T>::Write write) {
+    BoundKey<T> bound;
+    bound.key = std::move(key);
+    bound.read = std::move(read);
+    bound.write = std::move(write);
+    return bound;
+}
+
+template <class T, class V>
+BoundKey<T> bound(Key key, V T::*member) {
+    if (key.fallback.empty() && key.fallback_note.empty()) key.fallback = initial_text(T{}.*member);
+    const Dimension dimension = key.dimension;
+    BoundKey<T> result = bound_by<T>(
+        std::move(key),
+        [member](Document& document, const Scene&, const std::string& path, T& into) {
+            read_value(document, path, into.*member);
+        },
+        [member, dimension](const T& from, const Scene&) { return as_toml(from.*member, dimension); });
+    result.copy = [member](const T& from, T& to) { to.*member = from.*member; };
+    return result;
+}
+
+template <class T, class V>
+BoundKey<T> quantity(const char* name, V T::*member, Dimension dimension, const Range& range,
+                     Fallback fallback, const char* about) {
+    return bound(quantity(name, dimension, range, std::move(fallback), about), member);
+}
+
+template <class T, class V>
+BoundKey<T> integer(const char* name, V T::*member, double low, double high, Fallback fallback,
+                    const char* about) {
+    return bound(integer(name, low, high, std::move(fallback), about), member);
+}
+
+template <class T>
+BoundKey<T> flag(const char* name, bool T::*member, Fallback fallback, const char* about) {
+    return bound(entry(name, KeyKind::flag, std::move(fallback), about), member);
+}
+
+template <class T>
+BoundKey<T> text(const char* name, std::string T::*member, Fallback fallback, const char* about) {
+    return bound(entry(name, KeyKind::text, std::move(fallback), about), member);
+}
+
+// A Vec3, or one that may be missing.
+template <class T, class V>
+BoundKey<T> vector(const char* name, V T::*member, Dimension dimension, Fallback fallback,
+                   const char* about) {
+    return bound(of_dimension(entry(name, KeyKind::vector, std::move(fallback), about), dimension, any),
+                 member);
+}
+
+template <class T, class V>
+BoundKey<T> choice(const char* name, V T::*member, const Words<V>& words, Fallback fallback,
+                   const char* about) {
+    if (fallback.literal.empty() && fallback.note.empty())
+        fallback.literal = quoted(word_of(T{}.*member, words));
+    BoundKey<T> result = bound_by<T>(
+        choice(name, all_of(words), std::move(fallback), about),
+        [member, words](Document& document, const Scene&, const std::string& path, T& into) {
+            const auto word = document.text(path);
+            for (const auto& [said, value] : words)
+                if (word && *word == said) into.*member = value;
+        },
+        [member, words](const T& from, const Scene&) { return quoted(word_of(from.*member, words)); });
+    result.copy = [member](const T& from, T& to) { to.*member = from.*member; };
+    return result;
+}
+
+// The keys of one table, bound to one struct.
+template <class T>
+class KeyTable {
+  public:
+    KeyTable(std::initializer_list<BoundKey<T>> keys) : listed_(keys), read_(listed_), written_(listed_) {
+        std::stable_sort(read_.begin(), read_.end(),
+                         [](const auto& a, const auto& b) { return a.turn < b.turn; });
+        std::stable_sort(written_.begin(), written_.end(),
+                         [](const auto& a, const auto& b) { return a.line < b.line; });
+    }
+
+    // Adds its keys to the list of all. inherited: in words, in place of each key's default.
+    void list(Keys& all, const std::string& table, const char* inherited = nullptr) const {
+        for (const BoundKey<T>& bound : listed_) {
+            Key key = bound.key;
+            key.path = table + "." + key.path;
+            if (inherited != nullptr) key.fallback.clear(), key.fallback_note = inherited;
+            all.push_back(std::move(key));
+        }
+    }
+
+    // Throws UserError, as Document does; where a required key is missing, too.
+    void read(Document& document, const Scene& scene, const std::string& table, T& into) const {
+        for (const BoundKey<T>& bound : read_) {
+            const std::string path = table + "." + bound.key.path;
+            if (const char* reason = bound.useless ? bound.useless(into) : nullptr) {
+                document.refuse(path, reason);
+                continue;
+            }
+            const bool there = document.has(path);
+            if (!there && bound.key.fallback_note == required().note) document.fail_missing(path);
+            if (!there && bound.usual) bound.usual(into, scene);
+            bound.read(document, scene, path, into);
+        }
+    }
+
+    void write(SceneText& out, const Scene& scene, const T& from) const {
+        for (const BoundKey<T>& bound : written_) {
+            if ((bound.useless && bound.useless(from) != nullptr) ||
+                (bound.unwritten && bound.unwritten(from)))
+                continue;
+            out.put(bound.key.path, bound.write(from, scene));
+        }
+    }
+
+    const std::vector<BoundKey<T>>& in_order_of_reading() const { return read_; }
+
+  private:
+    std::vector<BoundKey<T>> listed_, read_, written_;
+};
+
+}  // namespace grainreel::keys

@@ -1,0 +1,134 @@
+// The keys of [run] and [output].
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/scene/keys/bound_key.hpp"
+#include "engine/scene/text/chapters.hpp"
+#include "engine/scene/text/reader_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace keys;
+
+// Corrections need a spring of constant slopes, and the velocities of velocity Verlet.
+bool correctable(const Contact& contact, Integrator integrator) {
+    const auto constant = [](const PairContact& pair) {
+        return pair.normal == NormalLaw::walton_braun && !pair.restitution_speed &&
+               pair.restitution_table.empty();
+    };
+    return integrator == Integrator::velocity_verlet &&
+           (std::any_of(contact.grain.begin(), contact.grain.end(), constant) ||
+            std::any_of(contact.wall.begin(), contact.wall.end(), constant));
+}
+
+void usual_overlap(Run& run, const Scene&) {
+    if (run.accuracy == Accuracy::draft) run.overlap = 0.02;
+    if (run.accuracy == Accuracy::reference) run.overlap = 0.003;
+}
+
+enum Place { of_time, of_method };  // in the written scene
+
+const KeyTable<Run>& run_table() {
+    using R = Run;
+    static const KeyTable<R> table{
+        quantity("duration", &R::duration, Dimension::time, positive, literal("\"10 s\""),
+                 "Of vibration; without a drive, of simulated time.")
+            .written_at(of_time),
+        integer("seed", &R::seed, 0, 9007199254740992.0, initial(), "Of every random choice.")
+            .written_at(of_time),
+        integer("threads", &R::threads, 0, 1024, initial(), "0: as many as the machine gives.")
+            .written_at(of_time),
+        choice("accuracy", &R::accuracy, accuracy_words, initial(),
+               "Defaults of overlap and steps a contact: 2 % and 0.7 times, 1 % and once, 0.3 % and "
+               "4 times; docs/reference/accuracy.md has the errors.")
+            .written_at(of_method),
+        quantity("step", &R::step, Dimension::time, positive, note("chosen by the plan"),
+                 "With a drive shortened so that a multiple of 8 steps makes a period.")
+            .written_at(of_time),
+        quantity("overlap", &R::overlap, Dimension::number, {0, 0.1, true, false},
+                 note("0.01; by `accuracy`"),
+                 "Wanted largest overlap over the smaller diameter; sets the stiffness.")
+            .usually(usual_overlap)
+            .written_at(of_method),
+        choice("integrator", &R::integrator, integrator_words, initial(),
+               "How a step is made; the others are for comparison.")
+            .written_at(of_method),
+        choice("precision", &R::precision, precision_words, initial(),
+               "mixed: contact laws, their histories and relative motion in single precision, all "
+               "else in double; about 1.25 times as fast.")
+            .written_at(of_method),
+        flag("contact_corrections", &R::contact_corrections, note("true where possible; false with draft"),
+             "walton-braun of constant restitution up to 0.9976, with velocity-verlet: corrects "
+             "onset, peak and exit of each contact.")
+            .usually([](R& run, const Scene& scene) {
+                run.contact_corrections =
+                    correctable(scene.contact, run.integrator) && run.accuracy != Accuracy::draft;
+            })
+            .written_at(of_method),
+        // The plan has made a step of it.
+        integer("steps_per_contact", &R::steps_per_contact, 4, 1000000,
+                note("12 or more by restitution; 45 with a dashpot or a restitution above 0.9976; by "
+                     "`accuracy`"),
+                "Steps in one free impact.")
+            .useless_for([](const R& run) { return run.step ? "'step' is given" : nullptr; })
+            .never_written(),
+    };
+    return table;
+}
+
+const char* without_trajectory(const Output& output) {
+    return output.trajectory ? nullptr : "no trajectory is kept";
+}
+
+const KeyTable<Output>& output_table() {
+    using O = Output;
+    static const KeyTable<O> table{
+        flag("trajectory", &O::trajectory, initial(), "Keep trajectory.nc."),
+        quantity("trajectory_interval", &O::trajectory_interval, Dimension::time, positive,
+                 note("one period; 1/30 s without a drive"), "Between its frames.")
+            .useless_for(without_trajectory),
+        quantity("measures_interval", &O::measures_interval, Dimension::time, positive,
+                 note("1/8 period; 10 ms without a drive"), "Between rows of measures.csv.")
+            .written_at(1),
+        flag("orientation", &O::orientation, initial(), "Orientations in the trajectory.")
+            .useless_for(without_trajectory),
+        flag("contacts", &O::contacts, initial(), "Contacts and forces in contacts.nc.").written_at(1),
+    };
+    return table;
+}
+
+}  // namespace
+
+void list_run(Keys& all) {
+    run_table().list(all, "run");
+    output_table().list(all, "output");
+}
+
+void read_run(Document& document, Scene& scene) {
+    Run& run = scene.run;
+    run_table().read(document, scene, "run", run);
+    if (run.contact_corrections && !correctable(scene.contact, run.integrator))
+        document.fail(
+            "run.contact_corrections",
+            "is made for velocity-verlet and the law walton-braun with a restitution that is the same at "
+            "any speed; remove it");
+    output_table().read(document, scene, "output", scene.output);
+}
+
+void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
+    Run run = scene.run;
+    run.step = plan.clock.step;
+    out.table("run");
+    if (!scene.run.step) out.remark("step", fmt::format("chosen for: {}", plan.step_reason));
+    run_table().write(out, scene, run);
+
+    Output output = scene.output;
+    output.trajectory_interval = static_cast<double>(plan.trajectory_every) * plan.clock.step;
+    output.measures_interval = static_cast<double>(plan.measures_every) * plan.clock.step;
+    out.table("output");
+    output_table().write(out, scene, output);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,97 @@
+// The keys of [start].
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "engine/base/utf8.hpp"
+#include "engine/scene/keys/bound_key.hpp"
+#include "engine/scene/text/chapters.hpp"
+#include "engine/scene/text/reader_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace keys;
+using Method = Start::Method;
+
+const Words<Method> method_words{
+    {"layers", Method::layers}, {"file", Method::file}, {"grains", Method::grains}};
+
+const char* without_file(const Start& start) {
+    return start.method != Method::file ? "the start is not from a file" : nullptr;
+}
+
+const char* without_layers(const Start& start) {
+    if (start.method == Method::layers) return nullptr;
+    return start.method == Method::file ? "a start from a file does not settle"
+                                        : "grains placed by hand do not settle";
+}
+
+// Throws UserError where grains are listed and the start is something else.
+void check_listed(Document& document, const Start& start) {
+    if (!start.grains.empty() && start.method != Method::grains)
+        document.fail("start.method",
+                      "must be \"grains\" where grains are listed; remove it or the [[grain]]s");
+}
+
+BoundKey<Start> file_key() {
+    const auto read = [](Document& document, const Scene& scene, const std::string& path, Start& start) {
+        check_listed(document, start);
+        const std::filesystem::path file = document.required_text(path);
+        const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
+        start.file = std::filesystem::absolute(folder / file).lexically_normal().string();
+        if (const std::string wrong = complaint_of_utf8(start.file); !wrong.empty())
+            document.fail(path, fmt::format("lies at {}; rename the folder", wrong));
+    };
+    return bound_by<Start>(
+               entry("file", KeyKind::text, note("required; file"),
+                     "Checkpoint or final.csv of an earlier run, relative to the scene's folder."),
+               read, [](const Start& start, const Scene&) { return quoted(start.file); })
+        .useless_for(without_file);
+}
+
+const KeyTable<Start>& start_table() {
+    using S = Start;
+    static const KeyTable<S> table{
+        choice("method", &S::method, method_words, note("layers; grains with [[grain]]"),
+               "Grow and settle layers in the room before all planes, the first species of the "
+               "largest grains at the bottom; go on from a file; or the grains as listed, at once.")
+            .usually([](S& start, const Scene&) {
+                start.method = start.grains.empty() ? Method::layers : Method::grains;
+            }),
+        file_key(),
+        flag("keep_clock", &S::keep_clock, initial(), "Go on at the checkpoint's step and phase; file only.")
+            .useless_for(without_file),
+        quantity("settle_limit", &S::settle_limit, Dimension::time, positive, literal("\"5 s\""),
+                 "Settling ends here at the latest; layers only.")
+            .useless_for(without_layers),
+        quantity("settle_damping", &S::settle_damping, Dimension::rate, not_negative, literal("\"10 1/s\""),
+                 "Drag on every grain while settling only; layers only.")
+            .useless_for(without_layers),
+    };
+    return table;
+}
+
+}  // namespace
+
+void list_start(Keys& all) {
+    start_table().list(all, "start");
+}
+
+void read_start(Document& document, Scene& scene) {
+    Start& start = scene.start;
+    start_table().read(document, scene, "start", start);
+    check_listed(document, start);
+    if (start.grains.empty() && start.method == Method::grains)
+        document.fail("start.method", "is \"grains\", but none is listed; write [[grain]] and its position");
+    if (start.method == Method::layers && scene.container.shape == Container::Shape::none)
+        document.fail("container.shape",
+                      "is \"none\", so nothing holds layers; list the grains or start from a file");
+}
+
+void write_start(SceneText& out, const Scene& scene) {
+    out.table("start");
+    start_table().write(out, scene, scene.start);
+}
+
+}  // namespace grainreel
