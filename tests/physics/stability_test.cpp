@@ -303,8 +303,9 @@ TEST(StabilityHealth, StopsGrainsThatGoThroughAWall) {
 
 // The largest stiffness that a scene may have. (Numbers that are none: HealthCheck.)
 TEST(StabilityHealth, StopsWhatFliesApart) {
-    EXPECT_THAT(complaint(shot(0.02, other_ball), {"contact.stiffness=1e30", "run.step=1e-3"}),
-                AllOf(HasSubstr("(ball)"), HasSubstr("pass each other"), HasSubstr("; take a smaller run.step")));
+    EXPECT_THAT(
+        complaint(shot(0.02, other_ball), {"contact.stiffness=1e30", "run.step=1e-3"}),
+        AllOf(HasSubstr("(ball)"), HasSubstr("pass each other"), HasSubstr("; take a smaller run.step")));
 }
 
 // Looks cost time: at the speeds that the plan expects they are as rare as can be.
