@@ -33,7 +33,7 @@ void StepLoop::restart() {
     team_.run([&](int member) {
         members_[member].walls.set(around_.faces, rest, rest, 0);
         rebuild(member, rest, 0, kLastsWell);
-        // The first half kick wants the forces of where the grains are now: a step of no length gives them.
+        // The first half kick needs the forces at the present positions. A step of length zero computes them.
         round_motion(grains_, {}, share_[member], share_[member + 1]);
         for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) grains_.load[i] = {};
         copy_foreign(member);
@@ -44,7 +44,7 @@ void StepLoop::restart() {
     rebuilds_ = refreshes_ = 0;
 }
 
-// Nobody is there yet: lists of nobody.
+// Makes empty lists, for a loop that has no grains yet.
 void StepLoop::begin_empty() {
     lists_ = {};
     lists_.pairs.resize(0, 0);
@@ -67,7 +67,7 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
     }
 }
 
-// The step that was reached.
+// Runs until step `to`, or until the end of a step in which a grain may leave. Returns the step reached.
 std::int64_t StepLoop::run_until_one_may_leave(std::int64_t from, std::int64_t to, double step, double drag) {
     grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
     KickInput kicks{around_.gravity, rules_.rubs};
@@ -84,8 +84,11 @@ std::int64_t StepLoop::run_until_one_may_leave(std::int64_t from, std::int64_t t
     return members_[0].reached;
 }
 
-// Steps `from` to `to`, or fewer where one may leave, the part of one thread. A thread reads and writes its
-// own grains only, and copies of the others' that it gets in exchange().
+// One thread's part of the steps `from` to `to`. It stops earlier where a grain may leave. A thread reads and
+// writes its own grains only. Of other threads' grains it reads copies, which exchange() brings.
+//
+// From here to the formula of a contact law: evaluate() -> ContactPass::compute() -> compute_stretch() ->
+// compute_chunk() -> the law's kernel (docs/notes/architecture.md, "One step").
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
     const FlushDenormals flush;
     Member& mine = members_[member];
@@ -151,7 +154,8 @@ std::array<double, kCosts> StepLoop::cost_shares() const {
     return shares;
 }
 
-// From the last forces to where the next are wanted, at `at`. What the last run left done is not done again.
+// The kicks and the drift from the last forces to the next ones, which are computed at `at`. In the first
+// step of a run the closing drift of the last step is left out, because the last run has made it already.
 KickInput StepLoop::kicks_before(const Evaluation& at, std::size_t stage, bool first, double step,
                                  KickInput kicks) const {
     const double last = at.time - at.since / step;
@@ -178,7 +182,7 @@ void StepLoop::move(int member, bool first, const KickInput& kicks) {
     }
 }
 
-// Grains go on with the next step as soon as their loads are complete.
+// Allows the grains to begin the next step as soon as their loads are complete.
 void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
     const std::int32_t begin = share_[member], end = share_[member + 1];
     Vanguard& ahead = members_[member].ahead;
@@ -186,7 +190,8 @@ void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
     ahead.next = ahead.begin;
 }
 
-// What others have changed of their grains since the last step: before anyone moves any.
+// Copies the grains of other threads as they are now. No thread may move a grain meanwhile, so barriers stand
+// before and after.
 void StepLoop::copy_foreign(int member) {
     if (team_.size() == 1) return;
     team_.barrier(member);
@@ -194,7 +199,8 @@ void StepLoop::copy_foreign(int member) {
     team_.barrier(member);
 }
 
-// Where threads wait for each other, once a step: the grains that others read go out, and theirs come in.
+// Exchanges grains with the other threads, once a step. This is the only place in a step where threads wait
+// for each other, unless lists are made.
 void StepLoop::exchange(int member, const Flight& flight) {
     Member& mine = members_[member];
     mine.box = 1 - mine.box;
@@ -206,7 +212,7 @@ void StepLoop::exchange(int member, const Flight& flight) {
     mine.contacts.halo().get(grains_, mine.box, flight);
 }
 
-// Where all grains are now, and what may touch.
+// Before the forces: sets the walls, exchanges grains with the other threads, and renews lists if needed.
 void StepLoop::begin_evaluation(int member, bool first, const Evaluation& at, double step,
                                 const KickInput& kicks) {
     Member& mine = members_[member];
@@ -236,7 +242,7 @@ void StepLoop::end_run(int member, double step, KickInput kicks) {
     if (kicks.drift > 0) drift(grains_, kicks, begin, end);
 }
 
-// Lists that no longer reach far enough are made again.
+// Makes lists again that no longer reach far enough.
 void StepLoop::renew_contacts(int member, const Evaluation& at, double step, const KickInput& kicks) {
     Member& mine = members_[member];
     const Vec3 drift = drift_since_listing(at.time, step);
@@ -254,9 +260,9 @@ void StepLoop::renew_contacts(int member, const Evaluation& at, double step, con
     if (member == 0) ++refreshes_;
 }
 
-// How far the bed as a whole has flown since the lists were made, were it in free flight. Displacements
-// count against this: it takes nothing from the safety of the lists, whatever the bed does, because two
-// grains come closer by at most the sum of what each moves against any common frame.
+// The displacement of the whole bed since the lists were made, if it were in free flight. Displacements of
+// grains are measured relative to it. The lists stay safe whatever the bed does: two grains come closer by at
+// most the sum of their displacements relative to any common frame.
 Vec3 StepLoop::drift_since_listing(double time, double step) const {
     const double passed = (time - listed_step_) * step;
     return passed * (listed_velocity_ + 0.5 * passed * around_.gravity);
@@ -264,7 +270,7 @@ Vec3 StepLoop::drift_since_listing(double time, double step) const {
 
 namespace {
 
-// m: how far any face has gone between two poses, against a frame that has gone by `flown`.
+// The largest displacement (m) of any face between two poses, relative to a frame displaced by `flown`.
 double farthest_face(const std::vector<Face>& faces, const Pose& before, const Pose& now, const Vec3& flown) {
     double squared = 0;
     for (const Face& face : faces) {
@@ -276,12 +282,12 @@ double farthest_face(const std::vector<Face>& faces, const Pose& before, const P
 
 }  // namespace
 
-// Lists reach no longer far enough, or contacts that have parted have cost about as much as a refresh would.
-// All threads come to the same answer: they add up the same numbers.
+// Whether the contact lists must be refreshed: they no longer reach far enough, or contacts that have parted
+// have cost about as much as a refresh. All threads get the same answer, because they add the same numbers.
 bool StepLoop::contacts_expired(Member& mine, const Pose& now, const Vec3& drift, double passed) const {
-    constexpr std::int64_t kRefresh = 16;  // contacts a grain that take as long as it
+    constexpr std::int64_t kRefresh = 16;  // a refresh takes as long as this many contacts a grain
     Reach& reach = mine.reach;
-    Vec3 largest(0, 0, 0);  // the diagonal is the same however the grains are shared out
+    Vec3 largest(0, 0, 0);  // by component: the same however the grains are shared out
     for (const Member& m : members_) {
         largest = largest.cwiseMax(m.told[mine.box].fastest);
         reach.parted += m.told[mine.box].parted;
@@ -316,7 +322,7 @@ double StepLoop::farthest_of(std::int32_t begin, std::int32_t end, const Vec3& d
     return farthest;
 }
 
-// The contact lists are to last for about kStepsPerRefresh steps at the speeds of now.
+// Sets the skin so that the contact lists last for about kStepsPerRefresh steps at the present speeds.
 void StepLoop::set_reach(Member& mine, const Pose& now, const Vec3& drift, const Vec3& frame,
                          double step) const {
     constexpr double kStepsPerRefresh = 48, kLeastShare = 1e-3, kMostShare = 0.4;

@@ -1,10 +1,10 @@
 // The step loop: neighbours -> walls -> contacts -> integrate, on a team of threads.
 //
-// Why the bits do not depend on the number of threads: grains are in one spatial order whatever the team,
-// every thread computes all contacts of its own grains, and every grain sums its contacts in one order: walls
-// before pairs, law by law; of one law first those that began since the last refresh, by the step in which
-// they did, then as second partner by rising index of the first, as first partner by rising index of the
-// second.
+// The bits do not depend on the number of threads, for three reasons. The grains have one spatial order,
+// whatever the team. Every thread computes all contacts of its own grains. Every grain sums its contacts in
+// one order: walls before pairs, law by law. Within a law, the contacts that began since the last refresh
+// come first, in the order in which they began. Then come the contacts in which the grain is the second body,
+// by rising first body, then those in which it is the first body, by rising second body.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ namespace grainreel {
 
 class Bytes;
 
-// The surroundings of the grains, which the loop only reads.
+// The surroundings of the grains. The loop reads them and never changes them.
 struct Surroundings {
     std::vector<Face> faces;
     WallMotion motion;
@@ -46,7 +46,8 @@ class StepLoop {
     // Grains, surroundings and team must outlive the loop.
     StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& grains, Team& team);
 
-    // Takes the grains as they are now: all contacts are new. Call after changing positions, radii or faces.
+    // Starts from the grains as they are now, without any contact history. Call it after positions, radii or
+    // faces have changed.
     void restart();
 
     // Runs `count` steps of `step` seconds from absolute step `from` (which sets the walls' phase).
@@ -65,15 +66,15 @@ class StepLoop {
     // From now on: nobody has come or left.
     void begin_account() { traffic_ = {.next_id = traffic_.next_id}; }
 
-    // In the same order on any number of threads.
+    // Shows all touching contacts, in the same order on any number of threads.
     void visit_contacts(std::int64_t at_step, const std::function<void(const ContactView&)>& visit) const;
 
-    // Lists and histories, bit by bit, for checkpoints and hashes. Grains are saved by their owner.
+    // Writes lists and histories, bit by bit, for checkpoints and hashes. The owner of the grains saves them.
     void save(std::ostream& out) const;
-    // For grains that are in order themselves. Makes the reading fail where what it reads is not such as the
-    // loop makes: no index is believed.
+    // Reads what save() wrote. The grains must be in order already. The reading fails where the loop could
+    // not have written what is read; no index is trusted.
     void load(Bytes& in);
-    // Whether no step has been made since restart(); not among what is saved.
+    // Whether no step has been made since restart(). save() does not write this.
     bool is_fresh() const { return fresh_; }
     void set_fresh(bool fresh) { fresh_ = fresh; }
     // Whether grains carry derivatives along from step to step.
@@ -81,8 +82,8 @@ class StepLoop {
 
     std::int64_t rebuilds() const { return rebuilds_; }
     std::int64_t refreshes() const { return refreshes_; }
-    // Whether run() notes which stage takes how long, which slows it by some 5 %. Shares of all the time so
-    // noted since the last clear_costs(), summed over the threads.
+    // time_costs() says whether run() measures how long each stage takes; this slows it by some 5 %.
+    // cost_shares() gives each stage's share of the time measured since clear_costs(), over all threads.
     void time_costs(bool on);
     void clear_costs();
     std::array<double, kCosts> cost_shares() const;
@@ -90,25 +91,25 @@ class StepLoop {
     std::size_t listed_pairs() const { return lists_.pairs.size(); }
 
   private:
-    // How far the contact lists reach, and what has used that up since their last refresh. Every thread keeps
-    // its own, and all are alike.
+    // How far the contact lists reach, and how much of that has been used up since their last refresh. Every
+    // thread has its own copy, and all copies are equal.
     struct Reach {
         double skin = 0;          // m
-        double moved = 0;         // m, that no grain has surpassed against the bed's free flight
-        double fastest = 0;       // m/s, of the last step
+        double moved = 0;         // m; no grain has moved farther relative to the bed's free flight
+        double fastest = 0;       // m/s, the largest speed of the last step
         std::int64_t parted = 0;  // contacts that were computed in vain, summed over the steps
-        Vec3 drift{0, 0, 0};      // m, of the free flight at the refresh
-        Pose pose;                // likewise
+        Vec3 drift{0, 0, 0};      // m, displacement of the free flight at the refresh
+        Pose pose;                // of the walls at the refresh
     };
 
-    // What the others are told of a thread at a step.
+    // What a thread tells the others in each step.
     struct alignas(64) Told {
         Vec3 fastest{0, 0, 0};    // m/s, largest components of its grains against the bed's free flight
         std::int64_t parted = 0;  // contacts of its grains that no longer touched in the last step
         bool may_leave = false;   // one of its grains, at the end of this step
     };
 
-    // What a thread writes; a cache line apart from the next thread's.
+    // What a thread writes. It shares no cache line with what another thread writes.
     struct alignas(64) Member {
         ContactPass contacts;
         WallState walls;
@@ -116,7 +117,7 @@ class StepLoop {
         NeighbourList pairs;                // its part of the search, where there are several threads
         std::vector<WallNeighbour> walls_near;
         Reach reach;
-        Vanguard ahead;  // its grains that go on before the others
+        Vanguard ahead;  // its grains that begin the next step early
         CostClock clock;
         Vec3 fastest{0, 0, 0};     // m/s, as it will be told
         Told told[2];              // of this step and the one before, which others may still read
@@ -132,7 +133,7 @@ class StepLoop {
         double searched_for = 0;  // ticks
     };
 
-    // The forces of a stage: when (in steps), where the walls are then, and what went before.
+    // The forces of a stage: at which time, where the walls are then, and how long ago the last forces were.
     struct Evaluation {
         double time;   // steps
         double since;  // s, since the last forces
@@ -198,18 +199,18 @@ class StepLoop {
     NeighbourLists lists_;
     std::vector<Member> members_;
     Shares share_, last_share_;
-    Shares search_share_, last_search_share_;  // who looks for whose neighbours
-    std::vector<std::int32_t> new_index_;      // of the grains before the last reordering
-    std::vector<std::int32_t> contacts_;       // of each grain, as first body, when the lists were made
+    Shares search_share_, last_search_share_;  // the grains whose neighbours each thread searches for
+    std::vector<std::int32_t> new_index_;      // the new index of each grain in the last reordering
+    std::vector<std::int32_t> contacts_;       // of each grain as first body, when the lists were made
 
-    // Where and how the grains and walls were when the lists were made.
-    std::vector<Eigen::Vector3f> listed_at_;  // half the memory, and its rounding is allowed for
+    // State of the grains and walls when the lists were made.
+    std::vector<Eigen::Vector3f> listed_at_;  // m; floats to save memory, and their rounding is counted
     Vec3 listed_velocity_{0, 0, 0};
     Pose listed_pose_;
     double listed_step_ = 0;             // steps
-    double skin_, next_skin_;            // m, of the neighbour lists and of those in the making
-    bool fresh_ = true;                  // restarted: the next run() says at which step the lists were made
-    std::int64_t first_step_ = kGoesOn;  // of the first run after a restart: nothing moved before it
+    double skin_, next_skin_;            // m, of the neighbour lists and of those being made
+    bool fresh_ = true;                  // after restart(): the next run() sets the step of the lists
+    std::int64_t first_step_ = kGoesOn;  // of the first run after a restart; nothing moved before it
     static constexpr std::int64_t kGoesOn = std::numeric_limits<std::int64_t>::min();
     std::int64_t rebuilds_ = 0, refreshes_ = 0;
 

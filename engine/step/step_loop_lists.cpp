@@ -1,4 +1,5 @@
-// The step loop's lists: made anew, refreshed, and histories handed over.
+// The lists of the step loop: making them, refreshing them, and handing over contact histories between
+// threads.
 #include <algorithm>
 #include <numeric>
 
@@ -9,18 +10,19 @@ namespace grainreel {
 
 namespace {
 
-// In a step, in units of a grain's; of a contact under its first body, and of a listed pair.
+// The work in a step of a contact and of a listed pair. The unit is the work of a grain without contacts.
+// Contacts and pairs are counted under their first body.
 constexpr double kWorkOfContact = 3, kWorkOfPair = 0.05;
 
 }  // namespace
 
-// New order, new neighbour lists, new contacts, histories carried over: called by all members.
+// Puts the grains in order and makes new neighbour lists. Contacts keep their histories. All members call it.
 void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted) {
     Member& mine = members_[member];
     mine.busy_in_all = team_.busy(member);
     const TeamMember me{team_, member};
     if (me.leads()) {
-        next_skin_ = skin_after(lasted);  // skin_ may still be read by others
+        next_skin_ = skin_after(lasted);  // other members may still read skin_
         if (search_share_.empty() || search_share_.back() != std::ssize(grains_.id)) {
             search_share_.assign(1, 0);
             for (int m = 0; m < team_.size(); ++m)
@@ -32,7 +34,7 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
     put_in_order(me, cells_, grains_, next_skin_, around_.period, new_index_);
     if (team_.size() > 1) mine.contacts.count_contacts(new_index_, contacts_);
     const std::int32_t begin = search_share_[member], end = search_share_[member + 1];
-    const bool alone = team_.size() == 1;  // then nothing need be joined
+    const bool alone = team_.size() == 1;  // then there are no lists to join
     const std::uint64_t since = ticks();
     list_pairs(cells_, grains_, next_skin_, around_.period, begin, end, alone ? lists_.pairs : mine.pairs);
     list_walls(grains_, around_.faces, pose, next_skin_, begin, end, alone ? lists_.walls : mine.walls_near);
@@ -61,8 +63,8 @@ void StepLoop::rebuild(int member, const Pose& pose, double time, double lasted)
     mine.busy_refreshing = 0;
 }
 
-// m. Lists that did not last get a wider skin, and such as lasted longer than it pays for a narrower one.
-// With a period the skin stays: pairs must not meet twice.
+// The next skin (m). Lists that lasted too few steps get a wider skin. Lists that lasted longer than pays get
+// a narrower one. With a period the skin stays, because a wider one could list a pair twice.
 double StepLoop::skin_after(double lasted) const {
     constexpr double kShort = 400, kLong = 1500;  // steps
     constexpr double kFactor = 1.25;
@@ -71,7 +73,7 @@ double StepLoop::skin_after(double lasted) const {
     return std::clamp(factor * skin_, kLeastSkin * around_.skin, kMostSkin * around_.skin);
 }
 
-// Each member brings its own.
+// Joins the lists of all members. Each member copies its own.
 void StepLoop::join_lists(const TeamMember& me) {
     NeighbourList& all = lists_.pairs;
     std::size_t pairs = 0, walls = 0, pairs_before = 0, walls_before = 0;
@@ -106,8 +108,9 @@ void StepLoop::note_listing(const Pose& pose, double time) {
     listed_step_ = time;
 }
 
-// How fast the threads have worked since the lists were made last, against each other: processors that others
-// use too differ by half for seconds. Equal where nothing is known. Contacts came or went on the way.
+// Notes how fast each thread has worked since the last lists, relative to the mean of all. Processors that
+// other programs use too may differ by half for seconds. Where nothing is known, the speeds stay as they are.
+// The figures are approximate, because contacts have begun and ended since the work was counted.
 void StepLoop::note_speeds() {
     constexpr double kMost = 2, kNewShare = 0.5;
     const auto time_of = [](const Member& m) { return m.busy_in_all - m.busy_before - m.busy_refreshing; };
@@ -121,7 +124,7 @@ void StepLoop::note_speeds() {
     }
 }
 
-// Ranges of grains for the threads, of about as much work as they are fast. The bits do not depend on it.
+// Gives each thread a range of grains. A faster thread gets more work. The bits do not depend on the ranges.
 void StepLoop::share_out() {
     const std::int32_t n = static_cast<std::int32_t>(grains_.size());
     last_share_ = share_;
@@ -147,7 +150,8 @@ void StepLoop::share_out() {
     }
 }
 
-// The one time between rebuilds that threads read each other's grains where they are.
+// Refreshes the contact lists. Between two rebuilds, this is the only time that a thread reads grains of
+// other threads directly, not as copies.
 void StepLoop::refresh(int member) {
     Member& mine = members_[member];
     const double before = team_.busy(member);
@@ -158,13 +162,14 @@ void StepLoop::refresh(int member) {
     mine.busy_refreshing += team_.busy(member) - before;
 }
 
-// Ranges for the next search that take as long as each other, were it as fast everywhere as this one in each
-// of its ranges: half of the way there. Grains that come later look at more of those before them, or at less.
+// Sets the ranges of the next search for neighbours, so that all take the same time. It assumes that the next
+// search takes as long a grain as the last one did in the same range, and goes half of the way to the new
+// ranges. The time a grain differs along the order, because grains look at different numbers of others.
 void StepLoop::share_search() {
     double whole = 0, passed = 0;
     for (const Member& m : members_) whole += m.searched_for;
     const Shares& last = last_search_share_ = search_share_;  // no memory is asked for
-    int from = 0;                                             // the range that the next bound is in
+    int from = 0;                                             // the range that holds the next bound
     for (int t = 1; t < team_.size(); ++t) {
         const double wanted = whole * t / team_.size();
         while (from + 1 < team_.size() && passed + members_[from].searched_for < wanted)
@@ -175,7 +180,7 @@ void StepLoop::share_search() {
     }
 }
 
-// Copies of one thread after those of another, none of them in a line with the next thread's.
+// Places the copies of all threads one after the other. No cache line holds copies of two threads.
 void StepLoop::place_halos() {
     constexpr std::int32_t kApart = 4;
     const auto n = static_cast<std::int32_t>(grains_.size());

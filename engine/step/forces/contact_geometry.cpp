@@ -10,26 +10,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Of i's surface against j's, the centres' velocity and the spins' share of it being those of the middle of
-// the step, k that of its end. In the middle it was k + change: the velocity is taken with that and given
-// with k in its place, or a pair that turns as one body would slip by its angle a step (Vyas et al., Comput.
-// Phys. Commun. 310, 109524: time levels).
+// Velocity of i's surface against j's surface, from the velocity of the centres and the spins times arms.
+// These two belong to the middle of the step, but the normal k belongs to its end. The normal of the middle
+// is k + change. So the velocity is computed with k + change, and its normal part is then laid along k.
+// Without this, a pair that turns as one body would slip by its angle of turn in every step (Vyas et al.,
+// Comput. Phys. Commun. 310, 109524: time levels).
 template <class L>
 HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spins, const Triple<L>& k,
                                  const Triple<L>& change) {
     return velocity.less(change, k.dot(velocity)) + spins.cross(k + change);
 }
 
-// Cayley's vector of a contact's turn: what took k + 2 `back`, scaled to unit length, to k, then a turn about
-// k of which `twist` is the half. That is tan(angle) / 2 along the axis of the first, off by the angle's cube
-// / 4; of the two together a + b + b x a. (The displacements between two forces are the velocities times the
-// step, so that k need not be kept.)
+// Cayley's vector of a contact's turn during a step. The turn has two parts. The first part takes the old
+// normal to k; the old normal is k + 2 `back`, scaled to unit length. Its vector a is taken as tan(angle) / 2
+// along the axis, which makes the angle wrong by its cube / 4. The second part is a turn about k, by the
+// angle 2 `twist`; its vector is b. Both parts together are a + b + b x a.
+// (The old normal is not stored. It follows from the velocities, because the displacement between two forces
+// is the velocity times the step.)
 template <class L>
 HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist) {
     return back.cross(k).plus(k + back, twist);
 }
 
-// Where the places of a chunk's bodies start, in doubles, worked out once: their motion starts twice as far.
+// Where the bodies of a chunk start in the array of places, counted in doubles. In the array of motions they
+// start at twice that number. These offsets are computed once for each chunk.
 struct Places {
     alignas(64) std::int32_t first[kChunk], second[kChunk];
 
@@ -39,7 +43,7 @@ struct Places {
             first[c] = stride * i[c];
             second[c] = stride * j[c];
         }
-        // Up to a whole register.
+        // Copies of the last pair fill the last block.
         for (int c = count; c % kBlock != 0; ++c) first[c] = first[c - 1], second[c] = second[c - 1];
     }
 };
@@ -60,16 +64,18 @@ std::uint64_t pairs_within(const Grains& grains, const std::int32_t* i, const st
     return touching;
 }
 
-// As many contacts as laws may read: of what fills the last block, too, is known whether it touches.
+// The number of contacts together with the copies that fill the last block. Laws may read these copies, so it
+// is computed for them too whether they touch.
 HWY_INLINE int whole_blocks(int count) {
     return (count + kBlock - 1) / kBlock * kBlock;
 }
 
-// A chunk goes through in sweeps, as many as its law wants: places, distances, velocities, spins. (One sweep
-// for all was no faster.)
+// A chunk passes through sweeps: places, distances, radii, velocities, spins. The law decides which of them
+// are needed. (One sweep for all of them was no faster.)
 //
-// Distances, for now where inverse distances will be, likewise what lies between the centres, and radii where
-// arms will be; overlaps.
+// The first sweep sets the overlaps, and finds out which contacts touch. It leaves other numbers in some rows
+// until a later sweep replaces them: `normal` holds the vector between the centres, `inverse_distance` holds
+// the distance, and the arms hold the radii.
 void sweep_places(const GeometryInput& in, const Places& at, double period, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
     out.touching = 0;
@@ -90,9 +96,10 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
     }
 }
 
-// The same for rows of floats, but for what sweep_distances() does, and for the radii. Of R, their sum, and
-// the distance d the small difference R^2 - d^2 = (R - d)(R + d) is taken as doubles and rounded then, so
-// that all digits of the overlap count; d may be rounded before.
+// The first sweep where rows hold floats. It takes no root and sets no radii; later sweeps do that. R is the
+// sum of the radii, and d is the distance. The difference R^2 - d^2 = (R - d)(R + d) is small. It is computed
+// in doubles and then rounded, so that the overlap keeps all its digits. d itself may be rounded before.
+// Until the next sweep, `overlap` holds this difference and `inverse_distance` holds R.
 void sweep_rounded_places(const GeometryInput& in, const Places& at, double period, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
     out.touching = 0;
@@ -109,7 +116,8 @@ void sweep_rounded_places(const GeometryInput& in, const Places& at, double peri
     }
 }
 
-// Normals, inverse distances and, for sweep_spins(), distances where the turn will be.
+// The second sweep sets normals and inverse distances, and with floats the overlaps. `turn[0]` holds the
+// distance until sweep_spins() replaces it.
 template <class L>
 void sweep_distances(const GeometryInput& in, TouchChunk& out) {
     using Number = NumberOf<L>;
@@ -129,7 +137,7 @@ void sweep_distances(const GeometryInput& in, TouchChunk& out) {
     }
 }
 
-// Velocities and spins of grains, numbers of L.
+// The array of velocities and spins whose numbers fit the registers L.
 template <class L>
 HWY_INLINE const NumberOf<L>* velocities(const Grains& grains) {
     if constexpr (std::is_same_v<L, Lanes>)
@@ -166,8 +174,8 @@ void sweep_velocities(const GeometryInput& in, const Places& at, TouchChunk& out
     }
 }
 
-// Arms to the plane through the spheres' circle of intersection; they sum to the distance, which is what
-// keeps angular momentum. The original program took the radii.
+// Arms that end at the plane of the circle in which the two spheres intersect. The two arms add up to the
+// distance of the centres, and this conserves angular momentum. (The original program used the radii.)
 template <class L>
 HWY_INLINE void to_contact_plane(L distance, L inverse, L& one, L& two) {
     one = L(0.5) * multiply_add((one - two) * (one + two), inverse, distance);
@@ -199,7 +207,7 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
         const Triple<L> across = velocity.less(k, closing);
         const Triple<L> spins = (one * first_arm).plus(two, second_arm);
         put<Number>(of_surfaces(velocity, spins, k, across * (turn * inverse)), out.velocity, c);
-        const L farther = less_product(L(1.0), L(2.0) * in_half, closing);  // it was, before the step
+        const L farther = less_product(L(1.0), L(2.0) * in_half, closing);  // distance now / before the step
         put<Number>(turn_of(k, across * (in_half * farther), L(0.5) * half_step * (one + two).dot(k)),
                     out.turn, c);
         if (in.wants == Wants::rolling) put<Number>((one - two).across(k), in.rolling->rate, c);
@@ -223,7 +231,7 @@ void pairs(const GeometryInput& in, double period, TouchChunk& out) {
     in.rounded ? pairs_at<FloatLanes>(in, period, out) : pairs_at<Lanes>(in, period, out);
 }
 
-// A grain and a wall, plane or round.
+// A grain at a wall. The wall is a plane or a cylinder.
 struct AtWall {
     Triple<Lanes> out_from_axis;
     Lanes from_axis, distance, radius;
@@ -289,7 +297,7 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
         if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
             const Triple<Lanes> rate = triple(load_records(motion + 4, 8, i));
-            // Along a cylinder's wall k turns with the grain about the axis; a plane's does not turn.
+            // A cylinder's normal turns as the grain moves around the axis. A plane's normal does not turn.
             const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
             Triple<Lanes> across = velocity.less(k, closing) * select(round, Lanes(-1.0), Lanes(0.0));
             across.z = Lanes(0.0);

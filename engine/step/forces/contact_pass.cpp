@@ -9,7 +9,7 @@
 
 namespace grainreel {
 
-// Sets touch_ for the chunk, in floats if `rounded`; what its laws take.
+// Computes the geometry of the chunk into touch_, in floats if `rounded`. Returns the input of its law.
 LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& group, const Grains& grains,
                               const WallState& state, const Passed& passed, const Chunk& chunk,
                               const Halo::Bodies& bodies, bool rounded) const {
@@ -26,13 +26,13 @@ LawInput ContactPass::prepare(const ContactRules& rules, const ContactGroup& gro
                            group.law->uses_radius || group.rolling,
                            rounded};
     group.of_pairs ? touch_pairs(in, rules.period, touch_) : touch_walls(in, state, touch_);
-    touch_.touching &= bits_of_first(chunk.count);  // not the fill
+    touch_.touching &= bits_of_first(chunk.count);  // without the copies that fill the last block
     return {chunk.count,          &touch_,      kinds_of(rules, group, grains, chunk),
             &group.parameters,    passed.since, passed.ahead,
             group.history_size(), &rolling_};
 }
 
-// Of a chunk's contacts, and of what fills it.
+// The kind of each contact of a chunk, and of the copies that fill it.
 const std::int32_t* ContactPass::kinds_of(const ContactRules& rules, const ContactGroup& group,
                                           const Grains& grains, const Chunk& chunk) const {
     static constexpr std::int32_t kOne[kChunk] = {};
@@ -47,7 +47,8 @@ const std::int32_t* ContactPass::kinds_of(const ContactRules& rules, const Conta
 
 namespace {
 
-// The second law of a chunk starts behind the first in each block of the history.
+// Resistance to rolling is the second law of a chunk. In each block of the history its numbers stand behind
+// those of the first law.
 LawInput for_rolling(const ContactGroup& group, LawInput in) {
     in.parameters = &group.rolling_parameters;
     return in;
@@ -68,8 +69,8 @@ std::uint64_t ContactPass::which_touch(const ContactRules& rules, const ContactG
     return touching & bits_of_first(chunk.count);
 }
 
-// work(c, bits): of the 64 candidates from c on, those that touch; of candidates [from, to), from being a
-// multiple of 64.
+// Calls work(c, bits) for each 64 of the candidates [from, to): the bits say which of the candidates from c
+// on touch. `from` is a multiple of 64.
 template <class Work>
 void ContactPass::each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                           const ContactTable& table, std::int32_t from, std::int32_t to,
@@ -92,10 +93,10 @@ void ContactPass::admit_all(const Step& in, ContactTable& table, std::int32_t fr
                             [&](std::int32_t c, std::uint64_t touching) { table.admit(c, touching); });
 }
 
-// Pairs of a small bed. In a large one the places that all candidates bring to the cache are wanted by
-// contacts soon after, and picking some waited longer for each (contacts 1.15 times as long).
+// For pairs of a small bed. A large bed looks at all candidates: this brings their places to the cache, and
+// contacts need them soon after. (With lists, contacts took 1.15 times as long there.)
 //
-// As long as the gap is small few pairs are in it, and as long as it is large it lasts.
+// kShare is a compromise. A small gap holds few pairs; a large gap makes a list last longer.
 void ContactPass::admit_soon(const Step& in, ContactTable& table) {
     constexpr double kShare = 1.0 / 10;
     soon_[in.g].each(kShare * skin_, [&](SoonList& soon, double gap) {
@@ -159,7 +160,7 @@ void ContactPass::compute_stretch(const Step& in, ContactTable& table, std::int3
     }
 }
 
-// Where to read those of the contacts from c on.
+// Where to read the bodies of `count` contacts from c on.
 Halo::Bodies ContactPass::bodies_of(std::size_t g, const ContactGroup& group, std::int32_t c, int count) {
     const ContactTable& table = tables_[g];
     if (c < table.sorted()) return found_[g].contacts.of(table.first(), table.second(), c);
@@ -179,6 +180,10 @@ void ContactPass::compute_chunk(const Step& in, ContactTable& table, std::int32_
     const LawInput law = prepare(in.rules, group, in.grains, in.walls, in.passed, chunk, bodies, rounded);
     table.note_touching(c, touch_.touching);
     void* history = table.histories().of_block(c);
+    // From here to the formula: step_any() and step_chunk() (engine/laws/kernel-inl.hpp) load a register of
+    // contacts, ContactLaw::force() (contact_law-inl.hpp) joins the two laws, and their force() is the
+    // formula: SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force() (linear_spring-inl.hpp)
+    // and so on.
     group.law->step(law, history, force_);
     if (group.rolling) group.rolling->step(for_rolling(group, law), behind_law(group, history), force_);
     clock.lap(group.of_pairs ? Cost::contacts : Cost::walls);
@@ -219,7 +224,7 @@ void ContactPass::observe(const ContactRules& rules, std::size_t g, const Grains
             show(group, in, table.histories().of_block(c), chunk, begin > 0, seen);
         }
     });
-    // Where positions have moved on since the forces, some touch that had none yet.
+    // Positions may have moved on since the forces. So some candidates may touch that have no contact yet.
     Histories none;
     none.shape(group.history_size(), group.number_size());
     none.resize(kBlock);

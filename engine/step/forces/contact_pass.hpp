@@ -1,7 +1,8 @@
-// The contact pass of one thread: the contacts of its own grains, a chunk at a time, through geometry and law
-// into the loads of its grains. A contact between grains of two threads is computed by both, each for its own
-// grain: cheaper than handing forces over, and every grain sums its contacts in one order, whatever the
-// threads.
+// The contact pass of one thread. It takes the contacts of the thread's own grains through geometry and law,
+// a chunk at a time, and adds the forces to the loads of the grains.
+//
+// Two threads compute a contact between their grains both, each for its own grain. This is cheaper than
+// handing forces over. It also lets every grain sum its contacts in one order, whatever the threads.
 #pragma once
 
 #include <cstdint>
@@ -20,86 +21,89 @@
 
 namespace grainreel {
 
+// The thread that owns the grain.
 int owner_of(const Shares& shares, std::int32_t grain);
 
-// Grains in a new order, and shared out anew.
+// A new order of the grains, and new shares of the threads.
 struct Renumbering {
-    const std::vector<std::int32_t>& index;  // the new one of each old one
+    const std::vector<std::int32_t>& index;  // new index of each grain, by its old index
     const Shares &before, &after;
 };
 
 class ContactPass {
   public:
-    // Adds to each own grain's count, which stands under the grain's new number, the contacts of which it is
-    // the first body.
+    // Adds to `count` the number of contacts of which each own grain is the first body. `index` gives the
+    // grain's new number, under which it is counted.
     void count_contacts(const std::vector<std::int32_t>& index, std::vector<std::int32_t>& count) const;
 
-    // New numbers for all contacts; those that another thread has to do with from now on, and had not, go to
-    // `leaving` by group, tagged with it.
+    // Gives the bodies of all contacts their new numbers. Contacts that another thread needs from now on, and
+    // did not have, go to `leaving` by group. Their tag is the number of that thread.
     void renumber(const ContactRules& rules, int member, const Renumbering& to,
                   std::vector<KeptContacts>& leaving);
-    // The other end of that.
+    // Takes the contacts that other threads have put into `leaving` for this one.
     void take(int member, const std::vector<KeptContacts>& leaving);
 
-    // New numbers where some grains, whose new index is kGone, have left and the others keep their order. The
-    // contacts of those are dropped. own() and refresh() are to follow.
+    // Renumbers contacts after some grains have left; the others keep their order. A grain that has left has
+    // the new index kGone, and its contacts are dropped. own() and refresh() must follow.
     static constexpr std::int32_t kGone = -1;
     void leave_out(const ContactRules& rules, const std::vector<std::int32_t>& index);
 
     // Sets the thread's own grains [begin, end) and finds its pairs in the new neighbour lists.
     void own(const ContactRules& rules, const NeighbourLists& lists, std::int32_t begin, std::int32_t end);
 
-    // The other threads' grains that compute() reads: after own(), all that are listed, which are more than
-    // after any refresh().
+    // The grains of other threads that compute() reads. After own() they are all listed neighbours, which are
+    // more than after any refresh().
     Halo& halo() { return halo_; }
-    // After a refresh: those of the contacts and candidates.
+    // Call after a refresh: only those of the contacts and candidates are read from now on.
     void list_foreign(const ContactRules& rules, Grains& grains, const Shares& shares);
 
-    // Drops contacts that have parted, and takes from the neighbour lists, those of own(), what may come to
-    // touch within `skin` (m).
+    // Drops contacts that have parted, and lists new candidates: the pairs of the neighbour lists that are
+    // closer than `skin` (m). The neighbour lists are those of own().
     void refresh(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                  const std::vector<Face>& faces, const Pose& pose, double skin);
 
-    // A force that is still to act, half a step long, of a contact with a grain that has left: the grain
-    // counts as one that has contacts.
+    // Counts grains that have a load among those that have contacts. A grain that has lost its contact with a
+    // grain that left still has the load of that contact for half a step.
     void note_loads(const Grains& grains);
-    // Of the own grains, those that have contacts.
+    // The own grains that have contacts.
     const Loaded& loaded() const { return loaded_; }
 
-    // Contacts under own grains that no longer touch, and are computed all the same until the next refresh.
+    // The number of contacts under own grains that no longer touch. They are computed until the next refresh.
     std::int64_t parted() const;
 
-    // For checkpoints: the contacts under own grains by group, and how many steps ago their order began.
+    // For checkpoints: the contacts under own grains by group, and the number of steps since the last
+    // refresh.
     void keep(std::vector<KeptContacts>& kept) const;
     std::int32_t steps_since_refresh() const { return tables_[0].step(); }
-    // Takes back what has to do with own grains.
+    // Takes back the kept contacts of own grains.
     void restore(const ContactRules& rules, const std::vector<KeptContacts>& kept, std::int32_t steps);
     // As refresh(), but contacts stay as they are.
     void list_candidates(const ContactRules& rules, const Grains& grains, const NeighbourLists& lists,
                          const std::vector<Face>& faces, const Pose& pose, double skin);
 
-    // One step of all laws: adds the forces, of walls before those of pairs, to the loads of the own grains,
-    // and the moving walls' work to them. Grains go on as soon as their loads are complete.
+    // One step of all laws. Adds the forces of walls, then those of pairs, to the loads of the own grains,
+    // and the work of moving walls to their accounts. Grains of `vanguard` begin their next step as soon as
+    // their loads are complete.
     struct Passed {
-        double since;  // s, since the last forces
-        double ahead;  // steps, from the velocity between the two to that of now
-        double acts;   // s, that the forces will act
-        double turns;  // s: `since`, or 0 where positions and velocities are of one time
-        double moved;  // m, that no grain has surpassed since the last refresh
+        double since;  // s, time since the last forces
+        double ahead;  // steps, from the time of the known velocity to the time of these forces
+        double acts;   // s, how long these forces will act
+        double turns;  // s: `since`, or 0 where positions and velocities belong to one time
+        double moved;  // m; no grain has moved farther since the last refresh
     };
     void compute(const ContactRules& rules, Grains& grains, const WallState& state, const Passed& passed,
                  Vanguard& vanguard, CostClock& clock);
 
-    // Shows every contact of a group under an own grain that touches: its bodies, where to find it in the
-    // chunks, and whether it is late: the others come by rising first and second body, and which are late
-    // does not depend on the threads.
+    // Shows every touching contact of a group under an own grain: its bodies, whether it is late, and its
+    // place in the chunks. A late contact began since the last refresh; the others come by rising first and
+    // second body. Which contacts are late does not depend on the threads.
     using Seen = std::function<void(std::int32_t first, std::int32_t second, bool late, int at,
                                     const TouchChunk&, const ForceChunk&, const EnergyChunk&)>;
     void observe(const ContactRules& rules, std::size_t group, const Grains& grains, const WallState& state,
                  const Seen& seen) const;
 
   private:
-    // Contacts that stand side by side in a table, or were packed.
+    // Some contacts, at most kChunk, that stand side by side in arrays.
     struct Chunk {
         const std::int32_t *first, *second;
         int count;
@@ -129,7 +133,7 @@ class ContactPass {
     void list_soon(const Step& in, const ContactTable& table, SoonList& soon, double gap);
     static std::uint64_t which_touch(const ContactRules& rules, const ContactGroup& group,
                                      const Grains& grains, const WallState& state, const Chunk& chunk);
-    // found: where other threads' grains are read; nullptr to read them where they are.
+    // found: where to read the grains of other threads. With nullptr they are read directly.
     template <class Work>
     static void each_touching_candidate(const ContactRules& rules, const ContactGroup& group,
                                         const ContactTable& table, std::int32_t from, std::int32_t to,
@@ -152,7 +156,7 @@ class ContactPass {
     struct Pair {
         std::int32_t first, second;
     };
-    std::vector<Pair> incoming_;  // listed pairs of an earlier thread's grain and an own one
+    std::vector<Pair> incoming_;  // listed pairs of a grain of an earlier thread and an own grain
     Halo halo_;
     Loaded loaded_;
     struct Found {

@@ -13,7 +13,8 @@ namespace grainreel::HWY_NAMESPACE {
 
 constexpr std::uint64_t kAllTogether = (1 << kTogether) - 1;
 
-// Of grain i: position and radius; motion; force and torque.
+// The numbers of the grains: position and radius; motion; force and torque. Grain i's place starts at
+// place + 4 i, the others at 8 i.
 struct Numbers {
     double *place, *motion, *load;
     float* rounded;
@@ -29,13 +30,14 @@ struct Numbers {
           otherwise(in.unloaded ? 0 : ~std::uint64_t{0}),
           large(g.size() >= kLargeBed) {}
 
-    // Bit k: whether grain i + k may have a load.
+    // Bit k says whether grain i + k may have a load.
     HWY_INLINE std::uint64_t loads_from(std::ptrdiff_t i) const {
         return loaded ? loaded->from(static_cast<std::int32_t>(i)) : otherwise;
     }
 
-    // Four grains some way ahead of those at i, whose `loads` begin there: what contacts have not brought to
-    // the cache already, which is all of it where the bed is large, and what they read a copy of.
+    // Fetches kTogether grains that lie some way ahead of grain i. `loads` are the bits of loads_from(i). In
+    // a large bed everything is fetched. In a small bed contacts have brought it into the cache already,
+    // except the motion where contacts read its rounded copy.
     HWY_INLINE void fetch_ahead(std::ptrdiff_t i, std::uint64_t loads) const {
         constexpr std::ptrdiff_t ahead = 32;
         if (!large && !rounded) return;
@@ -51,7 +53,8 @@ struct Numbers {
     }
 };
 
-// What a pass works on of motion and load: velocity and force, and with friction spin and torque behind them.
+// The part of motion and load that a pass works on: velocity and force. With friction, spin and torque
+// follow.
 template <bool rubs>
 struct MotionRecord {
     static constexpr int size = rubs ? 8 : 4;
@@ -61,25 +64,25 @@ struct MotionRecord {
         else
             return first;
     }
-    // (x, x, x, fourth) twice: kicks leave mass and inertia as they are.
+    // (x, x, x, fourth), twice. With fourth = 0 a kick leaves mass and inertia as they are.
     static HWY_INLINE Record<size> of(double x, double fourth = 0) {
         const Record<4> four = record_of(Vec3(x, x, x), fourth);
         return of(four, four);
     }
-    // As mixed precision reads it.
+    // Velocity, spin and radius: the record that mixed precision reads.
     static HWY_INLINE Record<8> with_radius(const Record<size>& motion, double radius) {
         if constexpr (rubs)
             return with_last(motion, radius);
         else
             return both(motion, with_last(record_of(0.0), radius));
     }
-    // Each half's fourth number, everywhere in it.
+    // Each half filled with its own fourth number.
     static HWY_INLINE Record<size> fourths(const double* from) {
         return of(record_of(from[3]), record_of(from[7]));
     }
 };
 
-// Whether a pass over the grains ends a step, begins one, or both.
+// A pass over the grains that ends a step, begins one, or both.
 template <bool ends, bool begins, bool rubs, bool drags>
 HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     using Whole = MotionRecord<rubs>;
@@ -88,7 +91,7 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
     const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
     const Record<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
     const Record<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
-    const Vec3 no_minus_zero = in.gravity + Vec3::Zero();  // as with a load of zero
+    const Vec3 no_minus_zero = in.gravity + Vec3::Zero();  // the same bits as with a load of zero
     const Record<size> gravity = Whole::of(record_of(no_minus_zero), zero);
     const Record<size> frame = Whole::of(record_of(in.frame), zero);
     Record<4> fastest = zero;
@@ -156,7 +159,7 @@ namespace grainreel {
 
 namespace {
 
-// Rotates q by the angle rate * step about the rate's axis; q stays of unit length.
+// Rotates q about the axis of `rate` by the angle |rate| * step. q keeps unit length.
 Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
     const double angle = rate.norm() * step;
     if (angle == 0) return q;
@@ -266,8 +269,8 @@ void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::
     }
 }
 
-// Coefficients 1/6, 5/6, 1, 1/3 for a force that gives the second derivative; 5/12, 1, 1/2 for a torque that
-// gives the first.
+// Gear's coefficients are 1/6, 5/6, 1, 1/3 where a force gives the second derivative (positions), and 5/12,
+// 1, 1/2 where a torque gives the first derivative (spins).
 void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     const double h = in.drift;
     for (std::int32_t i = begin; i < end; ++i) {

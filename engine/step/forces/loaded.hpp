@@ -1,6 +1,6 @@
-// Which of a thread's grains contacts may push before its lists are made again. The loads of the others are
-// zero and stay so: they need neither be read nor cleared, and where they fly to, another thread can tell as
-// well as their owner.
+// Marks those of a thread's grains that have contacts. Only these can get a load before the lists are made
+// again. The load of any other grain is zero and stays zero, so it is neither read nor cleared. Another
+// thread can compute the flight of such a grain as well as its owner can.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace grainreel {
 
-// A bit a grain: a bed of a million has room for them in the cache.
+// One bit for each grain, so that the bits of a million grains fit into the cache.
 class Loaded {
   public:
-    // None of the grains [begin, end).
+    // The thread owns [begin, end), and none of these grains is marked.
     void clear(std::int32_t begin, std::int32_t end) {
         begin_ = begin, end_ = end, count_ = 0;
         words_.assign((end - begin) / 64 + 2, 0);
     }
-    // Of other grains nothing is noted.
+    // Marks a grain. Grains of other threads are ignored.
     void note(std::int32_t grain) {
         if (grain < begin_ || grain >= end_) return;
         const auto at = static_cast<std::uint32_t>(grain - begin_);
@@ -25,9 +25,9 @@ class Loaded {
         words_[at / 64] |= bit;
     }
     bool has(std::int32_t grain) const { return from(grain) & 1; }
-    // So few that it pays to look for the others: a quarter of the grains, or less.
+    // Whether so few grains are marked that it pays to treat the others apart: a quarter or less.
     bool few() const { return count_ <= (end_ - begin_) / 4; }
-    // A bit a grain from this one on, which is one of the thread's.
+    // The bits of 64 grains from `grain` on. It must be one of the thread's own grains.
     std::uint64_t from(std::int32_t grain) const {
         const auto at = static_cast<std::uint32_t>(grain - begin_);
         return words_[at / 64] >> at % 64 | words_[at / 64 + 1] << 1 << (63 - at % 64);

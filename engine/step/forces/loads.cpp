@@ -12,14 +12,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Of L::count contacts: what the second body gains in force and the first loses, and what they lose and gain
-// in torque.
+// Forces and torques of L::count contacts. The second body gains `force`, and the first body loses it. In the
+// same way the first body loses the torque `first_loses`, and the second gains `second_gains`.
 template <class L>
 struct Pushes {
     Triple<L> force, first_loses, second_gains;
 };
 
-// Torques are -arm * turning with turning = k x T, for both; what resists rolling comes on top.
+// With turning = k x T, the torque on either body is -arm * turning. Resistance to rolling is added to it.
 template <class L, bool rubs>
 HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
     const Triple<L> k = triple_at<L>(chunk.touch->normal, c);
@@ -45,8 +45,9 @@ HWY_INLINE double* numbers(Load& one) {
     return reinterpret_cast<double*>(&one);
 }
 
-// Force and torque of contacts on one of their bodies, contact by contact; without friction the force alone.
-// They stay in registers: what is stored in one piece and loaded in another has to wait.
+// Force and torque on one body of each contact, contact by contact. Without friction it is the force alone.
+// They stay in registers. Storing them in one shape and loading them in another would make the processor
+// wait.
 template <bool rubs>
 HWY_INLINE auto by_contact(const Triple<Lanes>& force, const Triple<Lanes>& torque) {
     const auto four = [](const Triple<Lanes>& t) HWY_ATTR {
@@ -68,7 +69,7 @@ HWY_INLINE auto by_contact(const Triple<FloatLanes>& force, const Triple<FloatLa
         return float_rows_of(four(force));
 }
 
-// work<k>() for the first `count` contacts of a register, in their order.
+// Calls work<k>() for the first `count` contacts of a register, in their order.
 template <class L, class Work>
 HWY_INLINE void each_of(int count, const Work& work) {
     const auto in_turn = [&]<int... k>(std::integer_sequence<int, k...>) HWY_ATTR {
@@ -89,9 +90,9 @@ HWY_INLINE void take_off(double* load, const Record<size>& less) {
     put(record_at<size>(load) - less, load);
 }
 
-// Of sorted contacts a register's second bodies come before all of its first ones: no grain notices, as its
-// contacts as second body precede those as first, and loads that follow each other lie apart (1.3 times as
-// fast as in turn).
+// In a register of sorted contacts, all second bodies are served before all first bodies. This changes no
+// sum, because a grain's contacts as second body come before those as first body anyway. Successive loads
+// then lie apart in memory, which is 1.3 times as fast as first and second in turn.
 template <class L, bool rubs, bool sorted>
 HWY_INLINE void add_each(const ChunkOfContacts& chunk, Load* loads) {
     for (int c = 0; c < chunk.count; c += L::count) {
@@ -131,7 +132,7 @@ void pairs(const ChunkOfContacts& chunk, Grains& grains) {
                   : pairs_at<Lanes>(chunk, grains.load.data());
 }
 
-// J: the work that walls do on their grains through forces on the walls.
+// The work (J) that walls do on their grains. `force` is the force on the wall.
 template <class L>
 HWY_INLINE void put_work(const WallForces& in, int c, const Triple<L>& force, double* work) {
     alignas(64) double rows[3][L::count];

@@ -1,4 +1,4 @@
-// From a law's answer to forces and torques on grains.
+// Adds forces and torques to the grains, from what a law has computed.
 #pragma once
 
 #include <cstdint>
@@ -9,29 +9,29 @@
 
 namespace grainreel {
 
-// A chunk's contacts.
+// The contacts of a chunk.
 struct ChunkOfContacts {
-    const std::int32_t *first, *second;  // of a wall contact: grain, face
+    const std::int32_t *first, *second;  // the two bodies; at a wall: grain and face
     int count;
     const TouchChunk* touch;
     const ForceChunk* force;
     bool rubs;
-    const RollingChunk* rolling;  // nullptr where rolling meets no resistance
+    const RollingChunk* rolling;  // nullptr: no resistance to rolling
     bool rounded;                 // rows hold floats
-    bool sorted = false;          // by rising first body, which is lower than the second
+    bool sorted = false;          // by rising first body; each first body is lower than its second
 };
 
-// Adds them to the loads of their grains: each grain's one after the other, in the contacts' order.
+// Adds the forces of pairs to the loads of their grains. Each grain sums its forces in the contacts' order.
 void add_pairs(const ChunkOfContacts& chunk, Grains& grains);
-// Contacts with walls.
+
 struct WallForces {
     const ChunkOfContacts& contacts;
     const WallState& walls;
-    double step;  // s, that the forces act
+    double step;  // s, how long the forces act
     Grains& grains;
 };
 
-// Adds them to the grains' loads, and what walls do as they move to the work.
+// Adds the forces of walls to the grains' loads, and the work of moving walls to Grains::wall_work.
 void add_walls(const WallForces& forces);
 
 }  // namespace grainreel

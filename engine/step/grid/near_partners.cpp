@@ -19,7 +19,7 @@ std::int32_t near_ones(const Grains& grains, std::int32_t i, double skin, double
     const Place& own = grains.place[i];
     const Triple<Lanes> centre{Lanes(own.position.x()), Lanes(own.position.y()), Lanes(own.position.z())};
     const Lanes reach(own.radius + skin), index(static_cast<double>(i));
-    for (int c = count; c % kLanes != 0; ++c) candidates[c] = i;  // who is not above itself
+    for (int c = count; c % kLanes != 0; ++c) candidates[c] = i;  // i is not above itself, so it is not kept
     std::int32_t kept = 0;
     for (int c = 0; c < count; c += kLanes) {
         const auto other = load_records(place, sizeof(Place) / sizeof(double), candidates + c);
@@ -28,10 +28,11 @@ std::int32_t near_ones(const Grains& grains, std::int32_t i, double skin, double
         const Lanes limit = reach + Lanes(other.d);
         const auto partners = hn::LoadU(Indices(), candidates + c);
         const Lanes above(hn::PromoteTo(Doubles(), partners));
-        // Highway wants eight bytes to be there.
+        // Highway reads eight bytes.
         const std::uint8_t near[8] = {
             static_cast<std::uint8_t>(bits((apart.squared() < limit * limit) & (above > index)))};
-        // A whole register, over what has been read: storing some of its lanes takes Zen 4 a hundred cycles.
+        // A whole register is stored, over candidates that have been read already. On Zen 4, storing some
+        // lanes only takes a hundred cycles.
         hn::StoreU(hn::CompressBits(partners, near), Indices(), candidates + kept);
         kept += std::popcount(near[0]);
     }

@@ -1,4 +1,4 @@
-// Who of a grain's surroundings is near enough for its neighbour list.
+// Picks those grains around a grain that are near enough for its neighbour list.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,12 @@
 
 namespace grainreel {
 
-// So many numbers behind the candidates keep_near() may read and write.
+// keep_near() may read and write this many numbers behind the candidates.
 constexpr std::int32_t kNearSlack = 16;
 
-// Of `count` candidates those above i that are closer to it than the sum of both radii and `skin` (m) move to
-// the front, in their order. How many they are. period: m, of x; 0 for none.
+// Moves the near candidates to the front, in their order, and returns how many they are. A candidate is near
+// if its index is above i and its distance is less than the sum of both radii and `skin` (m).
+// period: of x, in m; 0 for none.
 std::int32_t keep_near(const Grains& grains, std::int32_t i, double skin, double period,
                        std::int32_t* candidates, std::int32_t count);
 

@@ -1,4 +1,4 @@
-// Grains' places in registers.
+// Loads the places of grains into registers.
 #if defined(GRAINREEL_STEP_PLACES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_STEP_PLACES_INL
 #undef GRAINREEL_STEP_PLACES_INL
@@ -11,6 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
+// The records as an array of doubles.
 template <class Records>
 HWY_INLINE const double* numbers(const Records& records) {
     return reinterpret_cast<const double*>(records.data());
@@ -21,6 +22,7 @@ HWY_INLINE Triple<LanesOf<D>> triple(const Four<D>& f) {
     return {LanesOf<D>(f.a), LanesOf<D>(f.b), LanesOf<D>(f.c)};
 }
 
+// The difference x between two grains, taken to the nearest periodic image.
 HWY_INLINE Lanes nearest(Lanes x, Lanes period) {
     const Lanes half = period * Lanes(0.5);
     const Lanes low = select(x > half, x - period, x);

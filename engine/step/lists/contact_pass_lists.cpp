@@ -1,4 +1,4 @@
-// The contact pass's lists: who is near, which contacts are whose, which have parted.
+// The lists of the contact pass: near pairs, the contacts of each thread, and contacts that have parted.
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -10,7 +10,7 @@ namespace grainreel {
 
 namespace {
 
-// Collects pairs until there is a chunk of them, and passes on those closer than `gap` (m).
+// Collects pairs into chunks, and passes on those that are closer than `gap` (m).
 template <class Pass>
 class NearPairs {
   public:
@@ -20,8 +20,8 @@ class NearPairs {
         first_[count_] = i, second_[count_] = j;
         if (++count_ == kChunk) pass_chunk();
     }
-    // A grain's partners, which it copies eight by eight, so that how many they are need not be predicted.
-    // What is behind them can be read up to `end`.
+    // Adds all partners of a grain. They are copied eight at a time, so that the processor need not predict
+    // how many there are. Memory behind the partners can be read up to `end`.
     void add(std::int32_t i, const std::int32_t* partner, std::int32_t partners, const std::int32_t* end) {
         if (end - partner < partners + kMore) {
             for (std::int32_t k = 0; k < partners; ++k) add(i, partner[k]);
@@ -35,7 +35,7 @@ class NearPairs {
         }
     }
     void flush() {
-        // Up to a whole register, with what this thread may read.
+        // Copies of the last pair fill the last block. This thread may read them.
         for (int k = count_; k > 0 && k % kBlock != 0; ++k)
             first_[k] = first_[k - 1], second_[k] = second_[k - 1];
         pass_near(count_);
@@ -67,13 +67,13 @@ class NearPairs {
     int count_ = 0;
 };
 
-// Where the wall neighbours of grains from `begin` on start in their list.
+// Where the wall neighbours of the grains from `begin` on start in the list.
 std::int32_t first_wall_slot(const std::vector<WallNeighbour>& list, std::int32_t begin) {
     const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
     return static_cast<std::int32_t>(std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin());
 }
 
-// Of a contact whose bodies change places.
+// Changes the history of a contact whose bodies change places.
 void turn_history(const ContactGroup& group, Histories& histories, std::int32_t c) {
     for (int k = 0; k < group.history_size(); ++k) {
         if (group.turns(k)) histories.set(c, k, -histories.get(c, k));

@@ -20,7 +20,7 @@ LawParameters of_first_kind(const LawParameters& p) {
     return first;
 }
 
-// Kinds that do not differ are one: no lookup.
+// Merges kinds that do not differ, so that parameters need not be looked up by kind.
 void merge_equal_kinds(ContactGroup& group) {
     if (!all_kinds_equal(group.parameters) || !all_kinds_equal(group.rolling_parameters)) return;
     group.parameters = of_first_kind(group.parameters);
@@ -28,7 +28,7 @@ void merge_equal_kinds(ContactGroup& group) {
     std::fill(group.row.begin(), group.row.end(), 0);
 }
 
-// Adds the groups of all pairs, or of all walls, and says which kind is in which.
+// Adds the groups of all pairs, or of all walls. Returns the group of each kind.
 std::vector<std::int32_t> add_groups(const std::vector<PairPlan>& kinds, bool of_pairs,
                                      std::vector<ContactGroup>& groups) {
     const std::size_t begin = groups.size();

@@ -1,5 +1,5 @@
-// Which contact follows which law: contacts of one law form a group, so that each list runs through one
-// kernel, and a wall without friction costs none though the grains have some.
+// Which contact follows which law. Contacts of one law form a group with lists of its own, and each group
+// runs through one kernel. So a wall without friction costs no friction, even where the grains have some.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +10,30 @@
 
 namespace grainreel {
 
-// A kind of contact is a pair of species (first x species + second), or a species and a wall (its number).
+// A group of contacts that follow one law. It may hold several kinds of contact. A kind of contact between
+// grains is a pair of species, numbered first x species + second. A kind of contact with walls is a species.
 struct ContactGroup {
     ContactModel model;
     const LawKernel* law;
-    const LawKernel* rolling;  // nullptr where rolling meets no resistance
+    const LawKernel* rolling;  // nullptr: no resistance to rolling
     bool of_pairs;
     LawParameters parameters, rolling_parameters;
-    std::vector<std::int32_t> row;  // of each kind in the parameters
+    std::vector<std::int32_t> row;  // where each kind stands in the parameters
 
     std::size_t number_size() const { return law->number_size; }
     int history_size() const { return law->history_size + (rolling ? rolling->history_size : 0); }
-    bool turns(int number) const;  // of the history: changes sign when the bodies change places
+    bool turns(int number) const;  // whether this number of the history changes sign when bodies swap places
     bool needs_rows() const { return parameters.kinds > 1; }
 };
 
 struct ContactRules {
     std::vector<ContactGroup> groups;                        // those of pairs first
-    std::vector<std::int32_t> group_of_pair, group_of_wall;  // of each kind
+    std::vector<std::int32_t> group_of_pair, group_of_wall;  // the group of each kind
     std::int32_t species;
     LeverArms arms;
     double period;  // m, of x; 0 for none
-    bool rubs;      // any contact does
-    bool rounds;    // any law of pairs takes Grains::rounded
+    bool rubs;      // whether any contact has friction
+    bool rounds;    // whether any law of pairs reads Grains::rounded
 
     ContactRules(const Plan& plan, double period_of_x);
     bool one_group_of_pairs() const { return groups.size() < 2 || !groups[1].of_pairs; }

@@ -18,7 +18,7 @@ void ContactTable::shape(int history_size, std::size_t number_size) {
     batches_.reserve(256);
 }
 
-// A contact without a history that is taken to touch.
+// Adds a contact that touches and has no history yet.
 void ContactTable::add(std::int32_t i, std::int32_t j) {
     if (size_ == sorted_) {
         fill_up();
@@ -39,7 +39,8 @@ void ContactTable::add(std::int32_t i, std::int32_t j) {
     ++size_;
 }
 
-// A little at a time: histories are most of a run's memory, and doubling would leave half of it idle.
+// Memory grows by a little at a time. Histories are most of a run's memory, and doubling it would leave half
+// of it unused.
 void ContactTable::reserve(std::size_t room) {
     if (room <= first_.capacity()) return;
     room += (room / 32 + kBlock) / kBlock * kBlock;
@@ -48,7 +49,7 @@ void ContactTable::reserve(std::size_t room) {
     histories_.reserve(static_cast<std::int32_t>(room));
     reorder_.reserve(room);
     near_second_.reserve(room);
-    near_first_.reserve(room);  // which has the order of the contacts while they are sorted
+    near_first_.reserve(room);  // while contacts are sorted, it holds their order
     young_.reserve(room / 8);
     touching_.reserve(room / 64 + 1);
 }
@@ -63,7 +64,7 @@ void ContactTable::make_room_for_candidates() {
     near_first_.resize(near_second_.size());
 }
 
-// What stands behind the last contact repeats it, so that all that is read makes sense.
+// Fills the places behind the last contact with copies of it, so that everything that is read is valid.
 void ContactTable::fill_up() {
     for (std::size_t c = size_; c < first_.size(); ++c) {
         first_[c] = size_ > 0 ? first_[c - 1] : 0;
@@ -72,7 +73,7 @@ void ContactTable::fill_up() {
 }
 
 void ContactTable::sort() {
-    LargeArray<std::int32_t>& order = near_first_;  // candidates are void
+    LargeArray<std::int32_t>& order = near_first_;  // the candidates are no longer needed
     order_contacts(order);
     const auto stay = static_cast<std::int32_t>(order.size());
     permute(order);
@@ -88,7 +89,7 @@ void ContactTable::sort() {
     fill_up();
 }
 
-// The contacts that touch, sorted, into `order`. The few that began lately are merged into the others.
+// Writes the touching contacts into `order`, sorted. The few that began lately are merged into the others.
 void ContactTable::order_contacts(LargeArray<std::int32_t>& order) {
     const auto less = [this](std::int32_t a, std::int32_t b) { return before(a, b); };
     order.clear();
@@ -105,8 +106,8 @@ void ContactTable::order_contacts(LargeArray<std::int32_t>& order) {
         order[to] = old >= 0 && less(young_[young], order[old]) ? order[old--] : young_[young--];
 }
 
-// Array by array, so that what has kept its neighbourhood is read line after line. (In place, along the
-// cycles of the permutation, a million's took a tenth of its time.)
+// Reorders one array after the other. Contacts that keep their neighbours are then read line after line. (In
+// place, along the cycles of the permutation, it took a tenth of the time of a million grains.)
 void ContactTable::permute(const LargeArray<std::int32_t>& order) {
     reorder_.set(order);
     for (auto* bodies : {&first_, &second_}) {
@@ -117,7 +118,7 @@ void ContactTable::permute(const LargeArray<std::int32_t>& order) {
 }
 
 void ContactTable::begin_candidates() {
-    near_first_.resize(near_second_.size());  // it has held the order
+    near_first_.resize(near_second_.size());  // sort() has used it for the order
     candidates_ = 0;
     cursor_ = 0;
 }

@@ -1,10 +1,13 @@
-// The contacts of one law under one thread: by rising first and second body, then, behind these and some
-// empty places, the late ones, which began since the last sort(). A contact that has parted keeps its place,
-// without a force or a history, until then. Beside them the candidates: pairs so close that they may touch
-// before the next refresh. The same table serves grains at walls.
+// The contacts of one law under one thread. First come the sorted contacts, by rising first and second body.
+// Behind these and some empty places stand the late contacts, which began since the last sort(). A contact
+// that has parted keeps its place until the next sort(), without a force or a history.
 //
-// Why not one list of all near pairs, whose histories stay where they are: a law wants what touches side by
-// side, and packing that anew each step cost a third of the contact pass (docs/notes/performance.md).
+// The table also holds the candidates: pairs that are so close that they may touch before the next refresh.
+// The same table serves grains at walls.
+//
+// One list of all near pairs, with the histories in fixed places, would be simpler. But a law needs the
+// touching contacts side by side, and packing them in each step cost a third of the contact pass
+// (docs/notes/performance.md).
 #pragma once
 
 #include <cstdint>
@@ -16,10 +19,10 @@
 
 namespace grainreel {
 
-// Contacts as they are handed from thread to thread, and to checkpoints.
+// Contacts on their way from thread to thread, or to a checkpoint.
 struct KeptContacts {
     std::vector<std::int32_t> first, second;  // of a wall contact: grain, face
-    std::vector<std::int32_t> tag;            // the thread it is for; to checkpoints: ContactTable::age()
+    std::vector<std::int32_t> tag;            // the thread to go to; in checkpoints: ContactTable::age()
     std::vector<double> history;              // contact by contact
 
     std::size_t size() const { return first.size(); }
@@ -29,11 +32,11 @@ struct KeptContacts {
 
 class ContactTable {
   public:
-    // No contacts; histories of so many numbers.
+    // Empties the table. Histories will have so many numbers, of so many bytes each.
     void shape(int history_size, std::size_t number_size);
 
-    // The contacts in order are [0, sorted()), the late ones [late(), size()); behind both stands more to
-    // fill a block, so that whole registers can be read. Empty places do not touch.
+    // The sorted contacts are [0, sorted()), the late ones [late(), size()). Copies fill the last block
+    // behind both, so that whole registers can be read. Empty places do not touch.
     std::int32_t sorted() const { return sorted_; }
     std::int32_t late() const { return (sorted_ + 63) / 64 * 64; }
     std::int32_t size() const { return size_; }
@@ -41,19 +44,19 @@ class ContactTable {
     const std::int32_t* second() const { return second_.data(); }
     Histories& histories() { return histories_; }
     const Histories& histories() const { return histories_; }
-    // Of the 64 from c on, a multiple of 64: those that touch.
+    // One bit for each of the 64 contacts from c on: whether it touches. c is a multiple of 64.
     void note_touching(std::int32_t c, std::uint64_t touching) { touching_[c / 64] = touching; }
     std::uint64_t touching(std::int32_t c) const { return touching_[c / 64]; }
 
-    // Drops what does not touch and sorts the rest; candidates are void.
+    // Drops the contacts that do not touch and sorts the rest. The candidates become invalid.
     void sort();
 
-    // New candidates: begin_candidates(), then offer() pairs by rising i and j, then end_candidates(). A pair
-    // that has its place among the contacts is none.
+    // Sets new candidates: call begin_candidates(), then offer() for each pair by rising i and j, then
+    // end_candidates(). A pair that is among the contacts does not become a candidate.
     void begin_candidates();
     void offer(std::int32_t i, std::int32_t j) {
         if (candidates_ == std::ssize(near_second_)) make_room_for_candidates();
-        // No branch to mispredict: every pair is written, and the next one overwrites what is a contact.
+        // There is no branch to mispredict. Every pair is written, and the next pair overwrites a contact.
         near_first_[candidates_] = i, near_second_[candidates_] = j;
         candidates_ += !holds(i, j);
     }
@@ -62,33 +65,36 @@ class ContactTable {
     const std::int32_t* near_first() const { return near_first_.data(); }
     const std::int32_t* near_second() const { return near_second_.data(); }
 
-    // One step's beginning contacts: begin_step(), admit() for each 64 candidates, end_step().
+    // Contacts that begin in a step: call begin_step(), then admit() for each 64 candidates, then end_step().
     void begin_step() { ++step_; }
     void admit(std::int32_t c, std::uint64_t touching) {
         if (const std::uint64_t news = touching & ~admitted_[c / 64]; news != 0) add_candidates(c, news);
     }
-    std::int32_t end_step();  // the first of them; size() for none
-    // Of the 64 candidates from c on: those that have become contacts.
+    std::int32_t end_step();  // the first contact that began; size() if none did
+    // One bit for each of the 64 candidates from c on: whether it has become a contact.
     std::uint64_t admitted(std::int32_t c) const { return admitted_[c / 64]; }
 
-    // Renumbers the bodies of contact c; one that the thread no longer has to do with is dropped by sort().
+    // renumber() gives the bodies of contact c new numbers. drop() marks a contact as parted, and the next
+    // sort() removes it. After forget_order() all contacts count as unsorted.
     void renumber(std::int32_t c, std::int32_t i, std::int32_t j) { first_[c] = i, second_[c] = j; }
     void forget_order() { sorted_ = 0; }
     void drop(std::int32_t c) { touching_[c / 64] &= ~(std::uint64_t{1} << c % 64); }
     bool touches(std::int32_t c) const { return touching_[c / 64] >> c % 64 & 1; }
 
-    // Appends contact c to `kept`, or takes contact k of it.
+    // keep() appends contact c to `kept`; take() adds contact k of `kept` to the table.
     void keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const;
     void take(const KeptContacts& kept, std::size_t k);
-    // For checkpoints: at which step since the last sort() contact c began, ~ that if it has parted.
+    // For checkpoints: at which step since the last sort() contact c began. The bits are inverted (~) if the
+    // contact has parted.
     std::int32_t age(std::int32_t c) const;
     static std::int32_t began(std::int32_t age) { return age < 0 ? ~age : age; }
-    // Takes back contact k of those kept with their age as tag: all, in the order of it, first and second.
+    // restore() takes back contact k, whose tag is its age. Contacts must come in the order of age, first and
+    // second body. end_restore() follows.
     void restore(const KeptContacts& kept, std::size_t k);
     void end_restore(std::int32_t step);
     std::int32_t step() const { return step_; }
 
-    // work(begin, end): the stretches of contacts without empty places, the late ones first.
+    // Calls work(begin, end) for each stretch of contacts without empty places. The late ones come first.
     template <class Work>
     void each_stretch(const Work& work) const {
         work(late(), size_);
@@ -103,7 +109,7 @@ class ContactTable {
     static std::uint64_t key(std::int32_t i, std::int32_t j) {
         return std::uint64_t{static_cast<std::uint32_t>(i)} << 32 | static_cast<std::uint32_t>(j);
     }
-    // Asked for rising pairs.
+    // Whether the pair is among the contacts. Callers ask for rising pairs.
     bool holds(std::int32_t i, std::int32_t j) {
         const std::uint64_t pair = key(i, j);
         while (cursor_ < sorted_ && key(first_[cursor_], second_[cursor_]) < pair) ++cursor_;  // hardly ever
@@ -111,7 +117,8 @@ class ContactTable {
         cursor_ += found;
         return found || holds_late(i, j);
     }
-    bool holds_late(std::int32_t i, std::int32_t j) const {  // of a loaded checkpoint only
+    bool holds_late(std::int32_t i,
+                    std::int32_t j) const {  // there are such only after a checkpoint is loaded
         for (std::int32_t c = sorted_; c < size_; ++c) {
             if (first_[c] == i && second_[c] == j) return true;
         }
@@ -127,17 +134,17 @@ class ContactTable {
     std::int32_t size_ = 0, sorted_ = 0;
     LargeArray<std::int32_t> first_, second_;
     Histories histories_;
-    std::vector<std::uint64_t> touching_;  // a bit a contact
+    std::vector<std::uint64_t> touching_;  // one bit for each contact
 
     std::int32_t candidates_ = 0;
     LargeArray<std::int32_t> near_first_, near_second_;
-    std::vector<std::uint64_t> admitted_;  // a bit a candidate
-    std::int32_t cursor_ = 0;              // the first contact that may be offered next
+    std::vector<std::uint64_t> admitted_;  // one bit for each candidate
+    std::int32_t cursor_ = 0;              // contacts before this one have been offered
 
     struct Batch {
         std::int32_t from, step;
     };
-    std::vector<Batch> batches_;  // of contacts that began since the last sort
+    std::vector<Batch> batches_;  // contacts that began since the last sort, one batch for each step
     std::int32_t step_ = 0;
 
     LargeArray<std::int32_t> young_;  // while sorting: contacts that began since the last one

@@ -1,5 +1,6 @@
-// Histories of contacts as the laws' kernels want them: in blocks of kBlock contacts, within a block number
-// by number. The numbers are doubles, or floats with mixed precision.
+// The histories of contacts, in the layout that the kernels of the laws read. Contacts stand in blocks of
+// kBlock. A block holds the first number of all its contacts, then the second number, and so on. The numbers
+// are doubles, or floats with mixed precision.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ class Histories {
   public:
     static constexpr int kMostNumbers = 24;
 
-    // So many numbers a contact; no contact yet.
+    // Sets how many numbers a contact has, and their size in bytes. There are no contacts then.
     void shape(int numbers, std::size_t number_size) {
         GRAINREEL_CHECK(numbers <= kMostNumbers);
         numbers_ = numbers;
@@ -25,7 +26,7 @@ class Histories {
         lines_.clear();
     }
     int numbers() const { return numbers_; }  // of a contact
-    // Room for so many contacts; new ones hold zeros.
+    // Sets the number of contacts. New contacts hold zeros.
     void resize(std::int32_t contacts) { lines_.resize(lines_of(contacts)); }
     void reserve(std::int32_t contacts) { lines_.reserve(lines_of(contacts)); }
 
@@ -38,7 +39,7 @@ class Histories {
     void clear(std::int32_t contact) {
         for (int k = 0; k < numbers_; ++k) set(contact, k, 0);
     }
-    // Of `contacts` that there were.
+    // Puts the histories in a new order. `contacts` is their number before.
     void reorder(Reorder& order, std::int32_t contacts) {
         for (int k = 0; k < numbers_; ++k) {
             const auto block = [&](std::int32_t c) { return bytes() + place(c, k); };
@@ -46,7 +47,7 @@ class Histories {
         }
     }
 
-    // What LawKernel takes, for the block that starts with `contact`.
+    // The block that starts with `contact`, as LawKernel takes it.
     void* of_block(std::int32_t contact) { return bytes() + place(contact, 0); }
     const void* of_block(std::int32_t contact) const { return bytes() + place(contact, 0); }
 

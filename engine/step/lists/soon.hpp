@@ -1,9 +1,12 @@
-// Of the candidates of a table of pairs, those that may touch within a few steps. The others are not looked
-// at before grains have moved as far as that takes: of candidates that are to last for some fifty steps, few
-// are near at any time.
+// Lists the candidate pairs that may touch within a few steps. A step looks at these pairs only. Candidates
+// are to last for some fifty steps, so few of them are near at any time. A list is made anew once the grains
+// may have moved as far as its gap allows.
 //
-// There are several lists, of stretches of the candidates, that take turns in being made: were all made in
-// one step, one thread would wait for the other in that step, and be waited for in the steps between.
+// The candidates are cut into several stretches, and each stretch has its own list. The lists are made in
+// different steps. If all were made in the same step, one thread would wait for the other in that step.
+//
+// What this gains: a bed in flight takes 12 % fewer instructions, and the vibrated wedge 19 %; dense beds 1 %
+// (docs/notes/performance.md, "Three devices of the step").
 #pragma once
 
 #include <algorithm>
@@ -16,11 +19,12 @@
 
 namespace grainreel {
 
-// Of the candidates [from, to). There is room for half of them: where more are near, little would be saved.
+// The list of the candidates [from, to). It has room for half of them. If more are near, a list would save
+// little, and the step looks at all of them.
 class SoonList {
   public:
     SoonList() = default;
-    // room: where so many are noted, a whole number of blocks.
+    // Memory for the list: `size` pairs, a whole number of blocks.
     struct Room {
         std::int32_t *first, *second, *at;
         std::int32_t size;
@@ -29,12 +33,13 @@ class SoonList {
     std::int32_t from() const { return from_; }
     std::int32_t to() const { return to_; }
 
-    // moved: m, that no grain has surpassed since the candidates were listed. False before begin().
+    // Whether the list is still complete. moved: m; no grain has moved farther since the candidates were
+    // listed. False before begin().
     bool lasts(double moved) const { return moved <= lasts_until_; }
-    // A new list, of pairs closer to each other than `gap` (m): add() them by rising place as long as there
-    // is room, then end().
+    // Begins a new list of the pairs that are closer than `gap` (m). Call add() for each pair by rising place
+    // while there is room, then end().
     void begin(double moved, double gap) {
-        constexpr double kKeptBack = 0.1;  // for what is not counted: rounding, what a corrector adds
+        constexpr double kKeptBack = 0.1;  // reserve for rounding and for what a corrector adds
         lasts_until_ = moved + (1 - kKeptBack) * gap / 2;
         count_ = 0;
         all_ = false;
@@ -43,17 +48,17 @@ class SoonList {
     void add(std::int32_t first, std::int32_t second, std::int32_t at) {
         room_.first[count_] = first, room_.second[count_] = second, room_.at[count_++] = at;
     }
-    // What fills the last block repeats the last pair, so that whole registers can be read.
+    // Fills the last block with copies of the last pair, so that whole registers can be read.
     void end() {
         for (std::int32_t k = count_; k % kBlock != 0; ++k)
             room_.first[k] = room_.first[k - 1], room_.second[k] = room_.second[k - 1];
     }
-    // In place of a list: all candidates are to be looked at, for as long as it would have lasted.
+    // Gives up the list. The step looks at all candidates for as long as the list would have lasted.
     void give_up() { all_ = true; }
     bool are_all() const { return all_; }
 
     std::int32_t size() const { return count_; }
-    // Where to read the bodies, and the pair's place among the candidates.
+    // Where to read the two bodies, and the place of the pair among the candidates.
     const std::int32_t* first() const { return room_.first; }
     const std::int32_t* second() const { return room_.second; }
     std::int32_t at(std::int32_t k) const { return room_.at[k]; }
@@ -65,17 +70,17 @@ class SoonList {
     double lasts_until_ = -std::numeric_limits<double>::infinity();  // m
 };
 
-// Stretch after stretch.
+// The lists of all stretches.
 class Soon {
   public:
-    // As many as there are steps between two turns of a list.
+    // A list lasts about five steps. With five lists, about one of them is made in each step.
     static constexpr int kLists = 5;
 
     Soon() = default;
     Soon(Soon&&) = default;  // not copied: the lists point into the room
     Soon& operator=(Soon&&) = default;
 
-    // There are other candidates, so many: begin() of each list is to come before it is asked anything.
+    // Call when there are new candidates. begin() of each list must follow before the list is used.
     void expire(std::int32_t candidates) {
         const auto bound = [&](int k) {
             return k < kLists ? candidates / kChunk * k / kLists * kChunk : candidates;
@@ -94,8 +99,8 @@ class Soon {
         }
         is_new_ = true;
     }
-    // work(list, gap): the first lists are for gaps of a fifth, two fifths and so on, so that their turns
-    // come one by one.
+    // Calls work(list, gap) for each list. After expire(), the gaps are one fifth, two fifths and so on, so
+    // that the lists run out one after the other.
     template <class Work>
     void each(double gap, const Work& work) {
         for (int k = 0; k < kLists; ++k) work(list_[k], is_new_ ? gap * (k + 1) / kLists : gap);

@@ -12,7 +12,7 @@ namespace grainreel {
 
 namespace {
 
-// Numbers of a grain in a box: its position, and its motion in doubles or as mixed precision reads it.
+// How many numbers of a grain are in a box: its position, and its motion in doubles or in floats.
 constexpr int kPosition = 3;
 int numbers_of(const Grains& grains) {
     constexpr int kDoubles = 6, kFloats = sizeof(RoundedMotion) / sizeof(double);
@@ -74,7 +74,7 @@ void Halo::need(const std::int32_t* first, const std::int32_t* second, std::int3
     }
 }
 
-// A little more, or each new list would ask for memory.
+// Makes a little more room than needed. Otherwise each new list would ask for memory.
 void Halo::make_room(std::int32_t at, int owners) {
     at_ = at;
     const std::size_t room = foreign_.size() + foreign_.size() / 4 + kBlock;
@@ -111,7 +111,8 @@ void Halo::copy(Grains& grains) const {
     }
 }
 
-// A line that the reader has had must be taken back from it, which is three times as fast if asked for ahead.
+// Before a line is written, this processor must fetch it from the reader's cache. Asking for the line ahead
+// makes this three times as fast.
 void Halo::put(const Grains& grains, const Loaded* loaded, int owner, int box) {
     constexpr int kAhead = 16 * 8;
     const int numbers = numbers_of(grains);
@@ -123,7 +124,7 @@ void Halo::put(const Grains& grains, const Loaded* loaded, int owner, int box) {
     for (std::int32_t k = part.begin; k < part.end; k += kBits, ++words) {
         const int many = std::min(kBits, part.end - k);
         std::uint64_t comes = all ? bits_of_first(many) : 0;
-        if (!all)  // without a branch: who has a load cannot be predicted
+        if (!all)  // no branch for each grain: it would be mispredicted
             for (int bit = 0; bit < many; ++bit)
                 comes |= std::uint64_t{loaded->has(foreign_[k + bit])} << bit;
         for (std::uint64_t left = comes; left != 0; left &= left - 1) {

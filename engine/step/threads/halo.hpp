@@ -1,12 +1,14 @@
-// What a thread's contacts read of other threads' grains: copies, brought once a step through a box that the
-// owners write to and this thread reads. So nobody reads what another thread writes, one barrier a step is
-// enough, and a processor keeps the lines of the grains that it integrates.
+// Copies of other threads' grains, for the contacts of one thread. Once a step the owners write their grains
+// into a box, and this thread reads the box. No thread reads the arrays that another thread writes. So one
+// barrier a step is enough, and each processor keeps the cache lines of the grains that it integrates.
 //
-// Where few grains have contacts, only those come through the box: the copies of the others fly here as the
-// grains do there, by the same sums, which takes less time than a line that two processors share.
+// Where few grains have contacts, only these go through the box. A grain without contacts flies freely, so
+// this thread moves its copy by the same sums as the owner, to the same bits. This takes less time than a
+// cache line that two processors share: 1.03 times as fast in flight, nothing elsewhere
+// (docs/notes/performance.md, "Three devices of the step").
 //
-// Copies stand where contacts can reach them like grains: behind the last grain, in room that the grains'
-// arrays have beyond their size.
+// The copies stand behind the last grain, in reserved room of the grains' arrays. So a contact reads a copy
+// like a grain.
 #pragma once
 
 #include <array>
@@ -25,38 +27,39 @@ using Shares = std::vector<std::int32_t>;
 
 class alignas(64) Halo {
   public:
-    // The thread owns [begin, end) and reads grains at most `reach` beyond, of `grains` in all.
+    // The thread owns [begin, end). It reads grains whose index is at most `reach` beyond that range.
+    // `grains` is the number of all grains.
     void own(std::int32_t begin, std::int32_t end, std::int32_t reach, std::int32_t grains);
     bool owns(std::int32_t grain) const { return grain >= begin_ && grain < end_; }
-    // Which of them it reads until the next call: begin_list(), then need() in any order, as often as one
-    // likes.
+    // Says which of them the thread reads until the next begin_list(). Call begin_list(), then need() in any
+    // order; a grain may be named more than once.
     void begin_list();
     void need(std::int32_t grain) {
         if (owns(grain)) return;
         std::int32_t& slot = slot_[grain - lowest_];
         if (slot == kNone) foreign_.push_back(grain), slot = kNeeded;
     }
-    // Bodies of so many pairs.
+    // The bodies of `count` pairs.
     void need(const std::int32_t* first, const std::int32_t* second, std::int32_t count);
     std::int32_t size() const { return static_cast<std::int32_t>(foreign_.size()); }
-    // Makes room for as many of so many threads as are needed now, the copies' indices being those from `at`
-    // on.
+    // Makes room for as many copies as are needed now. The first copy gets the index `at`. `owners` is the
+    // number of threads.
     void make_room(std::int32_t at, int owners);
-    // Ends a list. The grains' arrays have room for the copies.
+    // Ends the list. The grains' arrays must have room for the copies.
     void end_list(Grains& grains, const Shares& shares);
-    // Sets all copies from the grains where they are: while no thread moves any.
+    // Sets all copies from the grains themselves. Call it only while no thread moves any grain.
     void copy(Grains& grains) const;
 
-    // By the owner: its grains as they are now, into one of two boxes; if few are `loaded`, only those
-    // (nullptr: all), which is what they remain until the next copy(). Who takes the boxes in turn needs no
-    // barrier but that between put() and get().
+    // Called by the owner: writes its grains into one of the two boxes. If few of them are `loaded`, only
+    // these are written, and the same must hold until the next copy(). With nullptr all are written. A caller
+    // that takes the two boxes in turn needs one barrier only, between put() and get().
     void put(const Grains& grains, const Loaded* loaded, int owner, int box);
-    // By the thread itself: to the copies. Those that have not come move from where they are, as their owner
-    // has moved all of his.
+    // Called by the thread itself: sets its copies from the box. Copies whose grains are not in the box are
+    // moved by `flight`, in the same way as the owner has moved the grains.
     void get(Grains& grains, int box, const Flight& flight);
 
-    // Where the bodies of `count` pairs, at most kChunk, and of what fills their last block, stand: foreign
-    // ones among the copies. Valid until the next call.
+    // Where to read the bodies of `count` pairs (at most kChunk) and of the copies that fill their last
+    // block. For grains of other threads this is the place of the copy. Valid until the next call.
     struct Bodies {
         const std::int32_t *first, *second;
     };
@@ -71,29 +74,30 @@ class alignas(64) Halo {
     struct alignas(64) Line {
         double number[8];
     };
-    // The copies [begin, end) of foreign_, of one owner, and its lines in a box: a bit a copy, whether it
-    // comes, then the numbers of those that do.
+    // One owner's part: the copies [begin, end) of foreign_, and the first line of the part in a box. The
+    // lines hold one bit for each copy, which says whether its grain is in the box. Then follow the numbers
+    // of these grains.
     struct Part {
         std::int32_t begin, end, line;
     };
     bool all_own(const std::int32_t* first, const std::int32_t* second, int count) const;
     Bodies find_foreign(const std::int32_t* first, const std::int32_t* second, int count);
 
-    static constexpr std::int32_t kNone = -1, kNeeded = -2;  // slots without a copy, or not yet
+    static constexpr std::int32_t kNone = -1, kNeeded = -2;  // slots that have no copy, or none yet
     std::int32_t begin_ = 0, end_ = 0, at_ = 0;
-    std::int32_t lowest_ = 0;            // grain that may be read
+    std::int32_t lowest_ = 0;            // the first grain that may be read
     std::vector<std::int32_t> foreign_;  // rising
-    std::vector<std::int32_t> slot_;     // of the grains from lowest_ on, own ones too: where to read them
+    std::vector<std::int32_t> slot_;     // where to read each grain from lowest_ on, own grains included
     std::vector<Part> part_;             // of each thread
     std::array<LargeArray<Line>, 2> box_;
     alignas(64) std::int32_t first_[kChunk] = {}, second_[kChunk] = {};
 };
 
-// A list of pairs as find() has it, worked out once for as long as the list stays.
+// The answers of find() for a whole list of pairs. They are computed once and hold as long as the list.
 class FoundPairs {
   public:
     void set(Halo& halo, const std::int32_t* first, const std::int32_t* second, std::int32_t count);
-    // The chunk of the list from c on, a multiple of kChunk.
+    // The bodies of the chunk that begins at pair c. c is a multiple of kChunk.
     Halo::Bodies of(const std::int32_t* first, const std::int32_t* second, std::int32_t c) const {
         const std::int32_t at = at_.empty() ? kAsListed : at_[c / kChunk];
         if (at == kAsListed) return {first + c, second + c};
@@ -102,11 +106,11 @@ class FoundPairs {
 
   private:
     static constexpr std::int32_t kAsListed = -1;
-    std::vector<std::int32_t> at_;              // of each chunk: where it stands in the following
-    std::vector<std::int32_t> first_, second_;  // of the chunks that have foreign bodies
+    std::vector<std::int32_t> at_;              // where each chunk begins in the next two arrays
+    std::vector<std::int32_t> first_, second_;  // bodies of the chunks that hold grains of other threads
 };
 
-// Room for so many copies.
+// Makes room for `count` copies behind the grains.
 void reserve_copies(Grains& grains, std::int32_t count);
 
 }  // namespace grainreel
