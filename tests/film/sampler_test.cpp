@@ -254,6 +254,12 @@ TEST(PlaybackCaption, SaysWhatIsPlayedWhereStepsAreCoarser) {
         EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, playback)})), clock), IsEmpty());
     }
     EXPECT_THAT(pace_warnings(scene_with(film_of({locked({}, 1, 0)})), clock), IsEmpty());
+    // What the warning says to write, to three digits, is not below what is played: 30 / 9001 is 0.003333.
+    Clock odd = clock;
+    odd.step = 1.0 / 9001;
+    EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, 1e-5)})), odd),
+                ElementsAre(HasSubstr("= 0.00334,")));
+    EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, 0.00334)})), odd), IsEmpty());
     EXPECT_EQ(playback_caption(motion({}, 1 / 20'000.33), drive_of(20), 30), "slow motion, 1/20000 speed");
 }
 

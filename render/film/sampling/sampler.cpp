@@ -137,6 +137,12 @@ std::string speed_words(double playback) {
     return fmt::format("{:.3g}", playback);
 }
 
+// To three digits, never below: a playback that is a little too small would bring its warning back.
+double rounded_up(double playback) {
+    const double digit = std::pow(10, std::floor(std::log10(playback)) - 2);
+    return std::ceil(playback / digit - 1e-9) * digit;
+}
+
 std::string pace_words(const FilmSegment& segment, const Drive& drive, double film_rate) {
     if (segment.kind == FilmSegment::Kind::motion) {
         if (segment.playback == 1) return "real time";
@@ -181,7 +187,7 @@ std::vector<std::string> pace_warnings(const Scene& scene, const Clock& clock) {
             "{}: a playback of {:.3g} wants frames closer than the steps of {:.3g} s: the film shows every "
             "step once and plays at {} speed; write {} = {:.3g}, or shorten run.step",
             scene.where(key), segments[i].playback, clock.step, speed_words(pace.playback), key,
-            pace.playback));
+            rounded_up(pace.playback)));
     }
     return warnings;
 }
