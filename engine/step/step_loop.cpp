@@ -88,7 +88,7 @@ std::int64_t StepLoop::run_until_one_may_leave(std::int64_t from, std::int64_t t
 // writes its own grains only. Of other threads' grains it reads copies, which exchange() brings.
 //
 // From here to the formula of a contact law: evaluate() -> ContactPass::compute() -> compute_stretch() ->
-// compute_chunk() -> the law's kernel (docs/notes/architecture.md, "One step").
+// compute_chunk() -> the law's kernel (docs/architecture.md, "One step").
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
     const FlushDenormals flush;
     Member& mine = members_[member];
