@@ -22,6 +22,11 @@ namespace fs = std::filesystem;
 using namespace test;
 using testing::HasSubstr;
 
+// The program is held meanwhile, so that both signals wait for it and no good order comes between them.
+void send_both_at_once(Program& program) {
+    for (const int signal : {SIGSTOP, SIGINT, SIGTERM, SIGCONT}) program.send(signal);
+}
+
 class StoppedMovie : public testing::Test {
   protected:
     // An hour of shaking, in run/ of the test's folder.
@@ -121,11 +126,7 @@ TEST_F(StoppedMovie, ASecondSignalKeepsTheStateAndLeavesTheFilm) {
     Program program(long_run({"--size", "1920x1080"}), {here.path(), {}});
     ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 1; }));
     fs::remove(here / "run/checkpoint.grs");
-    // Held, so that both signals wait for it and no good order comes between them.
-    program.send(SIGSTOP);
-    program.send(SIGINT);
-    program.send(SIGTERM);
-    program.send(SIGCONT);
+    send_both_at_once(program);
     const Ended ended = program.wait();
     EXPECT_TRUE(ended.status == 130 || ended.status == 143) << ended.status;
     EXPECT_THAT(ended.err, HasSubstr("the film was left as it is"));
@@ -141,10 +142,7 @@ TEST_F(StoppedMovie, ASecondSignalWhilePackingStopsAtOnce) {
     Program program(long_run({"--set", "species.small.count=150", "--set", "run.step=1e-7 s"}),
                     {here.path(), {}});
     ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/scene.toml"); }));
-    program.send(SIGSTOP);
-    program.send(SIGINT);
-    program.send(SIGTERM);
-    program.send(SIGCONT);
+    send_both_at_once(program);
     const Ended ended = program.wait();
     EXPECT_TRUE(ended.status == 130 || ended.status == 143) << ended.status;
     EXPECT_THAT(ended.err, HasSubstr("stopped at once: what was not yet on disk is lost\n"));
