@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/words.hpp"
+#include "engine/scene/chapters/words.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"

@@ -13,7 +13,7 @@
 #include "engine/run/health.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/text/reader.hpp"
-#include "engine/scene/text/words.hpp"
+#include "engine/scene/chapters/words.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/text/data_size.hpp"
-#include "engine/scene/text/words.hpp"
+#include "engine/scene/chapters/words.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

@@ -8,7 +8,7 @@
 #include "engine/chart/bench.hpp"
 #include "engine/chart/limits/experiment.hpp"
 #include "engine/chart/limits/scheme_growth.hpp"
-#include "engine/scene/text/words.hpp"
+#include "engine/scene/chapters/words.hpp"
 
 namespace grainreel {
 namespace {

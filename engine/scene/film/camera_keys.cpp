@@ -1,9 +1,9 @@
 // The keys of [film.camera] and [[film.camera.key]]: where the camera stands and how it moves.
 #include <fmt/format.h>
 
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/reader_parts.hpp"
 
 namespace grainreel {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/film/purposes.hpp"
-#include "engine/scene/text/words.hpp"
 
 namespace grainreel {
 namespace {

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/film/colours.hpp"
 #include "engine/scene/film/film_file.hpp"
 #include "engine/scene/film/purposes.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "engine/scene/text/data_size.hpp"
-#include "engine/scene/text/reader_parts.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,9 +1,9 @@
 // The quantities that can colour grains: their words, dimensions and units.
 #pragma once
 
+#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/film/film_shows.hpp"
 #include "engine/scene/text/units.hpp"
-#include "engine/scene/text/words.hpp"
 
 namespace grainreel {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/text/words.hpp"
+#include "engine/scene/chapters/words.hpp"
 
 namespace grainreel {
 

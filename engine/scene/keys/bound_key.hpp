@@ -11,10 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/key_parts.hpp"
+#include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/text/document.hpp"
 #include "engine/scene/text/toml_text.hpp"
-#include "engine/scene/text/words.hpp"
 
 namespace grainreel::keys {
 
@@ -52,7 +53,9 @@ struct BoundKey {
     using Useless = std::function<const char*(const T&)>;
     using Usual = std::function<void(T&, const Scene&)>;
 
-    Key key;  // its path is the name inside a table
+    Key key;                     // its path is the name inside a table
+    Keys parts;                  // of a value that may be a table itself
+    bool must_be_there = false;  // wherever it means something
     Read read;
     Write write;                                     // as TOML; empty: nothing
     std::function<void(const T& from, T& to)> copy;  // of this one member
@@ -61,6 +64,9 @@ struct BoundKey {
     std::function<bool(const T&)> unwritten;
     int turn = 0, line = 0;  // of reading and writing; those of the same number as they are listed
 
+    BoundKey needed() const {
+        return changed([](BoundKey& k) { k.must_be_there = true; });
+    }
     BoundKey useless_for(Useless reason) const {
         return changed([&](BoundKey& k) { k.useless = std::move(reason); });
     }
@@ -79,6 +85,12 @@ struct BoundKey {
     BoundKey written_at(int where) const {
         return changed([&](BoundKey& k) { k.line = where; });
     }
+    BoundKey placed_at(int place) const { return read_at(place).written_at(place); }
+    // The value may be a table with the keys of `table`.
+    template <class Table>
+    BoundKey holding(const Table& table) const {
+        return changed([&](BoundKey& k) { table.list(k.parts, k.key.path); });
+    }
 
   private:
     template <class Change>
@@ -92,6 +104,7 @@ struct BoundKey {
 template <class T>
 BoundKey<T> bound_by(Key key, typename BoundKey<T>::Read read, typename BoundKey<T>::Write write) {
     BoundKey<T> bound;
+    bound.must_be_there = key.fallback_note == required().note;
     bound.key = std::move(key);
     bound.read = std::move(read);
     bound.write = std::move(write);
@@ -172,41 +185,76 @@ class KeyTable {
 
     // Adds its keys to the list of all. inherited: in words, in place of each key's default.
     void list(Keys& all, const std::string& table, const char* inherited = nullptr) const {
-        for (const BoundKey<T>& bound : listed_) {
-            Key key = bound.key;
-            key.path = table + "." + key.path;
+        const auto add = [&](Key key) {
+            key.path = join_path(table, key.path);
             if (inherited != nullptr) key.fallback.clear(), key.fallback_note = inherited;
             all.push_back(std::move(key));
+        };
+        for (const BoundKey<T>& bound : listed_) {
+            add(bound.key);
+            for (const Key& part : bound.parts) add(part);
         }
     }
 
-    // Throws UserError, as Document does; where a required key is missing, too.
+    // Throws UserError, as Document does; where a needed key is missing, too.
     void read(Document& document, const Scene& scene, const std::string& table, T& into) const {
         for (const BoundKey<T>& bound : read_) {
-            const std::string path = table + "." + bound.key.path;
+            const std::string path = join_path(table, bound.key.path);
             if (const char* reason = bound.useless ? bound.useless(into) : nullptr) {
                 document.refuse(path, reason);
                 continue;
             }
             const bool there = document.has(path);
-            if (!there && bound.key.fallback_note == required().note) document.fail_missing(path);
+            if (!there && bound.must_be_there) document.fail_missing(path);
             if (!there && bound.usual) bound.usual(into, scene);
             bound.read(document, scene, path, into);
         }
     }
 
     void write(SceneText& out, const Scene& scene, const T& from) const {
-        for (const BoundKey<T>& bound : written_) {
-            if ((bound.useless && bound.useless(from) != nullptr) ||
-                (bound.unwritten && bound.unwritten(from)))
-                continue;
-            out.put(bound.key.path, bound.write(from, scene));
+        for (const auto& [name, value] : values(scene, from)) out.put(name, value);
+    }
+
+    // "{ min = 0.001, max = 0.002 }"
+    std::string inline_text(const Scene& scene, const T& from) const {
+        std::string text;
+        for (const auto& [name, value] : values(scene, from))
+            text += (text.empty() ? "" : ", ") + name + " = " + value;
+        return "{ " + text + " }";
+    }
+
+    // A list of tables, [[name]], each an element more of `into`.
+    void read_elements(Document& document, const Scene& scene, const std::string& name,
+                       std::vector<T>& into) const {
+        for (std::size_t i = 0; i < document.size(name); ++i) {
+            T element;
+            read(document, scene, name + "[" + std::to_string(i) + "]", element);
+            into.push_back(std::move(element));
+        }
+    }
+
+    void write_elements(SceneText& out, const Scene& scene, const std::string& name,
+                        const std::vector<T>& from) const {
+        for (const T& element : from) {
+            out.element(name);
+            write(out, scene, element);
         }
     }
 
     const std::vector<BoundKey<T>>& in_order_of_reading() const { return read_; }
 
   private:
+    // Names and values of what is written, in order.
+    std::vector<std::pair<std::string, std::string>> values(const Scene& scene, const T& from) const {
+        std::vector<std::pair<std::string, std::string>> all;
+        for (const BoundKey<T>& bound : written_) {
+            const bool useless = bound.useless && bound.useless(from) != nullptr;
+            if (!useless && !(bound.unwritten && bound.unwritten(from)))
+                all.emplace_back(bound.key.path, bound.write(from, scene));
+        }
+        return all;
+    }
+
     std::vector<BoundKey<T>> listed_, read_, written_;
 };
 

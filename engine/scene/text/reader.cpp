@@ -4,7 +4,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
-#include "engine/scene/text/reader_parts.hpp"
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/text/scene_file.hpp"
 
 namespace grainreel {
@@ -14,14 +14,6 @@ namespace {
 void check_name(const std::filesystem::path& file) {
     const std::string wrong = complaint_of_utf8(file.filename().string());
     if (!wrong.empty()) throw UserError(fmt::format("{}; rename the file", wrong));
-}
-
-void read_gravity(Document& document, Scene& scene) {
-    if (document.is_array("gravity")) {
-        scene.gravity = *document.vector("gravity");
-    } else if (const auto downwards = document.quantity("gravity")) {
-        scene.gravity = Vec3(0, 0, *downwards == 0 ? 0 : -*downwards);
-    }
 }
 
 }  // namespace
@@ -40,12 +32,12 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file, 
     scene.name = file.stem().string();
     scene.file = file.string();
     scene.written = document.written();
-    scene.title = document.text("title").value_or(scene.name);
-    read_gravity(document, scene);
+    read_top_level(document, scene);
     read_species(document, scene);
     read_contact(document, scene);
     read_container(document, scene);
-    read_exact(document, scene);
+    read_walls(document, scene);
+    read_grains(document, scene);
     read_drive(document, scene);
     read_start(document, scene);
     read_run(document, scene);

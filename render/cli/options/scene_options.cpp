@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/scene/film/purposes.hpp"
-#include "engine/scene/text/words.hpp"
+#include "engine/scene/chapters/words.hpp"
 #include "render/cli/options/option_groups.hpp"
 
 namespace grainreel {

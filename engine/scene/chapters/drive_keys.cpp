@@ -1,12 +1,10 @@
 // The keys of [drive].
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
 
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/chapters.hpp"
-#include "engine/scene/text/reader_parts.hpp"
 
 namespace grainreel {
 namespace {
@@ -58,10 +56,7 @@ void read_drive(Document& document, Scene& scene) {
     drive.present = document.has("drive");
     if (!drive.present) return;
     drive_table().read(document, scene, "drive", drive);
-    const double length = drive.direction.norm();
-    if (length == 0) document.fail("drive.direction", "must not be zero; write for example [0, 0, 1]");
-    // A unit vector keeps its bits, so that a resolved scene reads back as it was.
-    if (std::abs(length - 1) >= 1e-15) drive.direction /= length;
+    make_unit(document, "drive.direction", drive.direction);
     if (drive.ramp != 0 && drive.ramp < 3)
         document.fail("drive.ramp",
                       fmt::format("must be 0 or at least 3 periods, but is {:.6g}", drive.ramp));

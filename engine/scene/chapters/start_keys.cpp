@@ -4,9 +4,8 @@
 #include <filesystem>
 
 #include "engine/base/utf8.hpp"
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/chapters.hpp"
-#include "engine/scene/text/reader_parts.hpp"
 
 namespace grainreel {
 namespace {

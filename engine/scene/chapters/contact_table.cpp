@@ -1,4 +1,4 @@
-#include "engine/scene/keys/contact_table.hpp"
+#include "engine/scene/chapters/contact_table.hpp"
 
 #include <fmt/format.h>
 

@@ -6,11 +6,15 @@
 #include <map>
 
 #include "engine/base/utf8.hpp"
-#include "engine/scene/keys/contact_table.hpp"
-#include "engine/scene/text/reader_parts.hpp"
+#include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/contact_table.hpp"
 
 namespace grainreel {
 namespace {
+
+using namespace keys;
+
+const Words<LeverArms> arms_words{{"contact-plane", LeverArms::contact_plane}, {"radius", LeverArms::radius}};
 
 // What the tables say of one kind of contact, before defaults.
 struct PairText {
@@ -59,7 +63,7 @@ void settle_laws(const Document& document, const std::string& table, PairText& p
 }
 
 // Read first: what the other keys mean follows from them.
-bool is_law(const keys::BoundKey<PairContact>& bound) {
+bool is_law(const BoundKey<PairContact>& bound) {
     return bound.turn < 0;
 }
 
@@ -102,7 +106,12 @@ PairContact resolved(const PairText& text, const Scene& scene) {
     return pair;
 }
 
-// The index of a species by name; the number of species for "wall".
+// Whom an exception is about: indices of species; the number of species for "wall".
+struct Partners {
+    std::size_t one = 0, other = 0;
+};
+
+// Throws UserError where the name is neither a species nor "wall".
 std::size_t partner(const Document& document, const Scene& scene, const std::string& path,
                     const std::string& name) {
     if (name == "wall") return scene.species.size();
@@ -114,24 +123,72 @@ std::size_t partner(const Document& document, const Scene& scene, const std::str
         path, fmt::format("names \"{}\", which is no species; there are {}and wall", excerpt(name), known));
 }
 
+void read_partners(Document& document, const Scene& scene, const std::string& path, Partners& partners) {
+    const auto names = document.names(path);
+    partners.one = partner(document, scene, path, (*names)[0]);
+    partners.other = partner(document, scene, path, (*names)[1]);
+    if (std::min(partners.one, partners.other) == scene.species.size())
+        document.fail(path, "names two walls; at least one must be a species");
+}
+
+std::string partners_text(const Partners& partners, const Scene& scene) {
+    const auto name = [&](std::size_t index) {
+        return quoted(index < scene.species.size() ? scene.species[index].name : "wall");
+    };
+    return toml_list({name(partners.one), name(partners.other)});
+}
+
+const KeyTable<Partners>& partners_table() {
+    static const KeyTable<Partners> table{bound_by<Partners>(
+        entry("between", KeyKind::species_pair, required(), "Two names of species, or one and \"wall\"."),
+        read_partners, partners_text)};
+    return table;
+}
+
+// What all contacts have in common.
+const KeyTable<Contact>& common_table() {
+    static const KeyTable<Contact> table{
+        choice("arms", &Contact::arms, arms_words, initial(),
+               "Lever arms of the tangential force; radius loses angular momentum.")
+            .unwritten_if([](const Contact& contact) { return !contact.rubs(); })};
+    return table;
+}
+
 struct ContactText {
     std::vector<PairText> grain, wall;  // as in Contact
 };
 
 void read_exception(Document& document, const Scene& scene, const std::string& table, ContactText& contact) {
-    const std::string key = table + ".between";
-    const auto names = document.names(key);
-    if (!names) document.fail_missing(key);
+    Partners partners;
+    partners_table().read(document, scene, table, partners);
+    const auto [a, b] = partners;
     const std::size_t count = scene.species.size();
-    const std::size_t a = partner(document, scene, key, (*names)[0]);
-    const std::size_t b = partner(document, scene, key, (*names)[1]);
-    if (a == count && b == count) document.fail(key, "names two walls; at least one must be a species");
     if (a == count || b == count) return read_pair(document, scene, table, contact.wall[std::min(a, b)]);
     read_pair(document, scene, table, contact.grain[a * count + b]);
     contact.grain[b * count + a] = contact.grain[a * count + b];
 }
 
+void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, const PairPlan& plan,
+                const Partners& partners) {
+    out.element("contact.pair");
+    partners_table().write(out, scene, partners);
+    PairContact chosen = pair;
+    const bool hertz = pair.normal == NormalLaw::hertz;
+    chosen.stiffness = hertz ? plan.modulus : plan.loading_stiffness;
+    if (!pair.stiffness)
+        out.remark(hertz ? "modulus" : "stiffness", fmt::format("chosen for: {}", plan.stiffness_reason));
+    contact_table().write(out, scene, chosen);
+}
+
 }  // namespace
+
+void list_contact(Keys& all) {
+    common_table().list(all, "contact");
+    contact_table().list(all, "contact");
+    contact_table().list(all, "contact.wall", "as in [contact]");
+    partners_table().list(all, "contact.pair[]");
+    contact_table().list(all, "contact.pair[]", "as in [contact] or [contact.wall]");
+}
 
 void read_contact(Document& document, Scene& scene) {
     PairText grain;
@@ -148,11 +205,19 @@ void read_contact(Document& document, Scene& scene) {
     for (const PairText& pair : text.wall) contact.wall.push_back(resolved(pair, scene));
     if (grain.value.tangential == TangentialLaw::none && !contact.rubs())
         document.refuse("contact.arms", "'friction_law' is \"none\"");
-    const auto arms =
-        chosen<LeverArms>(document, "contact.arms",
-                          {{"contact-plane", LeverArms::contact_plane}, {"radius", LeverArms::radius}},
-                          LeverArms::contact_plane);
-    contact.arms = contact.rubs() ? arms : LeverArms::contact_plane;
+    common_table().read(document, scene, "contact", contact);
+    if (!contact.rubs()) contact.arms = LeverArms::contact_plane;
+}
+
+void write_contact(SceneText& out, const Scene& scene, const Plan& plan) {
+    out.table("contact");
+    common_table().write(out, scene, scene.contact);
+    const std::size_t count = scene.species.size();
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = a; b < count; ++b)
+            write_pair(out, scene, scene.between(a, b), plan.between(a, b), {a, b});
+        write_pair(out, scene, scene.contact.wall[a], plan.wall[a], {a, count});
+    }
 }
 
 }  // namespace grainreel

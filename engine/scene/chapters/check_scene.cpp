@@ -11,9 +11,9 @@
 #include "engine/base/utf8.hpp"
 #include "engine/plan/free_space.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/film/measure_columns.hpp"
 #include "engine/scene/keys/key_path.hpp"
-#include "engine/scene/text/reader_parts.hpp"
 
 namespace grainreel {
 namespace {

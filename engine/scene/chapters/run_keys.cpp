@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/chapters.hpp"
-#include "engine/scene/text/reader_parts.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,0 +1,65 @@
+// The chapters of a scene. Each adds its keys to the list of all, reads them and writes them back. The
+// chapters of [film] are in engine/scene/film/film_keys.hpp. Internal to the reader and the writer.
+#pragma once
+
+#include <string>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/keys/key_parts.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/scene/text/document.hpp"
+#include "engine/scene/text/toml_text.hpp"
+
+namespace grainreel {
+
+// Title and gravity, above all tables.
+void list_top_level(keys::Keys& all);
+void read_top_level(Document& document, Scene& scene);
+void write_top_level(SceneText& out, const Scene& scene);
+
+void list_species(keys::Keys& all);
+void read_species(Document& document, Scene& scene);
+void write_species(SceneText& out, const Scene& scene);
+
+// Written with the stiffness that the plan chose.
+void list_contact(keys::Keys& all);
+void read_contact(Document& document, Scene& scene);  // after the species
+void write_contact(SceneText& out, const Scene& scene, const Plan& plan);
+
+void list_container(keys::Keys& all);
+void read_container(Document& document, Scene& scene);
+void write_container(SceneText& out, const Scene& scene);
+
+void list_walls(keys::Keys& all);
+void read_walls(Document& document, Scene& scene);
+void write_walls(SceneText& out, const Scene& scene);
+
+void list_grains(keys::Keys& all);
+void read_grains(Document& document, Scene& scene);  // after the species
+void write_grains(SceneText& out, const Scene& scene);
+
+void list_drive(keys::Keys& all);
+void read_drive(Document& document, Scene& scene);  // after gravity
+void write_drive(SceneText& out, const Scene& scene);
+
+void list_start(keys::Keys& all);
+void read_start(Document& document, Scene& scene);  // after container and grains
+void write_start(SceneText& out, const Scene& scene);
+
+// [run] and [output]. Written with what the plan chose where the scene leaves it open.
+void list_run(keys::Keys& all);
+void read_run(Document& document, Scene& scene);  // after the contacts
+void write_run(SceneText& out, const Scene& scene, const Plan& plan);
+
+void read_film(Document& document, Scene& scene);  // after drive and run
+
+// Gives empty space the size of what happens in it, when all else is read.
+void size_empty_space(Scene& scene);
+
+// What can be wrong between keys that are right by themselves. Throws UserError.
+void check_scene(const Scene& scene);
+
+// Makes a direction a unit vector. Throws UserError where it is zero.
+void make_unit(const Document& document, const std::string& path, Vec3& direction);
+
+}  // namespace grainreel

@@ -1,0 +1,140 @@
+// The keys of [container].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/scene/bed.hpp"
+#include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/keys/bound_key.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace keys;
+using C = Container;
+using Shape = Container::Shape;
+
+const Words<Shape> shape_words{
+    {"wedge", Shape::wedge}, {"box", Shape::box}, {"cylinder", Shape::cylinder}, {"none", Shape::none}};
+const Words<bool> top_words{{"lid", true}, {"open", false}};
+
+// What says why a key means nothing: `reason` unless the container is one of `shapes`.
+BoundKey<C>::Useless only_of(std::initializer_list<Shape> shapes, const char* reason) {
+    return [shapes = std::vector<Shape>(shapes), reason](const C& container) -> const char* {
+        if (container.shape == Shape::none) return "there is no container";
+        const bool has = std::find(shapes.begin(), shapes.end(), container.shape) != shapes.end();
+        return has ? nullptr : reason;
+    };
+}
+
+const char* without_container(const C& container) {
+    return container.shape == Shape::none ? "there is no container" : nullptr;
+}
+
+const char* not_of_wedge_or_box(const C& container) {
+    if (container.shape == Shape::cylinder) return "a cylinder has a 'diameter'";
+    return without_container(container);
+}
+
+const char* not_of_box(const C& container) {
+    if (container.shape == Shape::wedge) return "a wedge has a 'half_width'";
+    return not_of_wedge_or_box(container);
+}
+
+BoundKey<C> length(const char* name, double C::*member, Fallback fallback, const char* about) {
+    return quantity(name, member, Dimension::length, positive, std::move(fallback), about).needed();
+}
+
+// The scene says twice of what is kept.
+BoundKey<C> width(const char* name, Fallback fallback, const char* about) {
+    return bound_by<C>(
+               quantity(name, Dimension::length, positive, std::move(fallback), about),
+               [](Document& document, const Scene&, const std::string& path, C& container) {
+                   container.half_width = document.required_quantity(path) / 2;
+               },
+               [](const C& container, const Scene&) {
+                   return as_toml(2 * container.half_width, Dimension::length);
+               })
+        .needed();
+}
+
+BoundKey<C> outlet_key() {
+    const auto read = [](Document& document, const Scene&, const std::string& path, C&) {
+        if (const auto outlet = document.text(path); outlet && *outlet != "closed")
+            document.fail(path, fmt::format("is {}, but open outlets are not modelled yet; write \"closed\"",
+                                            document.written_value(path)));
+    };
+    return bound_by<C>(entry("outlet", KeyKind::text, literal("\"closed\""),
+                             "Only \"closed\": open outlets are not modelled yet."),
+                       read, [](const C&, const Scene&) { return quoted("closed"); });
+}
+
+// In the order of reading and writing: slanted walls, width, depth, then what every shape has.
+enum Place { of_slant = 1, of_width, of_depth, of_all };
+
+const KeyTable<C>& container_table() {
+    static const KeyTable<C> table{
+        choice(
+            "shape", &C::shape, shape_words, required(),
+            "none: empty space. The origin is the middle of the floor; x along the depth, y across, z up."),
+        length("height", &C::height, required(), "Floor to lid or rim.")
+            .useless_for(without_container)
+            .placed_at(of_all),
+        length("depth", &C::depth, note("required; wedge, box"), "Front to back, along x.")
+            .useless_for(not_of_wedge_or_box)
+            .placed_at(of_depth),
+        length("half_width", &C::half_width, note("required; wedge"),
+               "At and above the slanted part, from the middle to the wall.")
+            .useless_for(only_of({Shape::wedge}, "only a wedge has a half-width"))
+            .placed_at(of_width),
+        quantity("half_angle", &C::half_angle, Dimension::angle, positive, note("required; wedge"),
+                 "Between slanted wall and the vertical.")
+            .needed()
+            .useless_for(only_of({Shape::wedge}, "only a wedge has slanted walls"))
+            .placed_at(of_slant),
+        length("slant_height", &C::slant_height, note("required; wedge"), "Height of the slanted part.")
+            .useless_for(only_of({Shape::wedge}, "only a wedge has slanted walls"))
+            .placed_at(of_slant),
+        width("width", note("required; box"), "Along y.").useless_for(not_of_box).placed_at(of_width),
+        width("diameter", note("required; cylinder"), "Inside.")
+            .useless_for(only_of({Shape::cylinder}, "only a cylinder has a diameter"))
+            .placed_at(of_width),
+        choice("top", &C::lid, top_words, initial(), "Sealed, or open above.")
+            .useless_for(without_container)
+            .placed_at(of_all),
+        outlet_key().useless_for(without_container).placed_at(of_all),
+        flag("periodic_depth", &C::periodic_depth, initial(),
+             "No front and back walls: what leaves at one enters at the other.")
+            .useless_for(not_of_wedge_or_box)
+            .placed_at(of_depth),
+    };
+    return table;
+}
+
+}  // namespace
+
+void list_container(Keys& all) {
+    container_table().list(all, "container");
+}
+
+void read_container(Document& document, Scene& scene) {
+    container_table().read(document, scene, "container", scene.container);
+}
+
+void write_container(SceneText& out, const Scene& scene) {
+    out.table("container");
+    container_table().write(out, scene, scene.container);
+}
+
+void size_empty_space(Scene& scene) {
+    C& c = scene.container;
+    if (c.shape != Shape::none) return;
+    const Extent extent = extent_of(scene);
+    c.depth = extent.size().x();
+    c.half_width = 0.5 * extent.size().y();
+    c.height = extent.size().z();
+    c.lid = false;
+}
+
+}  // namespace grainreel
