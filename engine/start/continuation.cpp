@@ -10,27 +10,15 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/writer.hpp"
 
 namespace grainreel {
 
 namespace {
 
-// What only shows or records a run, what says how long and on what it runs, and how its grains came to be. A
-// table stands for all that is in it.
-constexpr std::array kDecideNothing = {"title",      "film",         "output",      "start",
-                                       "grain",      "run.duration", "run.threads", "species[].colour",
-                                       "wall[].name"};
-
-// Often chosen by the plan; then another key is why they differ.
-constexpr std::array kChosen = {"stiffness", "modulus", "step"};
-
-std::string without_numbers(std::string_view key) {
-    std::string pattern(key);
-    pattern.erase(std::remove_if(pattern.begin(), pattern.end(), [](char c) { return c >= '0' && c <= '9'; }),
-                  pattern.end());
-    return pattern;
-}
+// The tables that only show or record a run, or say how its grains came to be.
+constexpr std::array kDecideNothing = {"film", "output", "start", "grain"};
 
 bool lies_in(std::string_view key, std::string_view table) {
     return key.substr(0, table.size()) == table &&
@@ -68,19 +56,16 @@ std::string value_at(const Lookup& values, const std::string& key) {
 }
 
 bool is_chosen(const KeyDifference& difference) {
-    return std::find(kChosen.begin(), kChosen.end(), name_of(difference.key)) != kChosen.end();
+    const Key* key = find_key(difference.key);
+    return key != nullptr && key->often_chosen;
 }
-
-// What a scene may say in place of a key that the plan works with.
-constexpr std::array<std::pair<const char*, const char*>, 3> kWrittenAs = {
-    {{"amplitude", "g_level"}, {"density", "mass"}, {"step", "steps_per_contact"}}};
 
 // Where the user wrote a key. What a pair has may come from [contact], [contact.wall] or a pair's own table.
 std::string place_of(const Scene& scene, const std::string& key, const std::string& between) {
     const std::string name = name_of(key);
     const auto written = [&](const std::string& path) { return scene.written.contains(path); };
-    for (const auto& [own, other] : kWrittenAs)
-        if (const std::string instead = join_path(parent_of(key), other); name == own && written(instead))
+    for (const std::string& rival : rivals_of(key))
+        if (const std::string instead = join_path(parent_of(key), rival); written(instead))
             return scene.where(instead);
     if (between.empty()) return scene.where(key);
     const bool in_pairs = std::any_of(scene.written.begin(), scene.written.end(), [&](const auto& entry) {
@@ -112,9 +97,10 @@ std::string others_text(const std::vector<KeyDifference>& differences) {
 }  // namespace
 
 bool decides_future(std::string_view key) {
-    const std::string pattern = without_numbers(key);
-    return std::none_of(kDecideNothing.begin(), kDecideNothing.end(),
-                        [&](const char* table) { return lies_in(pattern, table); });
+    const Key* known = find_key(key);
+    return (known == nullptr || known->decides) &&
+           std::none_of(kDecideNothing.begin(), kDecideNothing.end(),
+                        [&](const char* table) { return lies_in(key, table); });
 }
 
 std::string scene_to_keep(const Scene& scene, const Plan& plan) {

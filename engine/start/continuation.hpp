@@ -1,8 +1,8 @@
 // A run that goes on where another stopped, with its clock, must be the same run: every value that decides
 // its future must be what it was.
 //
-// A checkpoint holds the scene as it was used, as text, and that is compared key by key. Which keys may
-// change is a short list of those that decide nothing; a new key decides until somebody adds it there.
+// A checkpoint holds the scene as it was used, as text, and that is compared key by key. Keys that decide
+// nothing may change; their entries say so (`decides_nothing`), and a new key decides until its entry does.
 #pragma once
 
 #include <string>

@@ -123,7 +123,7 @@ const KeyTable<PairContact>& contact_table() {
             .useless_for(of_walton_braun)
             .unwritten_if(says_restitution_otherwise)
             .written_at(of_losses),
-        restitution_table_key().useless_for(of_walton_braun).written_at(of_losses),
+        restitution_table_key().excludes({"restitution"}).useless_for(of_walton_braun).written_at(of_losses),
         quantity("friction", &P::friction, Dimension::number, not_negative_or_infinite, initial(),
                  "Coulomb's µ; 0 for none, inf to never slip.")
             .useless_for(of_friction)
@@ -134,10 +134,12 @@ const KeyTable<PairContact>& contact_table() {
             .written_at(of_rubbing),
         quantity("stiffness", &P::stiffness, Dimension::stiffness, positive, note("chosen by the plan"),
                  "Of the loading branch: K1 (walton-braun) or kn (spring-dashpot).")
+            .often_chosen()
             .useless_for(of_linear_springs)
             .written_at(of_springs),
         quantity("modulus", &P::stiffness, Dimension::pressure, positive, note("chosen by the plan"),
                  "hertz only: E* of the pair, 1/E* = (1 - ν²)/E + the same of the other body.")
+            .often_chosen()
             .useless_for(of_hertz)
             .written_at(of_springs),
         quantity("tangential_ratio", &P::tangential_ratio, Dimension::number, {0, 1000, true, false},
@@ -153,6 +155,7 @@ const KeyTable<PairContact>& contact_table() {
         quantity("normal_damping", &P::normal_damping, Dimension::rate, not_negative,
                  note("from the restitution"),
                  "spring-dashpot only, instead of the restitution: force = value x effective mass x speed.")
+            .excludes({"restitution"})
             .useless_for(of_free_dashpots)
             .written_at(of_losses),
         quantity("tangential_damping", &P::tangential_damping, Dimension::rate, not_negative,

@@ -23,6 +23,7 @@ BoundKey<Drive> g_level_key() {
     return bound_by<Drive>(quantity("g_level", Dimension::number, {0, 1e6, true, false},
                                     note("required, or `amplitude`"), "Γ = a (2πf)² / g."),
                            read, [](const Drive&, const Scene&) { return std::string(); })
+        .excludes({"amplitude"})
         .useless_for(
             [](const Drive& drive) { return drive.amplitude > 0 ? "'amplitude' is given" : nullptr; });
 }

@@ -34,10 +34,12 @@ const KeyTable<Run>& run_table() {
     static const KeyTable<R> table{
         quantity("duration", &R::duration, Dimension::time, positive, literal("\"10 s\""),
                  "Of vibration; without a drive, of simulated time.")
+            .decides_nothing()
             .written_at(of_time),
         integer("seed", &R::seed, 0, 9007199254740992.0, initial(), "Of every random choice.")
             .written_at(of_time),
         integer("threads", &R::threads, 0, 1024, initial(), "0: as many as the machine gives.")
+            .decides_nothing()
             .written_at(of_time),
         choice("accuracy", &R::accuracy, accuracy_words, initial(),
                "Defaults of overlap and steps a contact: 2 % and 0.7 times, 1 % and once, 0.3 % and "
@@ -45,6 +47,7 @@ const KeyTable<Run>& run_table() {
             .written_at(of_method),
         quantity("step", &R::step, Dimension::time, positive, note("chosen by the plan"),
                  "With a drive shortened so that a multiple of 8 steps makes a period.")
+            .often_chosen()
             .written_at(of_time),
         quantity("overlap", &R::overlap, Dimension::number, {0, 0.1, true, false},
                  note("0.01; by `accuracy`"),
@@ -71,6 +74,7 @@ const KeyTable<Run>& run_table() {
                 note("12 or more by restitution; 45 with a dashpot or a restitution above 0.9976; by "
                      "`accuracy`"),
                 "Steps in one free impact.")
+            .excludes({"step"})
             .useless_for([](const R& run) { return run.step ? "'step' is given" : nullptr; })
             .never_written(),
     };

@@ -124,7 +124,8 @@ BoundKey<Species> density_key() {
 BoundKey<Species> mass_key() {
     return bound_by<Species>(quantity("mass", Dimension::mass, positive, note("none"),
                                       "Of a grain of mean diameter, instead of the density."),
-                             read_mass, [](const Species&, const Scene&) { return std::string(); });
+                             read_mass, [](const Species&, const Scene&) { return std::string(); })
+        .excludes({"density"});
 }
 
 BoundKey<Species> colour_key() {
@@ -143,7 +144,7 @@ const KeyTable<Species>& species_table() {
         diameter_key(),
         density_key().read_at(2),
         mass_key().read_at(1),
-        colour_key().read_at(2),
+        colour_key().read_at(2).decides_nothing(),
     };
     return table;
 }

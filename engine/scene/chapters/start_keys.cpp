@@ -46,6 +46,7 @@ BoundKey<Start> file_key() {
                entry("file", KeyKind::text, note("required; file"),
                      "Checkpoint or final.csv of an earlier run, relative to the scene's folder."),
                read, [](const Start& start, const Scene&) { return quoted(start.file); })
+        .excludes({"settle_limit", "settle_damping"})
         .useless_for(without_file);
 }
 

@@ -20,7 +20,8 @@ void read_gravity(Document& document, const Scene&, const std::string& path, Sce
 const KeyTable<Scene>& top_level_table() {
     static const KeyTable<Scene> table{
         text("title", &Scene::title, note("the file's name"), "Shown on the film unless it has its own.")
-            .usually([](Scene& into, const Scene& scene) { into.title = scene.name; }),
+            .usually([](Scene& into, const Scene& scene) { into.title = scene.name; })
+            .decides_nothing(),
         bound_by<Scene>(of_dimension(entry("gravity", KeyKind::gravity, literal("9.81"),
                                            "Downwards along -z; or a vector [x, y, z]; 0 for none."),
                                      Dimension::acceleration, not_negative),

@@ -16,7 +16,8 @@ const KeyTable<FreeWall>& wall_table() {
              "A plane anywhere, beside the container's faces or without any; for messages.")
             .usually([](W& wall, const Scene& scene) {
                 wall.name = fmt::format("wall {}", scene.walls.size() + 1);
-            }),
+            })
+            .decides_nothing(),
         vector("point", &W::point, Dimension::length, required(), "Any point of it."),
         vector("normal", &W::normal, Dimension::number, required(), "Towards the grains; any length."),
         vector("velocity", &W::velocity, Dimension::speed, initial(), "Steady, from the start."),

@@ -59,6 +59,7 @@ const KeyTable<Camera>& camera_table() {
         vector("position", &C::position, Dimension::length,
                note("by azimuth, elevation and automatic framing"),
                "Where the camera stands; nothing is framed then.")
+            .excludes({"azimuth", "elevation", "frame", "reach", "key"})
             .read_at(-2),
         vector("target", &C::target, Dimension::length, note("the container's middle"),
                "The middle of the picture, and what an orbit turns about."),

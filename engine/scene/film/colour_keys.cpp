@@ -71,7 +71,8 @@ void read_unit(Document& document, const Scene&, const std::string& path, C& col
 const KeyTable<C>& colour_table() {
     static const KeyTable<C> table{
         choice("by", &C::by, grain_value_words, initial(),
-               "What a grain's colour stands for; see docs/guide/colours.md."),
+               "What a grain's colour stands for; see docs/guide/colours.md.")
+            .owns({"map", "unit", "range", "layers"}),
         choice("map", &C::map, colour_map_words, note("viridis; vik for what has two signs"),
                "All three are safe for the colour-blind; vik runs from blue over white to red.")
             .useless_for(by_species)

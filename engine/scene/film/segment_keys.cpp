@@ -31,6 +31,7 @@ const KeyTable<FilmSegment>& segment_table() {
     static const KeyTable<S> table{
         choice("kind", &S::kind, kind_words, initial(),
                "Even in time, or one frame every so many periods at a fixed phase.")
+            .owns({"playback", "every", "phase"})
             .read_at(-1),
         quantity("duration", &S::duration, Dimension::time, positive, note("what the others leave"),
                  "Simulated time; one segment may go without."),

@@ -67,6 +67,18 @@ struct BoundKey {
     BoundKey needed() const {
         return changed([](BoundKey& k) { k.must_be_there = true; });
     }
+    BoundKey excludes(std::vector<std::string> names) const {
+        return changed([&](BoundKey& k) { k.key.excludes = std::move(names); });
+    }
+    BoundKey owns(std::vector<std::string> names) const {
+        return changed([&](BoundKey& k) { k.key.owns = std::move(names); });
+    }
+    BoundKey decides_nothing() const {
+        return changed([](BoundKey& k) { k.key.decides = false; });
+    }
+    BoundKey often_chosen() const {
+        return changed([](BoundKey& k) { k.key.often_chosen = true; });
+    }
     BoundKey useless_for(Useless reason) const {
         return changed([&](BoundKey& k) { k.useless = std::move(reason); });
     }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <sstream>
 
@@ -13,32 +12,6 @@
 
 namespace grainreel {
 namespace {
-
-// Of each pair a scene may have one. Setting one on the command line takes the other out of the file.
-constexpr std::array<std::array<std::string_view, 2>, 11> rivals{{
-    {"g_level", "amplitude"},
-    {"density", "mass"},
-    {"restitution", "normal_damping"},
-    {"restitution", "restitution_table"},
-    {"position", "azimuth"},  // of the camera
-    {"position", "elevation"},
-    {"position", "key"},
-    {"position", "frame"},
-    {"position", "reach"},
-    {"file", "settle_limit"},  // of the start, from a file or by layers
-    {"file", "settle_damping"},
-}};
-
-// What a key gives meaning to: setting it to something else takes these back, beside it in its table, unless
-// the command line has said them as well.
-struct Dependents {
-    std::string_view key;
-    std::array<std::string_view, 4> others;
-};
-constexpr std::array<Dependents, 2> dependents{{
-    {"film.colour.by", {"map", "unit", "range", "layers"}},
-    {"film.segment[].kind", {"playback", "every", "phase"}},
-}};
 
 // "species[1].count" or "species.big.count" -> species, 1 or big, count
 std::vector<std::string> parts_of(const std::string& path) {
@@ -140,11 +113,8 @@ void Document::take_back(toml::table& table, const std::string& table_path, cons
     const Key* known = find_key(join_path(table_path, key));
     const auto old = table[key].value<std::string>(), now = value.value<std::string>();
     if (known == nullptr || (old && old == now)) return;
-    for (const auto& [of, others] : dependents) {
-        if (of != known->path) continue;
-        for (const std::string_view other : others)
-            if (!from_command_line(join_path(table_path, other))) remove(table, table_path, other);
-    }
+    for (const std::string& own : known->owns)
+        if (!from_command_line(join_path(table_path, own))) remove(table, table_path, own);
 }
 
 void Document::set(const Assignment& assignment) {
@@ -161,10 +131,7 @@ void Document::set(const Assignment& assignment) {
     const std::string path = join_path(table_path, key);
     toml::table parsed = parsed_value(assignment.value(), find_key(path));
     const toml::node& value = *parsed.get("value");
-    for (const auto& [one, other] : rivals) {
-        if (key == one) remove(*table, table_path, other);
-        if (key == other) remove(*table, table_path, one);
-    }
+    for (const std::string& rival : rivals_of(path)) remove(*table, table_path, rival);
     take_back(*table, table_path, key, value);
     remove(*table, table_path, key);
     written_[path] = by;

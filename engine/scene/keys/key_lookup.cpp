@@ -156,6 +156,19 @@ const Key* find_key(std::string_view path) {
     return found == keys.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> rivals_of(std::string_view path) {
+    const std::string pattern = without_indices(path), name = name_of(pattern);
+    std::vector<std::string> rivals;
+    for (const Key& key : scene_keys()) {
+        if (parent_of(key.path) != parent_of(pattern)) continue;
+        if (key.path == pattern) rivals.insert(rivals.end(), key.excludes.begin(), key.excludes.end());
+        const auto& others = key.excludes;
+        if (std::find(others.begin(), others.end(), name) != others.end())
+            rivals.push_back(name_of(key.path));
+    }
+    return rivals;
+}
+
 bool is_table_path(std::string_view path) {
     const std::string start = without_indices(path) + ".";
     return std::any_of(scene_keys().begin(), scene_keys().end(),

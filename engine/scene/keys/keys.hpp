@@ -49,6 +49,11 @@ struct Key {
     std::string fallback;       // as a scene would write it; empty when there is no such value
     std::string fallback_note;  // in words instead: "required", "one period"
     std::string about;
+    // Names beside it in its table. Setting a key on the command line takes out of the file what the key
+    // excludes, what excludes the key, and, when its value changes, what belongs to that value.
+    std::vector<std::string> excludes, owns;
+    bool decides = true;        // the future of a run, so that a run that goes on must have the same
+    bool often_chosen = false;  // by the plan, for reasons that other keys give
 
     std::string example() const;  // a value that is right, as a scene would write it
     Range bounds() const;         // what the dimension's bounds leave of the range
@@ -58,6 +63,8 @@ const std::vector<Key>& scene_keys();
 
 // The key at a path with or without indices ("species[1].count"), or nullptr.
 const Key* find_key(std::string_view path);
+// The names beside a key or a table that it excludes, or that exclude it.
+std::vector<std::string> rivals_of(std::string_view path);
 // Whether a path is a table ("drive", "species[0]", "contact.wall"), or an array of tables ("species").
 bool is_table_path(std::string_view path);
 bool is_table_array_path(std::string_view path);
