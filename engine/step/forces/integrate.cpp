@@ -166,14 +166,14 @@ Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
     return (Quaternion(Eigen::AngleAxisd(angle, rate.normalized())) * q).normalized();
 }
 
+}  // namespace
+
 void turn(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     if (!in.rubs || grains.orientation.empty()) return;
     for (std::int32_t i = begin; i < end; ++i) {
         grains.orientation[i] = turned(grains.orientation[i], grains.motion[i].spin, in.drift);
     }
 }
-
-}  // namespace
 
 HWY_EXPORT(first_half);
 HWY_EXPORT(second_half);
@@ -217,46 +217,6 @@ void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t
     turn(grains, in, begin, end);
 }
 
-namespace {
-
-Vec3 acceleration(const Grains& grains, const KickInput& in, std::int32_t i) {
-    return grains.motion[i].inverse_mass * grains.load[i].force + in.gravity;
-}
-Vec3 spin_acceleration(const Grains& grains, std::int32_t i) {
-    return grains.motion[i].inverse_inertia * grains.load[i].torque;
-}
-
-}  // namespace
-
-void begin_derivatives(Grains& grains, const KickInput& in) {
-    grains.derivatives.assign(grains.size(), {});
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(grains.size()); ++i) {
-        grains.derivatives[i].acceleration = acceleration(grains, in, i);
-        if (in.rubs) grains.derivatives[i].spin_acceleration = spin_acceleration(grains, i);
-    }
-}
-
-Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
-    const double h = in.drift;
-    Vec3 fastest(0, 0, 0);
-    for (std::int32_t i = begin; i < end; ++i) {
-        Derivatives& d = grains.derivatives[i];
-        Vec3& v = grains.motion[i].velocity;
-        const Vec3 mean = v + h / 2 * d.acceleration + h * h / 6 * d.jerk;
-        grains.place[i].position += h * mean;
-        fastest = fastest.cwiseMax((mean - in.frame).cwiseAbs());
-        v += h * d.acceleration + h * h / 2 * d.jerk;
-        d.acceleration += h * d.jerk;
-        grains.load[i] = {};
-        if (!in.rubs) continue;
-        grains.motion[i].spin += h * d.spin_acceleration + h * h / 2 * d.spin_jerk;
-        d.spin_acceleration += h * d.spin_jerk;
-    }
-    turn(grains, in, begin, end);
-    round_motion(grains, in, begin, end);
-    return fastest;
-}
-
 void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     if (grains.rounded.empty()) return;
     for (std::int32_t i = begin; i < end; ++i) {
@@ -266,25 +226,6 @@ void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::
                              static_cast<float>(grains.motion[i].inverse_mass),
                              {rate.x(), rate.y(), rate.z()},
                              static_cast<float>(grains.place[i].radius)};
-    }
-}
-
-// Gear's coefficients are 1/6, 5/6, 1, 1/3 where a force gives the second derivative (positions), and 5/12,
-// 1, 1/2 where a torque gives the first derivative (spins).
-void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
-    const double h = in.drift;
-    for (std::int32_t i = begin; i < end; ++i) {
-        Derivatives& d = grains.derivatives[i];
-        const Vec3 more = acceleration(grains, in, i) - d.acceleration;
-        grains.place[i].position += h * h / 12 * more;
-        grains.motion[i].velocity = (grains.motion[i].velocity + 5 * h / 12 * more) * in.keep;
-        d.acceleration += more;
-        d.jerk += more / h;
-        if (!in.rubs) continue;
-        const Vec3 faster = spin_acceleration(grains, i) - d.spin_acceleration;
-        grains.motion[i].spin = (grains.motion[i].spin + 5 * h / 12 * faster) * in.keep;
-        d.spin_acceleration += faster;
-        d.spin_jerk += faster / h;
     }
 }
 

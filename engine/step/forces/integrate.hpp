@@ -62,6 +62,9 @@ void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete);
 // A drift without a kick. The loads stay.
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
+// Turns the orientations of the grains, where they are in use, by their spins for `in.drift`.
+void turn(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
 // Gear's method with four values for positions and three for spins. predict() goes to the end of `in.drift`
 // and returns what kick_and_drift() returns. correct() then applies the new forces. begin_derivatives() sets
 // the derivatives for the first prediction from the present forces.

@@ -15,7 +15,7 @@ struct alignas(64) FaceRecord {
 };
 
 // Of every point of the face: no body turns. When one does, its spin stands here too, and touch_walls
-// (contact_geometry.cpp), the one who asks for the velocity of a wall at a contact, adds spin x arm.
+// (wall_geometry.cpp), the one who asks for the velocity of a wall at a contact, adds spin x arm.
 struct alignas(64) FaceMotion {
     Vec3 velocity;  // m/s, mean over the step
     double unused_one;

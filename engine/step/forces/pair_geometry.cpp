@@ -1,36 +1,14 @@
+// The geometry of contacts between two grains.
 #include "engine/step/forces/contact_geometry.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "engine/step/forces/contact_geometry.cpp"
+#define HWY_TARGET_INCLUDE "engine/step/forces/pair_geometry.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "engine/laws/row-inl.hpp"
-#include "engine/step/grid/places-inl.hpp"
+#include "engine/step/forces/turn-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
-
-// Velocity of i's surface against j's surface, from the velocity of the centres and the spins times arms.
-// These two belong to the middle of the step, but the normal k belongs to its end. The normal of the middle
-// is k + change. So the velocity is computed with k + change, and its normal part is then laid along k.
-// Without this, a pair that turns as one body would slip by its angle of turn in every step (Vyas et al.,
-// Comput. Phys. Commun. 310, 109524: time levels).
-template <class L>
-HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spins, const Triple<L>& k,
-                                 const Triple<L>& change) {
-    return velocity.less(change, k.dot(velocity)) + spins.cross(k + change);
-}
-
-// Cayley's vector of a contact's turn during a step. The turn has two parts. The first part takes the old
-// normal to k; the old normal is k + 2 `back`, scaled to unit length. Its vector a is taken as tan(angle) / 2
-// along the axis, which makes the angle wrong by its cube / 4. The second part is a turn about k, by the
-// angle 2 `twist`; its vector is b. Both parts together are a + b + b x a.
-// (The old normal is not stored. It follows from the velocities, because the displacement between two forces
-// is the velocity times the step.)
-template <class L>
-HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist) {
-    return back.cross(k).plus(k + back, twist);
-}
 
 // Where the bodies of a chunk start in the array of places, counted in doubles. In the array of motions they
 // start at twice that number. These offsets are computed once for each chunk.
@@ -62,12 +40,6 @@ std::uint64_t pairs_within(const Grains& grains, const std::int32_t* i, const st
         touching |= bits(apart.squared() < reach * reach) << c;
     }
     return touching;
-}
-
-// The number of contacts together with the copies that fill the last block. Laws may read these copies, so it
-// is computed for them too whether they touch.
-HWY_INLINE int whole_blocks(int count) {
-    return (count + kBlock - 1) / kBlock * kBlock;
 }
 
 // A chunk passes through sweeps: places, distances, radii, velocities, spins. The law decides which of them
@@ -231,105 +203,6 @@ void pairs(const GeometryInput& in, double period, TouchChunk& out) {
     in.rounded ? pairs_at<FloatLanes>(in, period, out) : pairs_at<Lanes>(in, period, out);
 }
 
-// A grain at a wall. The wall is a plane or a cylinder.
-struct AtWall {
-    Triple<Lanes> out_from_axis;
-    Lanes from_axis, distance, radius;
-    LanesMask round;
-};
-HWY_INLINE AtWall at_wall(const double* place, const WallState& walls, const std::int32_t* i,
-                          const std::int32_t* face, Triple<Lanes>& into) {
-    const Lanes zero(0.0);
-    const auto grain = load_records(place, 4, i);
-    const auto plane = load_records(numbers(walls.faces), 8, face);
-    const Triple<Lanes> centre = triple(grain);
-    into = triple(plane);
-    AtWall w{{zero, zero, zero}, zero, into.dot(centre) - Lanes(plane.d), Lanes(grain.d), zero > zero};
-    if (!walls.any_round) return w;
-    const auto cylinder = load_records(numbers(walls.faces) + 4, 8, face);
-    w.out_from_axis = centre - triple(cylinder);
-    w.out_from_axis.z = zero;
-    w.from_axis = root(w.out_from_axis.squared());
-    w.round = Lanes(cylinder.d) > zero;
-    w.distance = select(w.round, Lanes(cylinder.d) - w.from_axis, w.distance);
-    return w;
-}
-
-std::uint64_t walls_that_touch(const Grains& grains, const std::int32_t* i, const std::int32_t* face,
-                               int count, const WallState& walls) {
-    std::uint64_t touching = 0;
-    Triple<Lanes> into;
-    for (int c = 0; c < count; c += kLanes) {
-        const AtWall w = at_wall(numbers(grains.place), walls, i + c, face + c, into);
-        touching |= bits(w.distance < w.radius) << c;
-    }
-    return touching;
-}
-
-template <Wants wants, class Number>
-void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& out) {
-    const double* place = numbers(in.grains->place);
-    const double* motion = numbers(in.grains->motion);
-    out.touching = 0;
-    const Lanes turn(0.5 * in.turns_for), half_step(0.5 * in.step);
-    for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
-        const std::int32_t *i = in.first + c, *face = in.second + c;
-        Triple<Lanes> into;
-        const auto [out_from_axis, from_axis, distance, radius, round] = at_wall(place, walls, i, face, into);
-        const Lanes overlap = radius - distance;
-        put<Number>(overlap, out.overlap, c);
-        const LanesMask touching = overlap > Lanes(0.0);
-        if (none(touching)) continue;
-        out.touching |= bits(touching) << c;
-
-        Lanes inverse(0.0);
-        if (walls.any_round) inverse = select(from_axis > inverse, Lanes(1.0) / from_axis, inverse);
-        const Triple<Lanes> k = select(round, out_from_axis * inverse, -into);
-        put<Number>(k, out.normal, c);
-        if (in.radius) put<Number>(radius, out.effective_radius, c);
-        if (wants == Wants::overlap && !in.mass) continue;
-
-        const auto motion_one = load_records(motion, 8, i);
-        if (in.mass) put<Number>(Lanes(motion_one.d), out.inverse_mass, c);
-        if constexpr (wants == Wants::overlap) continue;
-
-        Triple<Lanes> velocity = triple(motion_one) - triple(load_records(numbers(walls.motion), 8, face));
-        if constexpr (wants >= Wants::spin) {
-            const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
-            const Triple<Lanes> rate = triple(load_records(motion + 4, 8, i));
-            // A cylinder's normal turns as the grain moves around the axis. A plane's normal does not turn.
-            const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
-            Triple<Lanes> across = velocity.less(k, closing) * select(round, Lanes(-1.0), Lanes(0.0));
-            across.z = Lanes(0.0);
-            const Lanes nearer = multiply_add(Lanes(2.0) * in_half, closing, Lanes(1.0));
-            put<Number>(turn_of(k, across * (in_half * nearer), Lanes(0.5) * half_step * rate.dot(k)),
-                        out.turn, c);
-            velocity = of_surfaces(velocity, rate * arm, k, across * (turn * inverse));
-            put<Number>(arm, out.first_arm, c);
-            if constexpr (wants == Wants::rolling) put<Number>(rate.across(k), in.rolling->rate, c);
-        }
-        put<Number>(velocity, out.velocity, c);
-    }
-}
-
-template <class Number>
-void walls_in(const GeometryInput& in, const WallState& state, TouchChunk& out) {
-    switch (in.wants) {
-        case Wants::overlap:
-            return walls_chunk<Wants::overlap, Number>(in, state, out);
-        case Wants::velocity:
-            return walls_chunk<Wants::velocity, Number>(in, state, out);
-        case Wants::spin:
-            return walls_chunk<Wants::spin, Number>(in, state, out);
-        case Wants::rolling:
-            return walls_chunk<Wants::rolling, Number>(in, state, out);
-    }
-}
-
-void walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
-    in.rounded ? walls_in<float>(in, state, out) : walls_in<double>(in, state, out);
-}
-
 }  // namespace grainreel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -337,26 +210,15 @@ HWY_AFTER_NAMESPACE();
 namespace grainreel {
 
 HWY_EXPORT(pairs_within);
-HWY_EXPORT(walls_that_touch);
 HWY_EXPORT(pairs);
-HWY_EXPORT(walls);
 
 std::uint64_t near_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                          int count, double period, double gap) {
     return HWY_DYNAMIC_DISPATCH(pairs_within)(grains, first, second, count, period, gap);
 }
 
-std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
-                             int count, const WallState& walls) {
-    return HWY_DYNAMIC_DISPATCH(walls_that_touch)(grains, first, second, count, walls);
-}
-
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out) {
     HWY_DYNAMIC_DISPATCH(pairs)(in, period, out);
-}
-
-void touch_walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
-    HWY_DYNAMIC_DISPATCH(walls)(in, state, out);
 }
 
 }  // namespace grainreel

@@ -1,0 +1,46 @@
+// What pairs and walls share in the geometry of their contacts: how surfaces move, and how contacts turn.
+#if defined(GRAINREEL_STEP_TURN_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_STEP_TURN_INL
+#undef GRAINREEL_STEP_TURN_INL
+#else
+#define GRAINREEL_STEP_TURN_INL
+#endif
+
+#include "engine/laws/row-inl.hpp"
+#include "engine/step/grid/places-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+// Velocity of i's surface against j's surface, from the velocity of the centres and the spins times arms.
+// These two belong to the middle of the step, but the normal k belongs to its end. The normal of the middle
+// is k + change. So the velocity is computed with k + change, and its normal part is then laid along k.
+// Without this, a pair that turns as one body would slip by its angle of turn in every step (Vyas et al.,
+// Comput. Phys. Commun. 310, 109524: time levels).
+template <class L>
+HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spins, const Triple<L>& k,
+                                 const Triple<L>& change) {
+    return velocity.less(change, k.dot(velocity)) + spins.cross(k + change);
+}
+
+// Cayley's vector of a contact's turn during a step. The turn has two parts. The first part takes the old
+// normal to k; the old normal is k + 2 `back`, scaled to unit length. Its vector a is taken as tan(angle) / 2
+// along the axis, which makes the angle wrong by its cube / 4. The second part is a turn about k, by the
+// angle 2 `twist`; its vector is b. Both parts together are a + b + b x a.
+// (The old normal is not stored. It follows from the velocities, because the displacement between two forces
+// is the velocity times the step.)
+template <class L>
+HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist) {
+    return back.cross(k).plus(k + back, twist);
+}
+
+// The number of contacts together with the copies that fill the last block. Laws may read these copies, so it
+// is computed for them too whether they touch.
+HWY_INLINE int whole_blocks(int count) {
+    return (count + kBlock - 1) / kBlock * kBlock;
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
