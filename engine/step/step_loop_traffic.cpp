@@ -5,13 +5,12 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/step/lists/hand_over.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 
 namespace {
-
-constexpr std::int32_t kGone = ContactPass::kGone;
 
 // Leaves those out whose new index is kGone; the others keep their order.
 template <class Values>
@@ -28,33 +27,6 @@ void leave_out(Grains& grains, const std::vector<std::int32_t>& index) {
     leave_out(grains.place, index), leave_out(grains.motion, index), leave_out(grains.load, index);
     leave_out(grains.rounded, index), leave_out(grains.orientation, index);
     leave_out(grains.derivatives, index);
-}
-
-void leave_out(NeighbourList& list, const std::vector<std::int32_t>& index) {
-    std::size_t grains = 0, partners = 0;
-    list.farthest_partner = 0;
-    std::int32_t from = 0;
-    for (std::size_t i = 0; i < index.size(); ++i) {
-        const std::int32_t begin = std::exchange(from, list.start[i + 1]);
-        if (index[i] == kGone) continue;
-        for (std::int32_t at = begin; at < from; ++at) {
-            const std::int32_t partner = index[static_cast<std::size_t>(list.partner[at])];
-            if (partner == kGone) continue;
-            list.farthest_partner = std::max(list.farthest_partner, partner - index[i]);
-            list.partner[partners++] = partner;
-        }
-        list.start[++grains] = static_cast<std::int32_t>(partners);
-    }
-    list.start.resize(grains + 1);
-    list.partner.resize(partners);
-}
-
-void leave_out(std::vector<WallNeighbour>& walls, const std::vector<std::int32_t>& index) {
-    std::size_t kept = 0;
-    for (const WallNeighbour& w : walls)
-        if (index[static_cast<std::size_t>(w.grain)] != kGone)
-            walls[kept++] = {index[static_cast<std::size_t>(w.grain)], w.face};
-    walls.resize(kept);
 }
 
 Departure departure_of(const Grains& grains, std::size_t i, const Vec3& gravity, std::int64_t step) {
@@ -88,17 +60,12 @@ bool StepLoop::may_leave(int member) const {
     for (const Exit& exit : around_.exits) {
         if (exit.sides.empty()) continue;
         const Exit::HalfSpace first = exit.sides.front();
-        for (std::int32_t i = share_[member]; i < share_[member + 1]; ++i) {
+        for (std::int32_t i = lists_.begin(member); i < lists_.end(member); ++i) {
             const Vec3& centre = grains_.place[i].position;
             if (first.normal.dot(centre) < first.distance && exit.holds(centre)) return true;
         }
     }
     return false;
-}
-
-bool StepLoop::anyone_may_leave(const Member& mine) const {
-    return std::any_of(members_.begin(), members_.end(),
-                       [&](const Member& m) { return m.told[mine.box].may_leave; });
 }
 
 void StepLoop::let_leave(std::int64_t step) {
@@ -119,21 +86,8 @@ void StepLoop::remove(const std::vector<std::int32_t>& ids, std::int64_t step) {
 void StepLoop::take_out(const std::vector<std::int32_t>& leavers, std::int64_t step) {
     if (leavers.empty()) return;
     note_departures(leavers, step);
-    std::vector<std::int32_t>& index = new_index_;
-    index.assign(grains_.size(), 0);
-    for (const std::int32_t i : leavers) index[i] = kGone;
-    std::int32_t next = 0;
-    for (std::int32_t& i : index)
-        if (i != kGone) i = next++;
-    for (std::int32_t& share : share_)
-        share -= static_cast<std::int32_t>(std::lower_bound(leavers.begin(), leavers.end(), share) -
-                                           leavers.begin());
-    leave_out(grains_, index);
-    leave_out(lists_.pairs, index);
-    leave_out(lists_.walls, index);
-    leave_out(listed_at_, index);
-    for (Member& m : members_) m.contacts.leave_out(rules_, index);
-    renew_shares();
+    leave_out(grains_, lists_.leave_out(leavers));
+    lists_.renew_shares();
 }
 
 // In order of their ids.
@@ -164,15 +118,12 @@ std::vector<Departure> StepLoop::take_departures() {
 }
 
 std::int32_t StepLoop::insert(const std::vector<NewGrain>& more) {
-    GRAINREEL_CHECK(!share_.empty());
+    GRAINREEL_CHECK(lists_.are_made());
     for (const std::int32_t id : grains_.id)
         traffic_.next_id = std::max<std::int64_t>(traffic_.next_id, id + std::int64_t{1});
     const auto first = static_cast<std::int32_t>(traffic_.next_id);
     for (const NewGrain& grain : more) add(grain);
-    if (more.empty()) return first;
-    for (Member& m : members_) m.reach.moved = kNowhere;  // used up
-    share_.back() = static_cast<std::int32_t>(grains_.size());
-    renew_shares();
+    if (!more.empty()) lists_.renew_shares();
     return first;
 }
 
@@ -187,25 +138,9 @@ void StepLoop::add(const NewGrain& grain) {
         grains_.derivatives.emplace_back();
         grains_.derivatives.back().acceleration = around_.gravity;
     }
-    // It was listed nowhere, so that the lists are made again at the end of the next step.
-    listed_at_.push_back(Eigen::Vector3f::Constant(kNowhere));
-    lists_.pairs.start.push_back(lists_.pairs.start.back());
+    lists_.add_unlisted();
     ++traffic_.came;
     traffic_.energy_in += departure_of(grains_, grains_.size() - 1, around_.gravity, 0).energy;
-}
-
-// Whose grains are whose after some left or came: they have new indices, and nobody's lists are in order.
-void StepLoop::renew_shares() {
-    grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
-    team_.run([&](int member) {
-        Member& mine = members_[member];
-        mine.contacts.own(rules_, lists_, share_[member], share_[member + 1]);
-        team_.barrier(member);
-        if (member == 0) place_halos();
-        team_.barrier(member);
-        refresh(member);
-        mine.contacts.note_loads(grains_);
-    });
 }
 
 }  // namespace grainreel

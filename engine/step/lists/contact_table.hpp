@@ -10,6 +10,7 @@
 // (docs/notes/performance.md).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <vector>
@@ -99,6 +100,17 @@ class ContactTable {
     void each_stretch(const Work& work) const {
         work(late(), size_);
         work(0, sorted_);
+    }
+    // Calls work(c, count) for each chunk of up to kChunk contacts without empty places, in the same order.
+    template <class Work>
+    void each_chunk(const Work& work) const {
+        struct Stretch {
+            std::int32_t begin, end;
+        };
+        for (const Stretch stretch : {Stretch{late(), size_}, Stretch{0, sorted_}}) {
+            for (std::int32_t c = stretch.begin; c < stretch.end; c += kChunk)
+                work(c, std::min(kChunk, stretch.end - c));
+        }
     }
 
   private:

@@ -1,0 +1,73 @@
+#include "engine/step/forces/contact_forces.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "engine/step/forces/loads.hpp"
+#include "engine/step/grid/large_bed.hpp"
+#include "engine/step/lists/new_contacts.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// Adds the forces in `memory` to the loads of the chunk's grains.
+void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded, bool sorted,
+               const ChunkMemory& memory, Grains& grains) {
+    const ChunkOfContacts forces{chunk.first_at,
+                                 chunk.second_at,
+                                 chunk.count,
+                                 &memory.touch,
+                                 &memory.force,
+                                 group.law->rubs,
+                                 group.rolling ? &memory.rolling : nullptr,
+                                 rounded,
+                                 sorted};
+    group.of_pairs ? add_pairs(forces, grains) : add_walls({forces, in.walls, in.times.acts, grains});
+}
+
+}  // namespace
+
+// Contacts go through geometry, law and loads a chunk at a time, so that a chunk stays in the cache. Those at
+// walls come before those of pairs, and of one law those that began since the last refresh come first.
+void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& contacts, ChunkMemory& memory,
+                        Vanguard& vanguard, CostClock& clock) {
+    for (std::size_t g = contacts.tables.size(); g-- > 0;) {
+        const ContactGroup& group = in.rules.groups[g];
+        const bool rounded = group.number_size() == sizeof(float);
+        ContactTable& table = contacts.tables[g];
+        add_new_contacts(in, g, contacts);
+        table.each_chunk([&](std::int32_t c, int count) {
+            const bool sorted = c < table.sorted(), large = group.of_pairs && sorted && is_large_bed(grains);
+            memory.touch.ahead = large ? &memory.ahead : nullptr;
+            if (large) look_ahead(grains, rounded, table, c, count, memory.ahead);
+            const auto [first, second] = contacts.bodies_of(in.rules, g, c, count);
+            const Chunk chunk{table.first() + c, table.second() + c, first, second, count};
+
+            const LawInput law = law_input(in, group, chunk, rounded, memory);
+            table.note_touching(c, memory.touch.touching);
+            // From here to the formula: step_any() and step_chunk() (engine/laws/kernel-inl.hpp) load a
+            // register of contacts, ContactLaw::force() (contact_law-inl.hpp) joins the two laws, and their
+            // force() is the formula: SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force()
+            // (linear_spring-inl.hpp) and so on.
+            void* history = table.histories().of_block(c);
+            group.law->step(law, history, memory.force);
+            if (group.rolling)
+                group.rolling->step(for_rolling(group, law), behind_law(group, history), memory.force);
+            clock.lap(group.of_pairs ? Cost::contacts : Cost::walls);
+
+            add_loads(in, group, chunk, rounded, sorted, memory, grains);
+            clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
+
+            // The sorted contacts of the first group come last. Grains before the next contact have all
+            // their forces.
+            if (g != 0 || !sorted || c + count == table.sorted()) return;
+            advance(vanguard, grains, table.first()[c + count]);
+            clock.lap(Cost::integrate);
+        });
+    }
+    advance(vanguard, grains, contacts.end);
+    clock.lap(Cost::integrate);
+}
+
+}  // namespace grainreel

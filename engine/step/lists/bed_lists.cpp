@@ -1,0 +1,184 @@
+#include "engine/step/lists/bed_lists.hpp"
+
+#include <algorithm>
+
+#include "engine/base/ticks.hpp"
+#include "engine/step/lists/candidates.hpp"
+#include "engine/step/lists/hand_over.hpp"
+
+namespace grainreel {
+
+BedLists::BedLists(const ContactRules& rules, const Surroundings& around, Grains& grains, Team& team)
+    : rules_(rules),
+      around_(around),
+      grains_(grains),
+      team_(team),
+      life_(around, team.size()),
+      shares_(team),
+      threads_(team.size()) {}
+
+void BedLists::restart() {
+    life_.restart();
+    for (Thread& thread : threads_) thread.contacts = {};
+    clear_counts();
+}
+
+void BedLists::begin_empty() {
+    restart();
+    lists_ = {};
+    lists_.pairs.resize(0, 0);
+    shares_.clear();
+    for (Thread& thread : threads_) thread.contacts.own(rules_, lists_, 0, 0);
+}
+
+void BedLists::renew(int thread, const Vec3& fastest, std::int64_t parted, const Evaluation& at, double step,
+                     const Vec3& frame) {
+    const Vec3 drift = life_.drift(at.time, step);
+    if (!life_.contacts_expired(thread, fastest, parted, grains(), at, drift)) return;
+    life_.set_reach(thread, at.now, drift, frame, step);
+    life_.measure(thread, grains_, begin(thread), end(thread), drift);
+    team_.barrier(thread);
+    if (life_.lists_expired(thread, at.now, drift)) {
+        rebuild(thread, at.now, at.time, life_.lasted(at.time));
+        life_.reach(thread).drift.setZero();
+    } else {
+        refresh(thread);
+    }
+    if (thread == 0) ++refreshes_;
+}
+
+void BedLists::rebuild(int thread, const Pose& pose, double time, double lasted) {
+    const TeamMember me{team_, thread};
+    shares_.begin_lists(thread);
+    if (me.leads()) {
+        life_.set_next_skin(lasted);
+        shares_.begin_search(grains());
+        if (team_.size() > 1) contacts_.assign(grains_.size(), 0);
+    }
+    me.wait();
+    put_in_order(me, cells_, grains_, life_.next_skin(), around_.period, new_index_);
+    if (team_.size() > 1) count_contacts(threads_[thread].contacts, new_index_, contacts_);
+    search(thread, pose);
+    me.wait();
+    if (team_.size() > 1) join_parts(me);
+    me.wait();
+    if (thread == team_.size() - 1) life_.note_listing(grains_, pose, time);
+    if (me.leads()) {
+        life_.use_next_skin();
+        shares_.renew(lists_.pairs, contacts_, grains());
+        ++rebuilds_;
+    }
+    me.wait();
+    hand_over(me);
+    if (me.leads()) place_halos();
+    me.wait();
+    refresh(thread);
+    shares_.end_lists(thread);
+}
+
+// Searches for the neighbours of the thread's part of the grains. Alone, it writes the lists themselves.
+void BedLists::search(int thread, const Pose& pose) {
+    const bool alone = team_.size() == 1;
+    Thread& mine = threads_[thread];
+    const std::int32_t begin = shares_.search_begin(thread), end = shares_.search_end(thread);
+    const std::uint64_t since = ticks();
+    list_pairs(cells_, grains_, life_.next_skin(), around_.period, begin, end,
+               alone ? lists_.pairs : mine.pairs);
+    list_walls(grains_, around_.faces, pose, life_.next_skin(), begin, end,
+               alone ? lists_.walls : mine.walls_near);
+    shares_.searched(thread, static_cast<double>(ticks() - since + 1));
+}
+
+// Joins what the threads have found. Each thread copies its own part.
+void BedLists::join_parts(const TeamMember& me) {
+    NeighbourList& all = lists_.pairs;
+    std::size_t pairs = 0, walls = 0, pairs_before = 0, walls_before = 0;
+    std::int32_t farthest = 0;
+    for (int t = 0; t < team_.size(); ++t) {
+        if (t == me.member) pairs_before = pairs, walls_before = walls;
+        pairs += threads_[t].pairs.size();
+        walls += threads_[t].walls_near.size();
+        farthest = std::max(farthest, threads_[t].pairs.farthest_partner);
+    }
+    if (me.leads()) {
+        all.resize(grains_.size(), pairs);
+        all.farthest_partner = farthest;
+        lists_.walls.resize(walls);
+    }
+    me.wait();
+    const Thread& mine = threads_[me.member];
+    all.put(mine.pairs, shares_.search_begin(me.member), pairs_before);
+    std::copy(mine.walls_near.begin(), mine.walls_near.end(),
+              lists_.walls.begin() + static_cast<std::ptrdiff_t>(walls_before));
+}
+
+// Hands the contacts over to those who own their grains from now on.
+void BedLists::hand_over(const TeamMember& me) {
+    Thread& mine = threads_[me.member];
+    renumber(rules_, me.member, {new_index_, shares_.before(), shares_.now()}, mine.contacts, mine.leaving);
+    me.wait();
+    mine.contacts.own(rules_, lists_, begin(me.member), end(me.member));
+    for (const Thread& thread : threads_) take(me.member, thread.leaving, mine.contacts);
+    me.wait();
+}
+
+// Places the copies of all threads one after the other. No cache line holds copies of two threads.
+void BedLists::place_halos() {
+    constexpr std::int32_t kApart = 4;
+    std::int32_t end_of_copies = grains();
+    for (Thread& thread : threads_) {
+        const std::int32_t at = (end_of_copies + kApart - 1) / kApart * kApart;
+        thread.contacts.halo.make_room(at, team_.size());
+        end_of_copies = at + thread.contacts.halo.size();
+    }
+    if (team_.size() > 1) reserve_copies(grains_, end_of_copies - grains());
+}
+
+Nearby BedLists::nearby(const Reach& reach) const {
+    return {grains_, lists_, around_.faces, reach.pose, reach.skin};
+}
+
+// Refreshes the contact lists. Between two rebuilds, this is the only time that a thread reads grains of
+// other threads directly, not as copies.
+void BedLists::refresh(int thread) {
+    ThreadContacts& mine = contacts(thread);
+    const double before = team_.busy(thread);
+    grainreel::refresh(rules_, nearby(life_.reach(thread)), mine);
+    if (team_.size() == 1) return;
+    mine.list_foreign(rules_, grains_, shares_.now());
+    team_.barrier(thread);
+    shares_.refreshed(thread, team_.busy(thread) - before);
+}
+
+const std::vector<std::int32_t>& BedLists::leave_out(const std::vector<std::int32_t>& leavers) {
+    new_index_.assign(grains_.size(), 0);
+    for (const std::int32_t i : leavers) new_index_[i] = kGone;
+    std::int32_t next = 0;
+    for (std::int32_t& i : new_index_)
+        if (i != kGone) i = next++;
+    shares_.leave_out(leavers);
+    grainreel::leave_out(new_index_, lists_);
+    life_.leave_out(new_index_);
+    for (Thread& thread : threads_) grainreel::leave_out(rules_, new_index_, thread.contacts);
+    return new_index_;
+}
+
+void BedLists::add_unlisted() {
+    life_.add_unlisted();
+    lists_.pairs.start.push_back(lists_.pairs.start.back());
+    shares_.append(grains());
+}
+
+void BedLists::renew_shares() {
+    grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
+    team_.run([&](int thread) {
+        contacts(thread).own(rules_, lists_, begin(thread), end(thread));
+        team_.barrier(thread);
+        if (thread == 0) place_halos();
+        team_.barrier(thread);
+        refresh(thread);
+        contacts(thread).note_loads(grains_);
+    });
+}
+
+}  // namespace grainreel

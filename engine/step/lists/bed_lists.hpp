@@ -1,0 +1,110 @@
+// All lists of the bed: neighbours, and each thread's contacts and candidates. The threads make them
+// together.
+//
+// The bits do not depend on the number of threads, for three reasons. The grains have one spatial order,
+// whatever the team. Every thread computes all contacts of its own grains. Every grain sums its contacts in
+// one order: walls before pairs, law by law. Within a law, the contacts that began since the last refresh
+// come first, in the order in which they began. Then come the contacts in which the grain is the second body,
+// by rising first body, then those in which it is the first body, by rising second body.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "engine/base/team.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/evaluation.hpp"
+#include "engine/step/grid/cells.hpp"
+#include "engine/step/grid/neighbours.hpp"
+#include "engine/step/lists/candidates.hpp"
+#include "engine/step/lists/list_life.hpp"
+#include "engine/step/lists/thread_contacts.hpp"
+#include "engine/step/surroundings.hpp"
+#include "engine/step/threads/work_shares.hpp"
+
+namespace grainreel {
+
+class Bytes;
+
+class BedLists {
+  public:
+    BedLists(const ContactRules& rules, const Surroundings& around, Grains& grains, Team& team);
+
+    // Forgets all contacts. rebuild() must follow, or begin_empty(), which makes the lists of no grains.
+    void restart();
+    void begin_empty();
+
+    // Puts the grains in order and makes new neighbour lists. Contacts keep their histories. All threads call
+    // it. time: steps; lasted: steps that the last lists have lasted.
+    void rebuild(int thread, const Pose& pose, double time, double lasted);
+    // Makes lists again that no longer reach far enough. All threads call it in each evaluation. fastest and
+    // `parted`: as ListLife::contacts_expired() wants them; step: s.
+    void renew(int thread, const Vec3& fastest, std::int64_t parted, const Evaluation& at, double step,
+               const Vec3& frame);
+
+    // The thread's own grains.
+    std::int32_t begin(int thread) const { return shares_.begin(thread); }
+    std::int32_t end(int thread) const { return shares_.end(thread); }
+    ThreadContacts& contacts(int thread) { return threads_[thread].contacts; }
+    const ThreadContacts& contacts(int thread) const { return threads_[thread].contacts; }
+
+    ListLife& life() { return life_; }
+    const ListLife& life() const { return life_; }
+
+    // Between two runs: grains leave (rising indices), before they leave the grains' arrays. Returns the new
+    // index of each grain, kGone for those that leave. renew_shares() must follow.
+    const std::vector<std::int32_t>& leave_out(const std::vector<std::int32_t>& leavers);
+    // Likewise: a grain has come, behind all others. Its lists are made at the end of the next step.
+    void add_unlisted();
+    // Whose grains are whose after some left or came: they have new indices, and nobody's lists are in order.
+    void renew_shares();
+    bool are_made() const { return !shares_.empty(); }
+
+    // Writes lists and histories, bit by bit. load() reads them. The reading fails where save() could not
+    // have written what is read, with these grains and faces; no index is trusted.
+    void save(std::ostream& out) const;
+    void load(Bytes& in);
+
+    std::int64_t rebuilds() const { return rebuilds_; }
+    std::int64_t refreshes() const { return refreshes_; }
+    void clear_counts() { rebuilds_ = refreshes_ = 0; }
+    std::size_t listed_pairs() const { return lists_.pairs.size(); }
+
+  private:
+    // What a thread writes. It shares no cache line with what another thread writes.
+    struct alignas(64) Thread {
+        ThreadContacts contacts;
+        std::vector<KeptContacts> leaving;  // for other threads, by group
+        NeighbourList pairs;                // its part of the search, where there are several threads
+        std::vector<WallNeighbour> walls_near;
+    };
+
+    std::int32_t grains() const { return static_cast<std::int32_t>(grains_.size()); }
+    Nearby nearby(const Reach& reach) const;
+    void search(int thread, const Pose& pose);
+    void join_parts(const TeamMember& me);
+    void hand_over(const TeamMember& me);
+    void place_halos();
+    void refresh(int thread);
+
+    std::vector<KeptContacts> all_kept() const;
+    template <class Lists, class Kept, class ReachType, class Each>
+    static void transfer(Lists& lists, Kept& kept, std::int32_t& steps, ReachType& reach, const Each& each);
+    bool is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const;
+
+    const ContactRules& rules_;
+    const Surroundings& around_;
+    Grains& grains_;
+    Team& team_;
+    Cells cells_;
+    NeighbourLists lists_;
+    ListLife life_;
+    WorkShares shares_;
+    std::vector<Thread> threads_;
+    std::vector<std::int32_t> new_index_;  // of each grain in the last reordering
+    std::vector<std::int32_t> contacts_;   // of each grain as first body, when the lists were made
+    std::int64_t rebuilds_ = 0, refreshes_ = 0;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,66 @@
+#include "engine/step/lists/candidates.hpp"
+
+#include <algorithm>
+
+#include "engine/step/grid/large_bed.hpp"
+#include "engine/step/lists/near_pairs.hpp"
+
+namespace grainreel {
+
+namespace {
+
+void list_near_pairs(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
+    const Grains& grains = nearby.grains;
+    const NeighbourList& list = nearby.lists.pairs;
+    const bool one_group = rules.one_group_of_pairs();
+    const auto sort_in = [&](std::int32_t i, std::int32_t j) {
+        const std::int32_t group =
+            one_group ? 0 : rules.group_of_pair[grains.species[i] * rules.species + grains.species[j]];
+        contacts.tables[group].offer(i, j);
+    };
+    NearPairs pairs(grains, rules.period, nearby.skin, sort_in);
+    for (const ThreadContacts::Pair& pair : contacts.incoming) pairs.add(pair.first, pair.second);
+    const std::int32_t *const start = list.start.data(), *const partner = list.partner.data();
+    for (std::int32_t i = contacts.begin; i < contacts.end; ++i)
+        pairs.add(i, partner + start[i], start[i + 1] - start[i], partner + list.partner.size());
+    pairs.flush();
+}
+
+// Where the wall neighbours of the grains from `begin` on start in the list.
+std::int32_t first_wall_slot(const std::vector<WallNeighbour>& list, std::int32_t begin) {
+    const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
+    return static_cast<std::int32_t>(std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin());
+}
+
+void list_near_walls(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
+    const std::vector<WallNeighbour>& list = nearby.lists.walls;
+    const std::int32_t last = first_wall_slot(list, contacts.end);
+    for (std::int32_t at = first_wall_slot(list, contacts.begin); at < last; ++at) {
+        const auto [grain, face] = list[at];
+        const Place& place = nearby.grains.place[grain];
+        const Vec3 moved = nearby.faces[face].displacement(nearby.pose);
+        if (distance_to(nearby.faces[face], moved, place.position).distance < place.radius + nearby.skin)
+            contacts.tables[rules.group_of_wall[nearby.grains.species[grain]]].offer(grain, face);
+    }
+}
+
+}  // namespace
+
+void list_candidates(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
+    for (ContactTable& table : contacts.tables) table.begin_candidates();
+    list_near_pairs(rules, nearby, contacts);
+    list_near_walls(rules, nearby, contacts);
+    for (ContactTable& table : contacts.tables) table.end_candidates();
+    for (std::size_t g = 0; g < contacts.tables.size(); ++g)
+        if (rules.groups[g].of_pairs && !is_large_bed(nearby.grains))
+            contacts.soon[g].expire(contacts.tables[g].candidates());
+    contacts.skin = nearby.skin;
+}
+
+void refresh(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
+    for (ContactTable& table : contacts.tables) table.sort();
+    contacts.note_loaded(rules);
+    list_candidates(rules, nearby, contacts);
+}
+
+}  // namespace grainreel

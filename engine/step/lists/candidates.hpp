@@ -1,0 +1,24 @@
+// The refresh of the contact lists, every 48 steps or so: contacts that have parted go, the others are
+// sorted, and pairs that may touch soon become candidates.
+#pragma once
+
+#include <vector>
+
+#include "engine/step/lists/thread_contacts.hpp"
+
+namespace grainreel {
+
+// Where candidates come from: the neighbour lists of ThreadContacts::own(), and the faces at a pose.
+struct Nearby {
+    const Grains& grains;
+    const NeighbourLists& lists;
+    const std::vector<Face>& faces;
+    const Pose& pose;
+    double skin;  // m; pairs that are closer than this become candidates
+};
+
+void refresh(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts);
+// As refresh(), but contacts stay as they are.
+void list_candidates(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts);
+
+}  // namespace grainreel

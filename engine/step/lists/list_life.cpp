@@ -1,0 +1,148 @@
+#include "engine/step/lists/list_life.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainreel {
+
+ListLife::ListLife(const Surroundings& around, int threads)
+    : around_(around), threads_(threads), skin_(around.skin), next_skin_(around.skin) {}
+
+void ListLife::restart() {
+    skin_ = around_.skin;
+    listed_at_.clear();
+    for (Thread& thread : threads_) thread.reach = {};
+}
+
+// Lists that lasted too few steps get a wider skin. Lists that lasted longer than pays get a narrower one.
+// With a period the skin stays, because a wider one could list a pair twice.
+void ListLife::set_next_skin(double lasted) {
+    constexpr double kShort = 400, kLong = 1500;  // steps
+    constexpr double kFactor = 1.25;
+    next_skin_ = skin_;
+    if (around_.period > 0) return;
+    const double factor = lasted < kShort ? kFactor : lasted > kLong ? 1 / kFactor : 1;
+    next_skin_ = std::clamp(factor * skin_, kLeastSkin * around_.skin, kMostSkin * around_.skin);
+}
+
+void ListLife::note_listing(const Grains& grains, const Pose& pose, double time) {
+    listed_at_.resize(grains.size());
+    listed_velocity_.setZero();
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        listed_at_[i] = grains.place[i].position.cast<float>();
+        listed_velocity_ += grains.motion[i].velocity;
+    }
+    listed_velocity_ /= static_cast<double>(grains.size());
+    listed_pose_ = pose;
+    listed_step_ = time;
+}
+
+double ListLife::lasted(double time) const {
+    const bool some_are_new = farthest() > kNowhere / 2;
+    return some_are_new ? kLastsWell : time - listed_step_;
+}
+
+Vec3 ListLife::drift(double time, double step) const {
+    const double passed = (time - listed_step_) * step;
+    return passed * (listed_velocity_ + 0.5 * passed * around_.gravity);
+}
+
+Vec3 ListLife::frame(const Evaluation& at, double step) const {
+    const double last = at.time - at.since / step;
+    return (drift(at.time, step) - drift(last, step)) / at.since;
+}
+
+namespace {
+
+// The largest displacement (m) of any face between two poses, relative to a frame displaced by `flown`.
+double farthest_face(const std::vector<Face>& faces, const Pose& before, const Pose& now, const Vec3& flown) {
+    double squared = 0;
+    for (const Face& face : faces) {
+        const Vec3 gone = face.displacement(now) - face.displacement(before) - flown;
+        squared = std::max(squared, gone.squaredNorm());
+    }
+    return std::sqrt(squared);
+}
+
+}  // namespace
+
+bool ListLife::contacts_expired(int thread, const Vec3& fastest, std::int64_t parted, std::int64_t grains,
+                                const Evaluation& at, const Vec3& drift) {
+    constexpr std::int64_t kRefresh = 16;  // a refresh takes as long as this many contacts a grain
+    Reach& reach = threads_[thread].reach;
+    reach.parted += parted;
+    reach.fastest = fastest.norm();
+    reach.moved += reach.fastest * std::abs(at.since);
+    const Vec3 flown = drift - reach.drift;
+    return 2 * reach.moved > reach.skin || reach.parted > kRefresh * grains ||
+           reach.moved + farthest_face(around_.faces, reach.pose, at.now, flown) > reach.skin;
+}
+
+void ListLife::set_reach(int thread, const Pose& now, const Vec3& drift, const Vec3& frame, double step) {
+    constexpr double kStepsPerRefresh = 48, kLeastShare = 1e-3, kMostShare = 0.4;
+    Reach& reach = threads_[thread].reach;
+    double wall = 0;
+    for (const Face& face : around_.faces) wall = std::max(wall, (face.velocity_at(now) - frame).norm());
+    const double wanted = kStepsPerRefresh * step * (reach.fastest + std::max(reach.fastest, wall));
+    reach.skin = std::clamp(wanted, kLeastShare * skin_, kMostShare * skin_);
+    reach.moved = 0;
+    reach.parted = 0;
+    reach.drift = drift;
+    reach.pose = now;
+}
+
+void ListLife::measure(int thread, const Grains& grains, std::int32_t begin, std::int32_t end,
+                       const Vec3& drift) {
+    constexpr double kRounding = 1e-7;  // of floats
+    double farthest = 0;
+    for (std::int32_t i = begin; i < end; ++i) {
+        const Vec3 listed = listed_at_[i].cast<double>();
+        const double moved = (grains.place[i].position - listed - drift).norm();
+        farthest = std::max(farthest, moved + kRounding * listed.norm());
+    }
+    threads_[thread].farthest = farthest;
+}
+
+bool ListLife::lists_expired(int thread, const Pose& now, const Vec3& drift) const {
+    const double moved = farthest();
+    const double used = moved + std::max(moved, farthest_face(around_.faces, listed_pose_, now, drift));
+    return used + threads_[thread].reach.skin > skin_;
+}
+
+double ListLife::farthest() const {
+    double moved = 0;
+    for (const Thread& thread : threads_) moved = std::max(moved, thread.farthest);
+    return moved;
+}
+
+void ListLife::leave_out(const std::vector<std::int32_t>& index) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < index.size(); ++i)
+        if (index[i] >= 0) listed_at_[kept++] = listed_at_[i];
+    listed_at_.resize(kept);
+}
+
+void ListLife::add_unlisted() {
+    listed_at_.push_back(Eigen::Vector3f::Constant(kNowhere));
+    for (Thread& thread : threads_) thread.reach.moved = kNowhere;
+}
+
+namespace {
+
+bool is_finite(const Pose& pose) {
+    return pose.offset.allFinite() && pose.velocity.allFinite() && std::isfinite(pose.time);
+}
+
+}  // namespace
+
+bool ListLife::is_sound(std::int32_t grains, const Reach& reach) const {
+    const auto finite = [](const auto& v) { return v.allFinite(); };
+    return std::ssize(listed_at_) == grains && std::isfinite(listed_step_) && is_finite(listed_pose_) &&
+           listed_velocity_.allFinite() && skin_ >= kLeastSkin * around_.skin &&
+           skin_ <= kMostSkin * around_.skin && reach.skin >= 0 && reach.skin <= skin_ && reach.moved >= 0 &&
+           std::isfinite(reach.moved) && std::isfinite(reach.fastest) && reach.parted >= 0 &&
+           reach.drift.allFinite() && is_finite(reach.pose) &&
+           std::all_of(listed_at_.begin(), listed_at_.end(), finite);
+}
+
+}  // namespace grainreel

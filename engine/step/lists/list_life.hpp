@@ -1,0 +1,103 @@
+// How long lists last: until grains and walls may have moved farther than the lists reach.
+//
+// Displacements are measured against the free flight of the bed since the neighbour lists were made. This is
+// safe whatever the bed does: two grains come closer by at most the sum of their displacements relative to
+// any common frame.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/state/grains.hpp"
+#include "engine/step/evaluation.hpp"
+#include "engine/step/surroundings.hpp"
+
+namespace grainreel {
+
+// How far the contact lists reach, and how much of that has been used up since their last refresh. Every
+// thread has its own copy, and all copies are equal.
+struct Reach {
+    double skin = 0;          // m
+    double moved = 0;         // m; no grain has moved farther relative to the bed's free flight
+    double fastest = 0;       // m/s, the largest speed of the last step
+    std::int64_t parted = 0;  // contacts that were computed in vain, summed over the steps
+    Vec3 drift{0, 0, 0};      // m, displacement of the free flight at the refresh
+    Pose pose;                // of the walls at the refresh
+};
+
+class ListLife {
+  public:
+    static constexpr double kLastsWell = 1000;  // steps, of lists whose skin is right
+
+    ListLife(const Surroundings& around, int threads);
+
+    // Begins anew, with the first skin.
+    void restart();
+    void set_step(double time) { listed_step_ = time; }
+
+    double skin() const { return skin_; }  // m, of the neighbour lists
+    // While one thread sets the skin of the lists that are to be made, the others may still read skin().
+    // lasted: steps that the last lists have lasted.
+    void set_next_skin(double lasted);
+    double next_skin() const { return next_skin_; }
+    void use_next_skin() { skin_ = next_skin_; }
+    // Neighbour lists have been made at `time` (steps) from the grains as they are.
+    void note_listing(const Grains& grains, const Pose& pose, double time);
+    // Steps that the neighbour lists have lasted. Lists that expired because grains came count as right.
+    double lasted(double time) const;
+
+    // The displacement of the free flight since the neighbour lists were made. time: steps; step: s.
+    Vec3 drift(double time, double step) const;
+    // The mean velocity of the free flight since the last forces, m/s.
+    Vec3 frame(const Evaluation& at, double step) const;
+
+    Reach& reach(int thread) { return threads_[thread].reach; }
+    const Reach& reach(int thread) const { return threads_[thread].reach; }
+    // Counts one more evaluation. fastest: m/s, largest components of all grains' velocities relative to the
+    // frame; `parted`: contacts that were computed in vain. Returns whether the contact lists must be
+    // refreshed: they no longer reach far enough, or contacts that have parted have cost about as much as a
+    // refresh. All threads get the same answer, because they count the same numbers.
+    bool contacts_expired(int thread, const Vec3& fastest, std::int64_t parted, std::int64_t grains,
+                          const Evaluation& at, const Vec3& drift);
+    // Sets the skin so that the contact lists last for some 48 steps at the present speeds.
+    void set_reach(int thread, const Pose& now, const Vec3& drift, const Vec3& frame, double step);
+    // Measures how far the grains [begin, end) have moved. Every thread does so for its own; then, behind a
+    // barrier, each may ask whether the neighbour lists must be made again.
+    void measure(int thread, const Grains& grains, std::int32_t begin, std::int32_t end, const Vec3& drift);
+    bool lists_expired(int thread, const Pose& now, const Vec3& drift) const;
+
+    // Grains leave. index: the new index of each grain, below 0 for one that leaves.
+    void leave_out(const std::vector<std::int32_t>& index);
+    // A grain comes that is in no list. So all lists expire at the end of the next step.
+    void add_unlisted();
+
+    // Calls each() for everything that is saved, in its order, without the reach.
+    template <class Life, class Each>
+    static void transfer(Life& life, const Each& each) {
+        each(life.listed_at_), each(life.listed_velocity_), each(life.listed_pose_), each(life.listed_step_);
+        each(life.skin_);
+    }
+    // Whether what has been read could have been saved.
+    bool is_sound(std::int32_t grains, const Reach& reach) const;
+
+  private:
+    struct alignas(64) Thread {
+        Reach reach;
+        double farthest = 0;  // m, of its grains from where they were listed
+    };
+    double farthest() const;
+
+    static constexpr float kNowhere = 1e6;                      // m: where unlisted grains count as listed
+    static constexpr double kLeastSkin = 0.5, kMostSkin = 2.8;  // over that of the surroundings
+
+    const Surroundings& around_;
+    std::vector<Thread> threads_;
+    double skin_, next_skin_;  // m
+    // State of the grains and walls when the neighbour lists were made.
+    std::vector<Eigen::Vector3f> listed_at_;  // m; floats to save memory, and their rounding is counted
+    Vec3 listed_velocity_{0, 0, 0};
+    Pose listed_pose_;
+    double listed_step_ = 0;  // steps
+};
+
+}  // namespace grainreel

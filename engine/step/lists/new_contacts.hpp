@@ -1,0 +1,26 @@
+// The candidates that have come to touch.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/step/forces/contact_geometry.hpp"
+#include "engine/step/forces/force_input.hpp"
+#include "engine/step/grid/large_bed.hpp"
+#include "engine/step/lists/thread_contacts.hpp"
+
+namespace grainreel {
+
+// Once a step: candidates of a group that touch become contacts, at the end of its table.
+void add_new_contacts(const ForceInput& in, std::size_t group, ThreadContacts& contacts);
+
+// One bit for each of `count` candidates, at most kChunk: whether its bodies touch.
+inline std::uint64_t which_touch(const ForceInput& in, const ContactGroup& group, const Halo::Bodies& bodies,
+                                 int count) {
+    const std::uint64_t touching =
+        group.of_pairs ? near_pairs(in.grains, bodies.first, bodies.second, count, in.rules.period, 0)
+                       : touching_walls(in.grains, bodies.first, bodies.second, count, in.walls);
+    return touching & bits_of_first(count);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,69 @@
+// Which grains each thread has: a range of them, the longer the faster the thread was lately. The bits of a
+// run do not depend on the ranges.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/team.hpp"
+#include "engine/step/grid/neighbours.hpp"
+#include "engine/step/threads/halo.hpp"
+
+namespace grainreel {
+
+class WorkShares {
+  public:
+    explicit WorkShares(const Team& team) : team_(team), threads_(team.size()) {}
+
+    // The grains of each thread, now and before the last share_out().
+    const Shares& now() const { return share_; }
+    const Shares& before() const { return last_share_; }
+    std::int32_t begin(int thread) const { return share_[thread]; }
+    std::int32_t end(int thread) const { return share_[thread + 1]; }
+    // The grains whose neighbours each thread searches for.
+    std::int32_t search_begin(int thread) const { return search_share_[thread]; }
+    std::int32_t search_end(int thread) const { return search_share_[thread + 1]; }
+
+    // Each thread says how long it was busy: when new lists are begun; how many ticks its search took; when
+    // they are complete; and, of each refresh, for how long.
+    void begin_lists(int thread) { threads_[thread].busy_in_all = team_.busy(thread); }
+    void searched(int thread, double ticks) { threads_[thread].searched_for = ticks; }
+    void end_lists(int thread) {
+        threads_[thread].busy_before = team_.busy(thread);
+        threads_[thread].busy_refreshing = 0;
+    }
+    void refreshed(int thread, double busy) { threads_[thread].busy_refreshing += busy; }
+
+    // One thread does the following for all. begin_search(): before the search; equal parts if the number of
+    // grains has changed. renew(): behind it. share_out(): without any knowledge of speeds.
+    // contacts: of each grain as first body; not read if there is one thread.
+    void begin_search(std::int32_t grains);
+    void renew(const NeighbourList& pairs, const std::vector<std::int32_t>& contacts, std::int32_t grains);
+    void share_out(const NeighbourList& pairs, const std::vector<std::int32_t>& contacts,
+                   std::int32_t grains);
+    // No grains, or grains that leave (rising indices), or grains behind the last one.
+    void clear() { share_.assign(team_.size() + 1, 0); }
+    void leave_out(const std::vector<std::int32_t>& leavers);
+    void append(std::int32_t grains) { share_.back() = grains; }
+    bool empty() const { return share_.empty(); }
+
+  private:
+    void note_speeds();
+    void share_search();
+
+    struct alignas(64) Thread {
+        // Work of its grains in units of a grain, without contacts and of these, when they were shared out.
+        double work = 0, contact_work = 0;
+        // Ticks that it was busy, before and in all.
+        double busy_before = 0, busy_in_all = 0, busy_refreshing = 0;
+        double speed = 1;         // lately, relative to the mean of all
+        double searched_for = 0;  // ticks
+    };
+
+    const Team& team_;
+    std::vector<Thread> threads_;
+    Shares share_, last_share_;
+    Shares search_share_, last_search_share_;
+};
+
+}  // namespace grainreel
