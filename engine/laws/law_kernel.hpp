@@ -30,7 +30,7 @@ struct LawParameters {
 struct LawInput {
     int count;  // of contacts, at most kChunk; rounded up to a multiple of kBlock all can be read
     const TouchChunk* touch;
-    const std::int32_t* kind;  // of each contact; not read where there is only one
+    const std::int32_t* kind;  // of each contact; not read by step_one_kind where parameters have one kind
     const LawParameters* parameters;
     double step;            // s, between the last forces and these
     double ahead;           // steps from the known velocity to the time of the force
@@ -50,8 +50,11 @@ struct LawKernel {
     LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
 
     // `history`: in blocks of kBlock contacts, within a block number by number. Zeroed where nothing touches.
-    // Chunks hold numbers of number_size.
+    // Chunks hold numbers of number_size. step_one_kind() is for contacts that are all of one kind: it gives
+    // the same bits in less time. (A large grain among small ones: nearly all chunks are of one kind, and
+    // take a tenth less time so.)
     void (*step)(const LawInput& in, void* history, ForceChunk& out);
+    void (*step_one_kind)(const LawInput& in, void* history, ForceChunk& out);
     // Forces and energies as they stand, without a step; velocities are those of now. Chunks hold doubles.
     // Resistance to rolling adds to the energies of its law.
     void (*observe)(const LawInput& in, const void* history, ForceChunk& out, EnergyChunk& energy);

@@ -63,7 +63,7 @@ const LawKernel& kernel_of_rolling() {
         k.number_size = sizeof(NumberOf<L>);
         k.rubs = k.rolls = k.uses_radius = true;
         k.parameters = parameters_of<RollingSpring>;
-        k.step = step_rolling<L>;
+        k.step = k.step_one_kind = step_rolling<L>;
         k.observe = observe_rolling<L>;
         return k;
     }();

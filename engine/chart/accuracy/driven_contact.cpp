@@ -39,7 +39,7 @@ void DrivenContact::move(const Move& move) {
     in.parameters = &parameters_;
     in.step = step;
     in.history_stride = law_.history_size;
-    law_.step(in, history_.of_block(0), force_);
+    law_.step_one_kind(in, history_.of_block(0), force_);
 }
 
 double DrivenContact::normal_force() const {

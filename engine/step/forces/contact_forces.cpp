@@ -46,12 +46,13 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
 
             const LawInput law = law_input(in, group, chunk, rounded, memory);
             table.note_touching(c, memory.touch.touching);
-            // From here to the formula: step_any() and step_chunk() (engine/laws/kernel-inl.hpp) load a
-            // register of contacts, ContactLaw::force() (contact_law-inl.hpp) joins the two laws, and their
-            // force() is the formula: SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force()
-            // (linear_spring-inl.hpp) and so on.
+            // From here to the formula: step_chunk() loads a register of contacts and ContactLaw::force()
+            // joins the two laws (both in engine/laws/contact_law-inl.hpp). Their force() is the formula:
+            // SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force() (linear_spring-inl.hpp)
+            // and so on.
+            const auto step = are_of_one_kind(group, law) ? group.law->step_one_kind : group.law->step;
             void* history = table.histories().of_block(c);
-            group.law->step(law, history, memory.force);
+            step(law, history, memory.force);
             if (group.rolling)
                 group.rolling->step(for_rolling(group, law), behind_law(group, history), memory.force);
             clock.lap(group.of_pairs ? Cost::contacts : Cost::walls);

@@ -30,6 +30,14 @@ struct ChunkMemory {
 LawInput law_input(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded,
                    ChunkMemory& memory);
 
+// Whether all contacts of a chunk have the same parameters.
+inline bool are_of_one_kind(const ContactGroup& group, const LawInput& in) {
+    if (!group.needs_rows()) return true;
+    std::int32_t others = 0;
+    for (int c = 0; c < in.count; ++c) others |= in.kind[c] ^ in.kind[0];
+    return others == 0;
+}
+
 // Resistance to rolling is the second law of a chunk. In each block of the history its numbers stand behind
 // those of the first law.
 inline LawInput for_rolling(const ContactGroup& group, LawInput in) {
