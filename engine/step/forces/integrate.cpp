@@ -19,7 +19,6 @@ struct Numbers {
     double *place, *motion, *load;
     float* rounded;
     const Loaded* loaded;
-    const std::uint64_t otherwise;
     bool large;
     Numbers(Grains& g, const KickInput& in)
         : place(reinterpret_cast<double*>(g.place.data())),
@@ -27,12 +26,11 @@ struct Numbers {
           load(reinterpret_cast<double*>(g.load.data())),
           rounded(g.rounded.empty() ? nullptr : reinterpret_cast<float*>(g.rounded.data())),
           loaded(in.loaded && in.loaded->few() ? in.loaded : nullptr),
-          otherwise(in.unloaded ? 0 : ~std::uint64_t{0}),
           large(g.size() >= kLargeBed) {}
 
     // Bit k says whether grain i + k may have a load.
     HWY_INLINE std::uint64_t loads_from(std::ptrdiff_t i) const {
-        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : otherwise;
+        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : ~std::uint64_t{0};
     }
 
     // Fetches kTogether grains that lie some way ahead of grain i. `loads` are the bits of loads_from(i). In
@@ -193,14 +191,6 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
     const Vec3 fastest = HWY_DYNAMIC_DISPATCH(both_halves)(grains, in, begin, end);
     turn(grains, in, begin, end);
     return fastest;
-}
-
-void fly(Grains& grains, const Flight& flight, std::int32_t begin, std::int32_t end) {
-    KickInput kicks = flight.kicks;
-    kicks.unloaded = true;
-    kicks.loaded = nullptr;
-    flight.begins ? HWY_DYNAMIC_DISPATCH(first_half)(grains, kicks, begin, end)
-                  : HWY_DYNAMIC_DISPATCH(both_halves)(grains, kicks, begin, end);
 }
 
 void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {

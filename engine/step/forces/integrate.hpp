@@ -18,7 +18,6 @@ struct KickInput {
     double begin_kick = 0;  // s, length of the kick that begins the next step, by the same forces
     double drift = 0;       // s, length of the drift
     const Loaded* loaded = nullptr;  // grains that may have a load; nullptr: all may
-    bool unloaded = false;           // true: no grain has a load
 };
 
 // Loads are skipped where this many grains in a row have none. A choice for every single grain would be
@@ -34,13 +33,6 @@ void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t 
 
 // Ends one step and begins the next in one pass. The bits are the same as with kick() and kick_and_drift().
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
-
-// Moves grains that have no load. Neither loads nor orientations nor speeds are needed for that.
-struct Flight {
-    const KickInput& kicks;
-    bool begins;  // true: as kick_and_drift() does; false: as kick_and_go_on() does
-};
-void fly(Grains& grains, const Flight& flight, std::int32_t begin, std::int32_t end);
 
 // A stretch of grains that begin their next step while other grains still wait for forces. These grains are
 // still in the cache, so the bed passes through memory once a step, not twice. No contact that is still to be
