@@ -5,6 +5,7 @@
 
 #include "engine/base/flush_denormals.hpp"
 #include "engine/step/forces/integrate.hpp"
+#include "engine/step/grid/large_bed.hpp"
 
 namespace grainreel {
 
@@ -104,12 +105,11 @@ void StepLoop::move(int member, bool first, const KickInput& kicks) {
     }
 }
 
-// Allows the grains to begin the next step as soon as their loads are complete.
+// Allows the grains of a large bed to begin the next step as soon as their loads are complete.
 void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
-    const std::int32_t begin = lists_.begin(member), end = lists_.end(member);
-    Vanguard& ahead = members_[member].ahead;
-    ahead = {begin, goes_on && !scheme_.corrects ? end : begin, kicks};
-    ahead.next = ahead.begin;
+    const bool may = goes_on && is_large_bed(grains_) && !scheme_.corrects;
+    const std::int32_t begin = lists_.begin(member);
+    members_[member].ahead = {begin, may ? lists_.end(member) : begin, kicks};
 }
 
 // Copies the grains of other threads as they are now. No thread may move a grain meanwhile, so barriers stand

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/step/forces/force_input.hpp"
-#include "engine/step/forces/integrate.hpp"
 #include "engine/step/forces/law_input.hpp"
+#include "engine/step/forces/vanguard.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
 #include "engine/step/threads/cost_clock.hpp"
 

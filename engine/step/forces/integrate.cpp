@@ -193,14 +193,6 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
     return fastest;
 }
 
-void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {
-    const std::int32_t many = complete - vanguard.next;
-    const std::int32_t end = std::min(vanguard.next + many - many % kTogether, vanguard.end);
-    if (end <= vanguard.next) return;
-    vanguard.fastest = vanguard.fastest.cwiseMax(kick_and_go_on(grains, vanguard.kicks, vanguard.next, end));
-    vanguard.next = end;
-}
-
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i)
         grains.place[i].position += in.drift * grains.motion[i].velocity;

@@ -34,23 +34,6 @@ void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t 
 // Ends one step and begins the next in one pass. The bits are the same as with kick() and kick_and_drift().
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// A stretch of grains that begin their next step while other grains still wait for forces. These grains are
-// still in the cache, so the bed passes through memory once a step, not twice. No contact that is still to be
-// computed may need such a grain, and no other thread may read it.
-//
-// What this gains: nothing in beds that fit into the cache; there it costs up to 1.6 % more instructions. But
-// a rising bed of a million grains is some 1.07 times as fast (docs/notes/performance.md, "Three devices of
-// the step").
-struct Vanguard {
-    std::int32_t begin = 0, end = 0;  // an empty range: no grain goes on early
-    KickInput kicks;
-    std::int32_t next = 0;  // the grains [begin, next) have begun their next step
-    Vec3 fastest{0, 0, 0};  // m/s, largest components of the velocities of these grains
-};
-// Lets the grains below `complete` begin their next step. Up to kTogether - 1 of them stay back, so that
-// grains are always taken kTogether at a time.
-void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete);
-
 // A drift without a kick. The loads stay.
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
