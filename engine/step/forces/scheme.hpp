@@ -16,7 +16,7 @@ struct Scheme {
     double opening_kick;  // by the forces at the start of the step
     std::vector<Stage> stages;
     double closing_drift;
-    double ahead;           // from the velocity between two forces to that at the second, in steps
+    double ahead;           // steps, from the velocity between two forces to the time of the second force
     bool corrects = false;  // Gear: positions and velocities are predicted, then corrected
 
     // Of the forces of a stage: how long they act, for the work that walls do.

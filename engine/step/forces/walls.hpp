@@ -14,8 +14,8 @@ struct alignas(64) FaceRecord {
     double radius;  // m, of a cylinder; 0 for a plane
 };
 
-// Of every point of the face: no body turns. When one does, its spin stands here too, and touch_walls
-// (wall_geometry.cpp), the one who asks for the velocity of a wall at a contact, adds spin x arm.
+// The velocity of every point of the face, because no body turns. When a body turns, its spin will stand here
+// too, and touch_walls() (wall_geometry.cpp) will add spin x arm.
 struct alignas(64) FaceMotion {
     Vec3 velocity;  // m/s, mean over the step
     double unused_one;

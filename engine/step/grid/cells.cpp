@@ -9,8 +9,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kMostBoxesPerGrain = 8;  // an empty tall container must not cost memory or time
-constexpr std::size_t kFew = 4;           // levels of less than one in so many grains are few
+constexpr double kMostBoxesPerGrain = 8;  // empty space must not cost memory or time
+constexpr std::size_t kFew = 4;           // a level has few grains if it has less than one in so many
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& 
 void Grid::keep(const std::vector<std::int32_t>& members) {
     const bool all_stay = members.size() == in_order_.size();
     in_order_ = members;
-    if (all_stay) return;  // where boxes start too
+    if (all_stay) return;  // boxes start where they did
     std::int32_t before = 0;
     for (std::int32_t& start : start_) {
         while (before < std::ssize(members) && members[before] < start) ++before;

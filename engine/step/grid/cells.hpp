@@ -1,6 +1,7 @@
-// Zones of the original program: space in boxes, so that only grains in boxes close by are looked at. One
-// grid for each octave of radii, in boxes as wide as its grains: a large grain among small ones costs what it
-// covers, and the small ones as much as if it were not there.
+// Space is divided into boxes (the zones of the original program), so that a search for neighbours looks only
+// at boxes close by. Each octave of radii has a grid of its own, with boxes as wide as its grains. So a large
+// grain among small ones costs as much as the space that it covers, and the small ones cost no more because
+// of it.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +13,8 @@
 
 namespace grainreel {
 
-// What the grids over a bed have in common. `axes`: along which boxes follow each other, fastest first.
-// `period` (m): of x, centred on 0, which is then the fastest; 0 for none.
+// What the grids over a bed have in common. axes: the order in which boxes follow each other, the fastest
+// axis first. period: m, of x, centred on 0; x is then the fastest axis. 0 for none.
 struct GridFrame {
     Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, around all grains
     std::size_t grains = 0;
@@ -24,22 +25,23 @@ struct GridFrame {
 // A grid over some of the grains.
 class Grid {
   public:
-    // Boxes of edge >= width (m), at most a few for each grain: those of an empty tall container grow. In
-    // them the members (indices of grains, rising). Grids of one frame and one width have the same boxes.
+    // Sorts the members (indices of grains, rising) into boxes whose edge is at least `width` (m). There are
+    // at most a few boxes for each grain: in a tall container that is mostly empty they are wider. Grids of
+    // one frame and one width have the same boxes.
     void lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
              const GridFrame& frame);
-    // Once all members have been put in the grid's order: of them only these stay, by their new indices,
+    // Call it when all members have been put in the grid's order. Only `members` stay, by their new indices,
     // rising.
     void keep(const std::vector<std::int32_t>& members);
-    // So that places far from all members are told at once: where there are few.
+    // Makes near() return at once for places far from all members. This pays where members are few.
     void mark_surroundings(const LargeArray<Place>& place, const std::vector<std::int32_t>& members);
 
     // The members by box; within a box by rising index.
     const std::vector<std::int32_t>& in_order() const { return in_order_; }
 
-    // Calls each(first, last) for ranges that hold the members of all boxes within `reach` (m) of a place,
-    // in each direction. What is returned holds no member twice. `onwards`: boxes before that of the place,
-    // in the grid's order, may be left out.
+    // Calls each(first, last) for ranges of members. Together they hold the members of all boxes within
+    // `reach` (m) of a place along each axis, and no member twice. onwards: boxes that come before the box of
+    // the place, in the grid's order, may be left out.
     template <class Each>
     void near(const Vec3& centre, double reach, bool onwards, const Each& each) const {
         if (none_near(centre, reach)) return;
@@ -69,17 +71,18 @@ class Grid {
         }
     }
 
-    // Whether rows of boxes follow each other as they lie.
+    // Whether the rows of boxes follow each other in the order in which they lie in space.
     bool is_one_tile() const { return tile_bits_ == kOneTileBits; }
 
   private:
-    // First and last box within `reach` along the a-th axis; perhaps outside the grid, by at most one turn of
-    // a period.
+    // First and last box within `reach` along the a-th axis. They may lie outside the grid, by at most one
+    // period.
     std::array<int, 2> boxes(const Vec3& centre, double reach, int a) const {
         const double at = centre[axes_[a]] - origin_[a];
         return {box(at - reach, a), box(at + reach, a)};
     }
-    // Of a bed that blows up, what is no number any more goes to the first: the health check will say so.
+    // A position that is not a number, in a bed that blows up, goes to the first box. The health check will
+    // report it.
     int box(double at, int a) const {
         const double count = count_[a];
         return static_cast<int>(std::max(0.0, std::min(at * inverse_width_[a] + count, 3 * count))) -
@@ -94,9 +97,9 @@ class Grid {
     bool none_near(const Vec3& centre, double reach) const {
         return !is_near_.empty() && reach <= width_ && !is_near_[box_of(centre)];
     }
-    // Rows of boxes along the fastest axis follow each other tile by tile, so that the rows around one are
-    // still in the processor's cache when they are wanted again. All the grid is one tile while it is small:
-    // then threads share it in slices, and few grains have partners of another thread.
+    // Rows of boxes along the fastest axis follow each other tile by tile. So the rows around a row are still
+    // in the processor's cache when they are needed again. A small grid is one tile. Threads then share it in
+    // slices, and few grains have partners of another thread.
     static constexpr int kTileBits = 3, kOneTileBits = 30;
     std::int64_t index(int x, int y, int z) const {
         if (is_one_tile()) return (static_cast<std::int64_t>(z) * count_[1] + y) * count_[0] + x;
@@ -111,32 +114,33 @@ class Grid {
     std::array<int, 3> axes_{0, 1, 2};
     Vec3 origin_{0, 0, 0}, inverse_width_{0, 0, 0};  // along these
     std::array<int, 3> count_{1, 1, 1};              // likewise
-    int tile_bits_ = kTileBits;                      // 2 to the power of these: rows to a tile's side
+    int tile_bits_ = kTileBits;                      // a tile's side has 2^tile_bits_ rows
     bool periodic_ = false;
     std::vector<std::int32_t> start_;  // first member of each box, and one past the last
     std::vector<std::int32_t> in_order_;
     std::vector<std::int32_t> box_;  // of each member, while sorting
     double width_ = 0;               // m: no box is narrower
-    std::vector<bool> is_near_;      // whether a box has members or is next to one that has; empty: not known
+    std::vector<bool> is_near_;      // whether a box or one next to it has members; empty: not known
 };
 
 class Cells {
   public:
-    // order[new] = old: grains sorted by the boxes of the most frequent size, slowest along the bed's longest
-    // side, so that what touches lies close in memory and few contacts cross from thread to thread. m: skin,
-    // period as for the grids' frame. in_order() stays until lay().
+    // Finds a new order of the grains: in_order()[new] = old. It follows the boxes of the level that has most
+    // grains, slowest along the bed's longest side. So grains that touch lie close in memory, and few
+    // contacts are between grains of two threads. skin: m; period: as in GridFrame. in_order() is valid until
+    // lay().
     void order(const LargeArray<Place>& place, double skin, double period);
     const std::vector<std::int32_t>& in_order() const { return levels_[leading_].grid.in_order(); }
 
-    // The grids, for the same grains once they have been put in that order.
+    // Lays the grids over the same grains, once they have been put in that order.
     void lay(const LargeArray<Place>& place, double skin);
 
     struct Level {
         std::vector<std::int32_t> members;
         double largest = 0;  // m, radius
         Grid grid;
-        bool rising = false;  // its grains stand in the grid's own order, their indices rising
-        bool leads = false;   // all grains stand in the order of its boxes
+        bool rising = false;  // indices rise in the grid's own order
+        bool leads = false;   // all grains stand in the order of this grid's boxes
     };
     const std::vector<Level>& levels() const { return levels_; }
 

@@ -1,7 +1,10 @@
-// What beds larger than the caches fetch before it is wanted: they wait for second bodies, which lie far from
-// the first in no order that the processor foresees. So all grains are brought to the second-level cache in
-// their order, a while before a contact wants them, and second bodies to the first level a chunk ahead: a
-// fifth of the time of a million. Small beds lose by it.
+// What beds larger than the caches fetch before it is needed.
+//
+// Such beds wait for the second bodies of contacts. These lie far from the first ones, in no order that the
+// processor could foresee. So all grains are brought to the second-level cache in their order, some time
+// before a contact needs them. Second bodies are brought to the first level one chunk ahead.
+//
+// What this gains: a fifth of the time of a million grains. Small beds would lose by it.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +21,8 @@ inline bool is_large_bed(const Grains& grains) {
     return grains.size() >= kLargeBed;
 }
 
-// Of candidates, the second places of the chunk after the one at c. (Inlined by force, as Ahead::fetch_some.)
+// Fetches the places of the second bodies of the candidates in the chunk after the one at c. (Inlined by
+// force, as Ahead::fetch_some.)
 [[gnu::always_inline]] inline void fetch_places(const Grains& grains, const ContactTable& table,
                                                 std::int32_t c) {
     const std::int32_t begin = std::min(table.candidates(), c + kChunk);
@@ -26,7 +30,8 @@ inline bool is_large_bed(const Grains& grains) {
     for (std::int32_t k = begin; k < end; ++k) __builtin_prefetch(&grains.place[table.near_second()[k]]);
 }
 
-// Of contacts, the second bodies of the chunk after the one at c; `rounded` as mixed precision reads them.
+// Fetches the second bodies of the contacts in the chunk after the one at c. rounded: as mixed precision
+// reads them.
 [[gnu::always_inline]] inline void fetch_second(const Grains& grains, bool rounded, const ContactTable& table,
                                                 std::int32_t c) {
     for (std::int32_t k = c + kChunk; k < std::min(table.sorted(), c + 2 * kChunk); ++k) {
@@ -40,9 +45,10 @@ inline bool is_large_bed(const Grains& grains) {
     }
 }
 
-// Second bodies now, and into `ahead` the grains that the chunks after this one, of `count` contacts at c,
-// will have in their order. Where contacts are few, a chunk has its grains from so far that the processor
-// does as well by itself, with grains that go on with the next step one after the other.
+// Fetches second bodies now. Puts into `ahead` the grains that later chunks will need in their order; the
+// present chunk has `count` contacts from c on. Where contacts are few, a chunk's grains come from a long
+// stretch. The grains that go on with the next step then pass one after the other, and the processor fetches
+// them as well by itself.
 inline void look_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t c,
                        int count, Ahead& ahead) {
     constexpr std::int32_t kAhead = 1000, kMost = 300;  // grains; a tile of boxes has some 2,000

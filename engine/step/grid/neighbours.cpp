@@ -39,15 +39,17 @@ void make_room(std::vector<std::int32_t>& partner, std::size_t wanted) {
     partner.resize(partner.capacity());
 }
 
-// Partners from several grids, tiles, or both ends of a period: who merges lists relies on their order.
+// Sorts partners that come from several grids, tiles, or both ends of a period. Whoever merges lists relies
+// on this order.
 void in_order(std::vector<std::int32_t>& partner, std::size_t from, std::size_t to) {
     const auto begin = partner.begin() + static_cast<std::ptrdiff_t>(from);
     const auto end = partner.begin() + static_cast<std::ptrdiff_t>(to);
     if (!std::is_sorted(begin, end)) std::sort(begin, end);
 }
 
-// [first, last) of an array that ends at `end`: a block whose length is a constant, which mostly is enough.
-// How many a row of boxes holds could not be predicted. Writes to kNearSlack places behind.
+// Copies [first, last) of an array that ends at `end`. It copies a block of constant length, which is mostly
+// enough, because the processor could not predict how many grains a row of boxes holds. It may write up to
+// kNearSlack places behind the copy.
 void copy_row(const std::int32_t* first, const std::int32_t* last, const std::int32_t* end,
               std::int32_t* to) {
     if (end - first < kNearSlack) {
@@ -69,7 +71,7 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
         part.start[i - begin] = static_cast<std::int32_t>(count);
         const Place& own = grains.place[i];
         std::size_t candidates = count;
-        int turns = 0;  // rising rows of indices, behind one another
+        int turns = 0;  // stretches of rising indices
         for (const Cells::Level& level : cells.levels()) {
             const std::size_t before = candidates;
             const std::int32_t* const end_of_rows = level.grid.in_order().data() + level.members.size();

@@ -1,5 +1,5 @@
-// Brings what contacts have, number by number, into a new order: most of them stood side by side before and
-// do so after, and go a block at a time.
+// Brings the numbers of contacts into a new order. Most contacts that stood side by side still do so in the
+// new order, and are moved a block at a time.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class Reorder {
         together_.reserve(contacts / kBlock + 1);
         room_.reserve(contacts / kLine + 2);
     }
-    // Contact order[c] is to come to c. `order` must outlive the moves.
+    // Contact order[c] is to move to place c. `order` must outlive the moves.
     void set(const LargeArray<std::int32_t>& order) {
         order_ = order.data();
         count_ = static_cast<std::int32_t>(order.size());
@@ -33,11 +33,11 @@ class Reorder {
         }
         together_.push_back(false);
     }
-    // One number, of Number's size, of each contact; there were `before` of them. block(c): where those of
-    // the kBlock contacts from c on lie, c being a multiple of kBlock.
+    // Moves one number of each contact. There were `before` contacts in the old order. block(c) says where
+    // the numbers of the kBlock contacts from c on lie; c is a multiple of kBlock.
     template <class Number, class Block>
     void move(std::int32_t before, const Block& block) {
-        constexpr std::int32_t kAhead = 8 * kBlock;  // blocks lie too far apart to be foreseen
+        constexpr std::int32_t kAhead = 8 * kBlock;  // the processor cannot foresee the next block
         constexpr std::size_t size = sizeof(Number);
         room_.resize((before - unchanged_) / kLine + 2);
         const auto room = [&](std::int32_t c) { return room_.data()->bytes + (c - unchanged_) * size; };
@@ -63,8 +63,8 @@ class Reorder {
     static constexpr std::int32_t kLine = sizeof(Line) / sizeof(double);  // numbers, the largest there are
 
     const std::int32_t* order_ = nullptr;
-    std::int32_t count_ = 0, unchanged_ = 0;  // the first so many stay, a multiple of kBlock
-    std::vector<std::uint8_t> together_;      // whether those of a block stood side by side
+    std::int32_t count_ = 0, unchanged_ = 0;  // the first `unchanged_` stay; a multiple of kBlock
+    std::vector<std::uint8_t> together_;      // whether the contacts of a block stood side by side
     LargeArray<Line> room_;
 };
 

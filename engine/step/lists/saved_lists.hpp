@@ -1,5 +1,5 @@
-// Whether lists that come from a file are such as the step loop makes. Who reads them relies on it: an index
-// out of its range would reach anywhere.
+// Whether lists from a file could have been made by the step loop. Their readers rely on it: an index out of
+// its range would read or write anywhere.
 #pragma once
 
 #include "engine/state/grains.hpp"
@@ -9,15 +9,15 @@
 
 namespace grainreel {
 
-// Every index in its range and in its order, and partners no farther than the list says.
+// Every index must be in its range and in its order, and no partner farther away than the list says.
 bool are_sound(const NeighbourLists& lists, std::int32_t grains, std::int32_t faces);
 
-// Contacts of the g-th group: bodies that there are and that follow its law, in the order in which they are
-// computed; tags are ages, of at most `steps`.
+// Contacts of the g-th group. Their bodies must exist and follow the group's law. They must stand in the
+// order in which they are computed. Tags are ages, of at most `steps`.
 bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t g, const Grains& grains,
                std::int32_t faces, std::int32_t steps);
 
-// Where a contact stands in that order.
+// The place of a contact in that order.
 struct ContactOrder {
     std::int32_t began, first, second;
     auto operator<=>(const ContactOrder&) const = default;

@@ -1,5 +1,5 @@
-// Where a thread's time goes. Off unless asked for; then a look at the processor's counter a chunk of
-// contacts.
+// Measures where a thread's time goes. It is off unless someone asks for it. It then reads the processor's
+// counter several times for each chunk of contacts.
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ class CostClock {
     void start() {
         if (on_) last_ = ticks();
     }
-    // All since start() or the last lap() went into this.
+    // The time since start() or the last lap() went into `cost`.
     void lap(Cost cost) {
         if (!on_) return;
         const std::uint64_t now = ticks();
         spent_[static_cast<int>(cost)] += static_cast<double>(now - last_);
         last_ = now;
     }
-    const std::array<double, kCosts>& spent() const { return spent_; }  // in ticks of no known length
+    const std::array<double, kCosts>& spent() const { return spent_; }  // ticks; their length is not known
 
   private:
     bool on_ = false;
