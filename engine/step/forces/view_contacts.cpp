@@ -81,7 +81,7 @@ void view_contacts(const ForceInput& in, std::size_t g, const ThreadContacts& co
         const std::int32_t *const first = table.first() + c, *const second = table.second() + c;
         see_chunk(in, in.rules.groups[g], {first, second, first, second, count},
                   table.histories().of_block(c), contacts.begin, memory,
-                  table.sorted() == 0 || c < table.sorted() ? in_order : late);
+                  c < table.sorted() ? in_order : late);
     });
     see_candidates(in, g, contacts, memory, late);
 }
