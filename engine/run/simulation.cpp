@@ -15,10 +15,12 @@
 #include "engine/measure/energy.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
+#include "engine/run/feeder.hpp"
 #include "engine/run/health.hpp"
 #include "engine/run/surroundings.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
+#include "engine/start/rain.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/start/start_file.hpp"
@@ -33,13 +35,18 @@ namespace {
 double solid_fraction(const Container& container, const Grains& grains) {
     std::vector<double> heights;
     for (const Place& p : grains.place) heights.push_back(p.position.z());
-    if (container.shape == Container::Shape::none) return 0;
+    if (container.shape == Container::Shape::none || grains.size() == 0) return 0;
     const double top = std::clamp(bed_height(heights), 0.0, container.height);
     double solid = 0;
     for (const Place& p : grains.place) {
         if (p.position.z() <= top) solid += 4.0 / 3.0 * std::numbers::pi * std::pow(p.radius, 3);
     }
     return top > 0 ? solid / container.volume_below(top) : 0;
+}
+
+// Whether the grains are still to be packed.
+bool packs(const Scene& scene) {
+    return scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain;
 }
 
 }  // namespace
@@ -52,8 +59,11 @@ struct Simulation::Impl {
           around(make_surroundings(s, p)),
           bodies(bodies_of(s.drive, s.walls)),
           limits(health_limits(s, p)) {
-        for (const Species& one : scene.species) species_names.push_back(one.name);
-        if (scene.start.method != Start::Method::layers) take_grains();
+        for (const Species& one : scene.species) {
+            species_names.push_back(one.name);
+            expected.comes += static_cast<std::size_t>(one.fed);
+        }
+        if (!packs(scene)) take_grains();
     }
 
     Scene scene;
@@ -63,6 +73,7 @@ struct Simulation::Impl {
     std::vector<Body> bodies;
     Grains grains;
     std::unique_ptr<StepLoop> loop;
+    Feeder feeder{scene, plan, around};
     std::int64_t step = 0;
     double start_energy = 0;
     HealthLimits limits;
@@ -79,6 +90,8 @@ struct Simulation::Impl {
     void take_grains();
     void go_on();
     void set_orientations();
+    bool pack_rain(const PackingWatcher& watcher, PackingProgress& progress);
+    std::int32_t insert(const std::vector<NewGrain>& more);
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
     void look_at_health();
@@ -86,7 +99,7 @@ struct Simulation::Impl {
 };
 
 void check_start(const Scene& scene, const Plan& plan) {
-    if (scene.start.method != Start::Method::layers) Simulation(scene, plan, 1);
+    if (!packs(scene)) Simulation(scene, plan, 1);
 }
 
 Simulation::Simulation(const Scene& scene, const Plan& plan, int threads)
@@ -113,7 +126,9 @@ void Simulation::Impl::take_grains() {
 
 void Simulation::Impl::go_on() {
     make_loop();
-    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop);
+    std::vector<std::int64_t> given;
+    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop, given);
+    feeder.set_given(std::move(given));
     set_orientations();
     step = header.step;
     start_energy = header.start_energy;
@@ -135,6 +150,11 @@ void Simulation::Impl::set_orientations() {
 bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgress& progress) {
     grains = place_in_layers(scene);
     set_orientations();
+    if (grains.size() == 0) {  // all that there will be are fed
+        make_loop();
+        loop->restart();
+        return true;
+    }
     const GrowthReport growth =
         grow_radii(scene, plan, around, grains, team, [&](double done, std::int64_t steps) {
             progress.done = done;
@@ -146,12 +166,34 @@ bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgres
     return growth.finished;
 }
 
+bool Simulation::Impl::pack_rain(const PackingWatcher& watcher, PackingProgress& progress) {
+    progress.stage = PackingProgress::Stage::raining;
+    grains = {};
+    make_loop();
+    loop->restart();
+    const RainReport report = rain(scene, plan, around, grains, *loop, [&](double done, std::int64_t steps) {
+        progress.done = done;
+        progress.steps = steps;
+        return watcher(progress);
+    });
+    set_orientations();
+    return report.finished;
+}
+
 // Work and balance count from here; the forces belong to the state, so that the first half kick is right.
 void Simulation::Impl::begin_drive() {
     std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
     step = 0;
+}
+
+std::int32_t Simulation::Impl::insert(const std::vector<NewGrain>& more) {
+    const std::int32_t first = loop->insert(more);
+    if (more.empty()) return first;
+    set_orientations();
+    next_look = step;  // they must overlap nothing
+    return first;
 }
 
 PackingResult Simulation::pack() {
@@ -165,6 +207,7 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     progress.stage = PackingProgress::Stage::growing;
     if (m.continued) return result;
     if (m.scene.start.method == Start::Method::layers) result.finished = m.pack_layers(watcher, progress);
+    if (m.scene.start.method == Start::Method::rain) result.finished = m.pack_rain(watcher, progress);
     if (result.finished) {
         progress.stage = PackingProgress::Stage::settling;
         const auto watch = [&](double done, std::int64_t steps) {
@@ -201,9 +244,11 @@ void Simulation::advance(std::int64_t target) {
     Impl& m = *impl_;
     while (m.step < target) {
         if (m.next_look <= m.step) m.look_at_health();  // the first: where all begins
-        const std::int64_t count = std::min(target, m.next_look) - m.step;
+        const std::int64_t feed = m.feeder.next_look(m.step);
+        const std::int64_t count = std::min({target, m.next_look, feed}) - m.step;
         m.loop->run(m.step, count, m.plan.clock.step, 0);
         m.step += count;
+        if (m.step == feed) m.insert(m.feeder.take(m.step, m.grains));
         if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
 }
@@ -229,10 +274,7 @@ void Simulation::remove(const std::vector<std::int32_t>& ids) {
 }
 
 std::int32_t Simulation::insert(const std::vector<NewGrain>& grains) {
-    const std::int32_t first = impl_->loop->insert(grains);
-    impl_->set_orientations();
-    impl_->next_look = impl_->step;  // they must overlap nothing
-    return first;
+    return impl_->insert(grains);
 }
 
 const Traffic& Simulation::traffic() const {
@@ -313,7 +355,7 @@ double Simulation::measure(const std::string& column) const {
 
 std::uint64_t Simulation::state_hash() const {
     std::ostringstream out;
-    write_state(out, impl_->step, impl_->grains, *impl_->loop);
+    write_state(out, impl_->step, impl_->grains, *impl_->loop, impl_->feeder.given());
     const std::string bytes = out.str();
     return XXH64(bytes.data(), bytes.size(), 0);
 }
@@ -341,7 +383,7 @@ void Simulation::save_checkpoint(const std::filesystem::path& path) const {
         header.wall_offset = m.around.motion.at(m.step).offset;
         header.wall_velocity = m.around.motion.at(m.step).velocity;
     }
-    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop);
+    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.feeder.given());
 }
 
 }  // namespace grainreel

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <vector>
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
@@ -19,12 +20,14 @@ struct CheckpointHeader {
 };
 
 // Everything that decides the future, the scene among it, to a temporary name, then renamed. Throws RunError
-// when it cannot be written.
+// when it cannot be written. given: how many grains each feed has given.
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
-                     const CheckpointHeader& header, const Grains& grains, const StepLoop& loop);
+                     const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
+                     const std::vector<std::int64_t>& given = {});
 
 // The bytes behind save_checkpoint, for hashes.
-void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop);
+void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
+                 const std::vector<std::int64_t>& given = {});
 
 // Whether it is one, of this version or another.
 bool is_checkpoint(const std::filesystem::path& path);
@@ -32,9 +35,10 @@ bool is_checkpoint(const std::filesystem::path& path);
 // Both throw UserError, at the scene's `start.file` or at the key that differs, when the file is missing,
 // damaged, of another version, or does not fit the scene; nothing in it is believed.
 //
-// To go on bit by bit: grains, and the loop's lists and histories. The loop is that of these grains.
+// To go on bit by bit: grains, the loop's lists and histories, and what each feed has given. The loop is that
+// of these grains.
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
-                                          StepLoop& loop);
+                                          StepLoop& loop, std::vector<std::int64_t>& given);
 // To start anew: where the grains are in the container at rest, and how fast; their masses are the scene's.
 Grains grains_from_checkpoint(const Scene& scene);
 

@@ -70,7 +70,7 @@ class Entries {
         }
         const Species& species = scene_.species[i];
         line(species.name, writer_.main(), writer_.palette.ink);
-        line(fmt::format("{} × {}", species.count, diameter_text(species.diameter)), writer_.minor(),
+        line(fmt::format("{} × {}", species.all(), diameter_text(species.diameter)), writer_.minor(),
              writer_.palette.faint_ink);
         const bool by_species = scene_.film.shows.colour.by == GrainValue::species;
         const double share =
