@@ -70,9 +70,9 @@ struct Simulation::Impl {
     HealthLimits limits;
     EnergyWatch energy_watch;
     std::int64_t next_look = 0;  // step
-    ExpectedTraffic expected;
 
     bool continued = false;  // goes on where the file stopped
+    bool opened = false;     // the container's outlet
 
     Observers observers;
     std::optional<WallSums> wall_sums;  // of the last moment, where an observer needs them
@@ -83,6 +83,7 @@ struct Simulation::Impl {
     void set_orientations();
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
+    void open_when_due();
     void look_at_health();
     Moment moment();
     void take_gathered(const std::string& bytes);
@@ -124,6 +125,8 @@ void Simulation::Impl::go_on() {
     step = header.step;
     start_energy = header.start_energy;
     continued = true;
+    opened = plan.opens && step >= *plan.opens;
+    if (opened) open_outlet(scene, around);
     take_gathered(gathered);
     observers.start(moment(), contacts());
     if (step >= plan.steps)
@@ -187,7 +190,14 @@ void Simulation::Impl::begin_drive() {
     start_energy = total_energy(around, grains, *loop, 0);
     step = 0;
     if (observers.need_wall_sums()) loop->tally_walls(wall_scale(scene, plan), step);
+    open_when_due();
     observers.start(moment(), contacts());
+}
+
+void Simulation::Impl::open_when_due() {
+    if (opened || !plan.opens || step < *plan.opens) return;
+    loop->open_faces([&] { open_outlet(scene, around); }, step);
+    opened = true;
 }
 
 PackingResult Simulation::pack() {
@@ -238,28 +248,14 @@ void Simulation::advance(std::int64_t target) {
     while (m.step < target) {
         if (m.next_look <= m.step) m.look_at_health();  // the first: where all begins
         const std::int64_t gathering = m.observers.gathers_after(m.step);
-        const std::int64_t count = std::min({target, m.next_look, gathering}) - m.step;
-        m.loop->run(m.step, count, m.plan.clock.step, 0);
-        m.step += count;
+        std::int64_t until = std::min({target, m.next_look, gathering});
+        if (!m.opened && m.plan.opens) until = std::min(until, *m.plan.opens);
+        m.loop->run(m.step, until - m.step, m.plan.clock.step, 0);
+        m.step = until;
+        m.open_when_due();
         if (m.step == gathering) m.observers.gather(m.moment(), m.contacts());
         if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
-}
-
-void Simulation::expect(const ExpectedTraffic& traffic) {
-    impl_->expected = traffic;
-}
-
-const ExpectedTraffic& Simulation::expected() const {
-    return impl_->expected;
-}
-
-std::size_t Simulation::capacity() const {
-    return impl_->grains.size() + impl_->expected.comes;
-}
-
-void Simulation::set_exits(std::vector<Exit> exits) {
-    impl_->around.exits = std::move(exits);
 }
 
 void Simulation::remove(const std::vector<std::int32_t>& ids) {

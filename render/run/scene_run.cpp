@@ -154,6 +154,7 @@ bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
             const auto timer = times_.during("engine");
             simulation_.advance(to);
         }
+        files_->add_departures(simulation_);
         const double seconds = stretch.seconds();
         pace_.took(to - from, seconds);
         const double work = static_cast<double>(to - from) * static_cast<double>(simulation_.grains());
@@ -228,6 +229,7 @@ std::string SceneRun::files_text() const {
         text += fmt::format("trajectory.nc ({} frames), ", files_->trajectory_frames());
     if (files_->has_contacts()) text += "contacts.nc, ";
     if (files_->has_fields()) text += fmt::format("fields.nc ({} records), ", files_->field_records());
+    if (const auto rows = files_->outflow_rows()) text += fmt::format("outflow.csv ({} grains), ", *rows);
     return text + fmt::format("measures.csv ({} rows), final.csv, checkpoint.grs, scene.toml, run.json",
                               files_->measures_rows());
 }

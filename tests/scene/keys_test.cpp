@@ -61,7 +61,9 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     exact += "[drive]\nfrequency = 20\namplitude = 0.001\n";
     const std::string layers = wedge_text + "[film.colour]\nby = \"start-height\"\n";
     const std::string fields = wedge_text + "[output.fields]\ngrid = \"yz\"\n";
-    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact, layers, fields};
+    const std::string outlet =
+        with(wedge_text, "height = \"180 mm\"\n", "height = \"180 mm\"\noutlet = { width = \"20 mm\" }\n");
+    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact, layers, fields, outlet};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;
