@@ -3,18 +3,41 @@
 
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace grainreel {
 
-enum class Stream : std::uint64_t { diameters = 1, centres = 2, velocities = 3 };
+enum class Stream : std::uint64_t {
+    diameters = 1,
+    centres = 2,
+    velocities = 3,
+    rain_species = 4,
+    rain_places = 5,
+    feed_sizes = 6,  // by feed and grain
+    feed_places = 7  // by feed, grain and step
+};
 
 class Random {
   public:
     Random(std::uint64_t seed, Stream stream) {
         std::seed_seq mix{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
                           static_cast<std::uint32_t>(stream)};
+        engine_.seed(mix);
+    }
+
+    // A part of the stream that is the same whatever else was drawn.
+    Random(std::uint64_t seed, Stream stream, std::initializer_list<std::int64_t> part) {
+        std::vector<std::uint32_t> words;
+        const auto add = [&](std::uint64_t number) {
+            words.push_back(static_cast<std::uint32_t>(number));
+            words.push_back(static_cast<std::uint32_t>(number >> 32));
+        };
+        add(seed), add(static_cast<std::uint64_t>(stream));
+        for (const std::int64_t number : part) add(static_cast<std::uint64_t>(number));
+        std::seed_seq mix(words.begin(), words.end());
         engine_.seed(mix);
     }
 

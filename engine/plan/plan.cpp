@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan_parts.hpp"
+#include "engine/plan/rain_plan.hpp"
 
 namespace grainreel {
 namespace {
@@ -155,9 +156,12 @@ Plan make_plan(const Scene& scene) {
             fmt::format("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
                         scene.where("run.duration"), scene.run.duration, plan.clock.step));
     plan_outlet(scene, plan);
-    if (scene.start.method == Start::Method::layers)
+    plan.traffic = plan.traffic || !scene.feeds.empty();
+    if (scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain)
         plan.settle_steps_limit =
             count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");
+    if (scene.start.method == Start::Method::rain)
+        plan.rain_steps_limit = count_steps(scene, rain_limit(scene), plan.clock.step, "start.rain_rate");
     plan_output(scene, plan);
     plan.warnings = scene.notes;
     for (const std::vector<std::string>& found : {likely_slips(scene), plan_warnings(scene, plan, bed, step)})

@@ -66,10 +66,10 @@ struct Plan {
     std::vector<PairPlan> wall;   // one a species
 
     Clock clock;
-    std::int64_t steps = 0;  // of vibration
-    std::int64_t settle_steps_limit = 0;
-    std::string step_reason;      // which condition binds the step
-    double impact_speed = 0;      // m/s, v* of the stiffness rule
+    std::int64_t steps = 0;                                     // of vibration
+    std::int64_t settle_steps_limit = 0, rain_steps_limit = 0;  // of the start
+    std::string step_reason;                                    // which condition binds the step
+    double impact_speed = 0;                                    // m/s, v* of the stiffness rule
     double expected_overlap = 0;  // largest expected overlap over the smaller diameter
 
     // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.

@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan_parts.hpp"
+#include "engine/plan/rain_plan.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {
@@ -219,6 +220,16 @@ double closing_speed(const Scene& scene) {
                     (high - low).norm());
 }
 
+// m/s: of grains that come during the run, when they have fallen to the floor.
+double fastest_fed(const Scene& scene) {
+    double fastest = 0;
+    for (const Feed& feed : scene.feeds) {
+        const double fall = std::max(0.0, feed.high.z());
+        fastest = std::max(fastest, std::sqrt(feed.velocity.squaredNorm() + 2 * scene.gravity.norm() * fall));
+    }
+    return fastest;
+}
+
 }  // namespace
 
 std::vector<Touching> extremes(const Species& a, const Species* b) {
@@ -253,7 +264,7 @@ BedPlan plan_bed(const Scene& scene) {
     for (const Species& s : scene.species) {
         bed.largest_density = std::max(bed.largest_density, s.density);
         bed.largest_mass = std::max(bed.largest_mass, mass_of(s, s.diameter.largest));
-        diameters += static_cast<double>(s.count) * s.diameter.mean;
+        diameters += static_cast<double>(s.all()) * s.diameter.mean;
     }
     bed.layers = std::max(1.0, bed.height * static_cast<double>(scene.grains()) / diameters);
 
@@ -266,9 +277,14 @@ BedPlan plan_bed(const Scene& scene) {
     } else if (scene.start.method == Start::Method::layers) {
         bed.drop_speed = fall;
         bed.impact_speed = std::max(bed.impact_speed, fall * scene.run.overlap / settling_overlap);
+    } else if (scene.start.method == Start::Method::rain) {
+        bed.drop_speed = std::sqrt(2 * bed.gravity * rain_drop(scene));
+        bed.impact_speed = std::max(bed.impact_speed, bed.drop_speed * scene.run.overlap / settling_overlap);
     } else if (!drive.present) {
         bed.impact_speed = fall;  // all that one can know of a bed that starts from a file
     }
+    if (!scene.feeds.empty())
+        bed.impact_speed = std::max(bed.impact_speed, fastest_fed(scene) + drive.speed());
     return bed;
 }
 

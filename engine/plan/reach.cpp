@@ -39,6 +39,17 @@ double highest_listed(const Scene& scene) {
     return highest;
 }
 
+// m: of grains that come during the run, where they appear and how far they are thrown up from there.
+double highest_fed(const Scene& scene) {
+    double highest = 0;
+    for (const Feed& feed : scene.feeds) {
+        const double up = std::max(0.0, feed.velocity.z());
+        highest = std::max(highest, feed.high.z() + 0.5 * scene.species[feed.species].diameter.largest +
+                                        up * up / (2 * scene.gravity.norm()));
+    }
+    return highest;
+}
+
 }  // namespace
 
 std::optional<double> resting_top(const Scene& scene) {
@@ -49,7 +60,7 @@ std::optional<double> resting_top(const Scene& scene) {
 std::optional<double> estimated_reach(const Scene& scene) {
     const std::optional<double> bed = resting_top(scene);
     if (!bed) return {};
-    return std::max(*bed + throw_height(scene), highest_listed(scene));
+    return std::max({*bed + throw_height(scene), highest_listed(scene), highest_fed(scene)});
 }
 
 }  // namespace grainreel

@@ -16,11 +16,13 @@
 #include "engine/measure/energy.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
+#include "engine/run/feeder.hpp"
 #include "engine/measure/wall_faces.hpp"
 #include "engine/run/health.hpp"
 #include "engine/run/surroundings.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
+#include "engine/start/rain.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/start/start_file.hpp"
@@ -35,13 +37,18 @@ namespace {
 double solid_fraction(const Container& container, const Grains& grains) {
     std::vector<double> heights;
     for (const Place& p : grains.place) heights.push_back(p.position.z());
-    if (container.shape == Container::Shape::none) return 0;
+    if (container.shape == Container::Shape::none || grains.size() == 0) return 0;
     const double top = std::clamp(bed_height(heights), 0.0, container.height);
     double solid = 0;
     for (const Place& p : grains.place) {
         if (p.position.z() <= top) solid += 4.0 / 3.0 * std::numbers::pi * std::pow(p.radius, 3);
     }
     return top > 0 ? solid / container.volume_below(top) : 0;
+}
+
+// Whether the grains are still to be packed.
+bool packs(const Scene& scene) {
+    return scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain;
 }
 
 }  // namespace
@@ -55,7 +62,7 @@ struct Simulation::Impl {
           bodies(bodies_of(s.drive, s.walls)),
           limits(health_limits(s, p)),
           observers(all_observers(), scene, plan) {
-        if (scene.start.method != Start::Method::layers) take_grains();
+        if (!packs(scene)) take_grains();
     }
 
     Scene scene;
@@ -65,6 +72,7 @@ struct Simulation::Impl {
     std::vector<Body> bodies;
     Grains grains;
     std::unique_ptr<StepLoop> loop;
+    Feeder feeder{scene, plan, around};
     std::int64_t step = 0;
     double start_energy = 0;
     HealthLimits limits;
@@ -81,6 +89,8 @@ struct Simulation::Impl {
     void take_grains();
     void go_on();
     void set_orientations();
+    bool pack_rain(const PackingWatcher& watcher, PackingProgress& progress);
+    std::int32_t insert(const std::vector<NewGrain>& more);
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
     void open_when_due();
@@ -92,7 +102,7 @@ struct Simulation::Impl {
 };
 
 void check_start(const Scene& scene, const Plan& plan) {
-    if (scene.start.method != Start::Method::layers) Simulation(scene, plan, 1);
+    if (!packs(scene)) Simulation(scene, plan, 1);
 }
 
 Simulation::Simulation(const Scene& scene, const Plan& plan, int threads)
@@ -120,7 +130,9 @@ void Simulation::Impl::take_grains() {
 void Simulation::Impl::go_on() {
     make_loop();
     std::string gathered;
-    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop, gathered);
+    std::vector<std::int64_t> given;
+    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop, gathered, given);
+    feeder.set_given(std::move(given));
     set_orientations();
     step = header.step;
     start_energy = header.start_energy;
@@ -183,6 +195,20 @@ bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgres
     return growth.finished;
 }
 
+bool Simulation::Impl::pack_rain(const PackingWatcher& watcher, PackingProgress& progress) {
+    progress.stage = PackingProgress::Stage::raining;
+    grains = {};
+    make_loop();
+    loop->restart();
+    const RainReport report = rain(scene, plan, around, grains, *loop, [&](double done, std::int64_t steps) {
+        progress.done = done;
+        progress.steps = steps;
+        return watcher(progress);
+    });
+    set_orientations();
+    return report.finished;
+}
+
 // Work and balance count from here; the forces belong to the state, so that the first half kick is right.
 void Simulation::Impl::begin_drive() {
     std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
@@ -200,6 +226,14 @@ void Simulation::Impl::open_when_due() {
     opened = true;
 }
 
+std::int32_t Simulation::Impl::insert(const std::vector<NewGrain>& more) {
+    const std::int32_t first = loop->insert(more);
+    if (more.empty()) return first;
+    set_orientations();
+    next_look = step;  // they must overlap nothing
+    return first;
+}
+
 PackingResult Simulation::pack() {
     return pack([](const PackingProgress&) { return true; });
 }
@@ -211,6 +245,7 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     progress.stage = PackingProgress::Stage::growing;
     if (m.continued) return result;
     if (m.scene.start.method == Start::Method::layers) result.finished = m.pack_layers(watcher, progress);
+    if (m.scene.start.method == Start::Method::rain) result.finished = m.pack_rain(watcher, progress);
     if (result.finished) {
         progress.stage = PackingProgress::Stage::settling;
         const auto watch = [&](double done, std::int64_t steps) {
@@ -247,12 +282,13 @@ void Simulation::advance(std::int64_t target) {
     Impl& m = *impl_;
     while (m.step < target) {
         if (m.next_look <= m.step) m.look_at_health();  // the first: where all begins
-        const std::int64_t gathering = m.observers.gathers_after(m.step);
-        std::int64_t until = std::min({target, m.next_look, gathering});
+        const std::int64_t gathering = m.observers.gathers_after(m.step), feed = m.feeder.next_look(m.step);
+        std::int64_t until = std::min({target, m.next_look, gathering, feed});
         if (!m.opened && m.plan.opens) until = std::min(until, *m.plan.opens);
         m.loop->run(m.step, until - m.step, m.plan.clock.step, 0);
         m.step = until;
         m.open_when_due();
+        if (m.step == feed) m.insert(m.feeder.take(m.step, m.grains));
         if (m.step == gathering) m.observers.gather(m.moment(), m.contacts());
         if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
@@ -263,10 +299,7 @@ void Simulation::remove(const std::vector<std::int32_t>& ids) {
 }
 
 std::int32_t Simulation::insert(const std::vector<NewGrain>& grains) {
-    const std::int32_t first = impl_->loop->insert(grains);
-    impl_->set_orientations();
-    impl_->next_look = impl_->step;  // they must overlap nothing
-    return first;
+    return impl_->insert(grains);
 }
 
 const Traffic& Simulation::traffic() const {
@@ -367,7 +400,7 @@ std::vector<FieldValues> Simulation::fields() const {
 
 std::uint64_t Simulation::state_hash() const {
     std::ostringstream out;
-    write_state(out, impl_->step, impl_->grains, *impl_->loop);
+    write_state(out, impl_->step, impl_->grains, *impl_->loop, impl_->feeder.given());
     const std::string bytes = out.str();
     return XXH64(bytes.data(), bytes.size(), 0);
 }
@@ -395,7 +428,7 @@ void Simulation::save_checkpoint(const std::filesystem::path& path) const {
         header.wall_offset = m.around.motion.at(m.step).offset;
         header.wall_velocity = m.around.motion.at(m.step).velocity;
     }
-    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.gathered());
+    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.gathered(), m.feeder.given());
 }
 
 }  // namespace grainreel

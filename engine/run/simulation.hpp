@@ -20,9 +20,9 @@ namespace grainreel {
 
 // What happens before the drive starts, for the progress line.
 struct PackingProgress {
-    enum class Stage { growing, settling };
+    enum class Stage { growing, raining, settling };
     Stage stage = Stage::growing;
-    double done = 0;         // 0 to 1: share of the wanted radii; or of the time limit of settling
+    double done = 0;  // 0 to 1: share of the wanted radii, of the grains, or of the time limit of settling
     std::int64_t steps = 0;  // so far
 };
 // Return false to stop.
@@ -47,8 +47,8 @@ class Simulation {
     ~Simulation();
     Simulation(Simulation&&) noexcept;
 
-    // Places the grains (layers, radius growth, settling), if they are not there already. Afterwards step()
-    // is 0, or the file's step when the scene keeps its clock.
+    // Places the grains (layers and radius growth, or rain, then settling), if they are not there already.
+    // Afterwards step() is 0, or the file's step when the scene keeps its clock.
     PackingResult pack(const PackingWatcher& watcher);
     PackingResult pack();
 

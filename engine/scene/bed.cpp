@@ -25,7 +25,7 @@ double mean_cube(const SizeSpread& d) {
 double solid_volume(const Scene& scene) {
     double volume = 0;
     for (const Species& s : scene.species)
-        volume += static_cast<double>(s.count) * std::numbers::pi / 6 * mean_cube(s.diameter);
+        volume += static_cast<double>(s.all()) * std::numbers::pi / 6 * mean_cube(s.diameter);
     return volume;
 }
 
@@ -39,7 +39,7 @@ double mean_diameter(const Scene& scene) {
 double total_mass(const Scene& scene) {
     double mass = 0;
     for (const Species& s : scene.species)
-        mass += static_cast<double>(s.count) * s.density * std::numbers::pi / 6 * mean_cube(s.diameter);
+        mass += static_cast<double>(s.all()) * s.density * std::numbers::pi / 6 * mean_cube(s.diameter);
     return mass;
 }
 

@@ -6,9 +6,10 @@
 namespace grainreel {
 
 double mean_cube(const SizeSpread& diameter);  // m3, the mean of d^3
-double solid_volume(const Scene& scene);       // m3, of all grains together
-double mean_diameter(const Scene& scene);      // m, of all grains
-double total_mass(const Scene& scene);         // kg
+// Of all grains together, those that come during the run among them.
+double solid_volume(const Scene& scene);   // m3
+double mean_diameter(const Scene& scene);  // m
+double total_mass(const Scene& scene);     // kg
 
 // m, how high the container is filled when the grains lie at this solid fraction; its height at most.
 double fill_height(const Scene& scene, double solid_fraction);

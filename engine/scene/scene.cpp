@@ -36,6 +36,15 @@ bool Contact::rubs() const {
            std::any_of(wall.begin(), wall.end(), has_friction);
 }
 
+// A grain comes when its interval is over, so that none comes at the beginning.
+std::int64_t Feed::due(double time) const {
+    constexpr double most = 4e9;        // more than can be numbered
+    constexpr double rounding = 1e-12;  // of rate times time
+    const double passed = std::max(0.0, std::min(time, until.value_or(time)) - from);
+    const auto grains = static_cast<std::int64_t>(std::min(most, rate * passed * (1 + rounding)));
+    return std::min(grains, count.value_or(grains));
+}
+
 double Drive::speed() const {
     return amplitude * 2 * std::numbers::pi * frequency;
 }
@@ -46,6 +55,11 @@ double Drive::g_level(double gravity) const {
 }
 
 std::int64_t Scene::grains() const {
+    return std::accumulate(species.begin(), species.end(), std::int64_t{0},
+                           [](std::int64_t sum, const Species& s) { return sum + s.all(); });
+}
+
+std::int64_t Scene::grains_at_start() const {
     return std::accumulate(species.begin(), species.end(), std::int64_t{0},
                            [](std::int64_t sum, const Species& s) { return sum + s.count; });
 }

@@ -41,10 +41,12 @@ struct SizeSpread {
 
 struct Species {
     std::string name;
-    std::int64_t count = 0;
+    std::int64_t count = 0;  // at the start
+    std::int64_t fed = 0;    // that come during the run
     SizeSpread diameter;
     double density = 0;  // kg/m3; from the mass at the mean diameter when the scene gives a mass
     Colour colour;
+    std::int64_t all() const { return count + fed; }
     bool operator==(const Species&) const = default;
 };
 
@@ -152,13 +154,27 @@ struct ListedGrain {
     bool operator==(const ListedGrain&) const = default;
 };
 
+// Grains that come during the run, one after the other at even intervals, at random places in a box.
+struct Feed {
+    std::size_t species = 0;
+    double rate = 0;                      // 1/s
+    std::optional<std::int64_t> count;    // after which it ends
+    double from = 0;                      // s
+    std::optional<double> until;          // s; the run's end when empty
+    Vec3 low{0, 0, 0}, high{0, 0, 0};     // m, corners of the box that their centres appear in
+    Vec3 velocity{0, 0, 0};               // m/s
+    std::int64_t due(double time) const;  // grains up to this time, s
+    bool operator==(const Feed&) const = default;
+};
+
 struct Start {
-    enum class Method { layers, file, grains };
+    enum class Method { layers, rain, file, grains };
     Method method = Method::layers;
     std::string file;         // path: checkpoint of an earlier run, or its final.csv
     bool keep_clock = false;  // go on at the file's step and phase; needs a checkpoint, same step and drive
     double settle_limit = 5;  // s, of settling at most
     double settle_damping = 10;       // 1/s, extra drag on every grain while settling only; 0 for none
+    std::optional<double> rain_rate;  // 1/s; the plan chooses it when empty
     std::vector<ListedGrain> grains;  // with `grains`
     bool operator==(const Start&) const = default;
 };
@@ -282,6 +298,7 @@ struct Scene {
     Contact contact;
     Container container;
     std::vector<FreeWall> walls;
+    std::vector<Feed> feeds;
     Vec3 gravity{0, 0, -9.81};  // m/s2
     Drive drive;
     Start start;
@@ -303,7 +320,8 @@ struct Scene {
     // that said it, "--size".
     std::string where(const std::string& key) const;
 
-    std::int64_t grains() const;  // sum of the counts
+    std::int64_t grains() const;  // all that there are in the course of the run
+    std::int64_t grains_at_start() const;
     bool keeps_orientations() const { return output.orientation || film.look.rotation; }
     const PairContact& between(std::size_t a, std::size_t b) const {
         return contact.grain[a * species.size() + b];

@@ -7,27 +7,13 @@
 
 #include "engine/base/random.hpp"
 #include "engine/plan/free_space.hpp"
+#include "engine/start/diameters.hpp"
 
 namespace grainreel {
 
 namespace {
 
 constexpr double kLooseFraction = 1.0 / 3;  // solid share of the space the centres are drawn in
-
-double draw_diameter(const SizeSpread& spread, Random& random) {
-    switch (spread.kind) {
-        case SizeSpread::Kind::fixed:
-            return spread.largest;
-        case SizeSpread::Kind::uniform:
-            return random.between(spread.smallest, spread.largest);
-        case SizeSpread::Kind::normal:
-            break;
-    }
-    for (;;) {
-        const double d = spread.mean + spread.deviation * random.normal();
-        if (d >= spread.smallest && d <= spread.largest) return d;
-    }
-}
 
 Vec3 random_centre(const Container& c, const FreeSpace& space, double bottom, double top, double margin,
                    Random& random) {
@@ -51,6 +37,7 @@ double solid_volume(const Species& s) {
 }  // namespace
 
 Grains place_in_layers(const Scene& scene) {
+    if (scene.grains_at_start() == 0) return {};
     std::vector<std::size_t> upwards(scene.species.size());
     std::iota(upwards.begin(), upwards.end(), std::size_t{0});
     std::stable_sort(upwards.begin(), upwards.end(), [&](std::size_t a, std::size_t b) {

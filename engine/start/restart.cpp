@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 #include <string_view>
 
@@ -92,28 +93,42 @@ Saved read_saved(const Scene& scene, Bytes& in) {
     return saved;
 }
 
+std::int64_t total_of(const std::vector<std::int64_t>& given) {
+    return std::accumulate(given.begin(), given.end(), std::int64_t{0});
+}
+
+// One number for each feed, and as many grains in all as have come.
+bool could_be_given(const Scene& scene, const std::vector<std::int64_t>& given, const Traffic& traffic) {
+    const auto possible = [](std::int64_t count) { return count >= 0 && count < std::int64_t{1} << 31; };
+    return given.size() == scene.feeds.size() && std::all_of(given.begin(), given.end(), possible) &&
+           (given.empty() || total_of(given) == traffic.came);
+}
+
 }  // namespace
 
 UserError damaged_checkpoint(const Scene& scene) {
     return cannot_start(scene, "is damaged; take another checkpoint");
 }
 
-void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop) {
+// What feeds have given stands there once they have given anything: the loop's account stands before it then.
+void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
+                 const std::vector<std::int64_t>& given) {
     write_value(out, step);
     transfer_grains(grains, Writing{out});
     loop.save(out);
+    if (total_of(given) > 0) write_vector(out, given);
 }
 
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
-                     const std::string& gathered) {
+                     const std::string& gathered, const std::vector<std::int64_t>& given) {
     std::ostringstream body;
     const std::string kept = scene_to_keep(scene, plan);
     write_vector(body, std::vector<char>(kept.begin(), kept.end()));
     write_value(body, header);
     write_value(body, static_cast<std::uint8_t>(loop.is_fresh() ? 1 : 0));
     write_vector(body, std::vector<char>(gathered.begin(), gathered.end()));
-    write_state(body, header.step, grains, loop);
+    write_state(body, header.step, grains, loop, given);
     const std::string bytes = body.str();
     const std::uint64_t sum = XXH64(bytes.data(), bytes.size(), 0);
 
@@ -141,7 +156,8 @@ bool is_checkpoint(const std::filesystem::path& path) {
 }
 
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
-                                          StepLoop& loop, std::string& gathered) {
+                                          StepLoop& loop, std::string& gathered,
+                                          std::vector<std::int64_t>& given) {
     const std::string bytes = read_whole(scene);
     Bytes in(body_of(scene, bytes));
     Saved saved = read_saved(scene, in);
@@ -150,6 +166,9 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
     check_masses(scene, saved.grains);
     grains = std::move(saved.grains);
     loop.load(in);
+    given.assign(scene.feeds.size(), 0);
+    if (in.left() > 0) read_vector(in, given);
+    if (!could_be_given(scene, given, loop.traffic())) throw damaged_checkpoint(scene);
     if (!loop.traffic().any()) {
         check_grains_numbered(scene, grains);
         check_grains_match(scene, grains);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
@@ -21,14 +22,15 @@ struct CheckpointHeader {
 };
 
 // Everything that decides the future, the scene among it, to a temporary name, then renamed. gathered: what
-// observers have gathered (Observers::save), which decides nothing. Throws RunError when it cannot be
-// written.
+// observers have gathered (Observers::save), which decides nothing. given: how many grains each feed has given.
+// Throws RunError when it cannot be written.
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
-                     const std::string& gathered);
+                     const std::string& gathered, const std::vector<std::int64_t>& given = {});
 
 // The bytes behind save_checkpoint, for hashes.
-void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop);
+void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
+                 const std::vector<std::int64_t>& given = {});
 
 // Whether it is one, of this version or another.
 bool is_checkpoint(const std::filesystem::path& path);
@@ -36,10 +38,11 @@ bool is_checkpoint(const std::filesystem::path& path);
 // Both throw UserError, at the scene's `start.file` or at the key that differs, when the file is missing,
 // damaged, of another version, or does not fit the scene; nothing in it is believed.
 //
-// To go on bit by bit: grains, and the loop's lists and histories. The loop is that of these grains.
-// `gathered` becomes what observers had gathered, which the caller has still to check.
+// To go on bit by bit: grains, the loop's lists and histories, and what each feed has given. The loop is that
+// of these grains. `gathered` becomes what observers had gathered, which the caller has still to check.
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
-                                          StepLoop& loop, std::string& gathered);
+                                          StepLoop& loop, std::string& gathered,
+                                          std::vector<std::int64_t>& given);
 // To start anew: where the grains are in the container at rest, and how fast; their masses are the scene's.
 Grains grains_from_checkpoint(const Scene& scene);
 

@@ -21,6 +21,18 @@ ThreadPlan threads_for(const Scene& scene, bool film) {
     return plan_threads(processors, film, scene.grains());
 }
 
+Progress::Stage stage_of(const PackingProgress& packing) {
+    switch (packing.stage) {
+        case PackingProgress::Stage::growing:
+            return Progress::Stage::growing;
+        case PackingProgress::Stage::raining:
+            return Progress::Stage::raining;
+        case PackingProgress::Stage::settling:
+            break;
+    }
+    return Progress::Stage::settling;
+}
+
 }  // namespace
 
 MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan)
@@ -72,8 +84,7 @@ bool MovieRun::pack() {
     Stopwatch packing;
     const auto watcher = [&](const PackingProgress& now) {
         Progress progress;
-        const bool growing = now.stage == PackingProgress::Stage::growing;
-        progress.stage = growing ? Progress::Stage::growing : Progress::Stage::settling;
+        progress.stage = stage_of(now);
         progress.done = now.done;
         if (packing.seconds() > 0.5) {
             progress.particle_steps_per_second = static_cast<double>(now.steps) *
@@ -150,8 +161,8 @@ void MovieRun::report_segregation() {
     const Scene& scene = run_.scene();
     const RunFiles& files = *run_.files();
     if (scene.species.size() < 2 || !files.last_measures()) return;
-    const std::string segregation = segregation_text(scene, *files.first_measures(), *files.last_measures());
-    if (!segregation.empty()) listener_.info(segregation);
+    const std::string text = segregation_text(scene, *files.first_measures(), *files.last_measures());
+    if (!text.empty()) listener_.info(text);
 }
 
 }  // namespace grainreel

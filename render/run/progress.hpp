@@ -7,7 +7,7 @@
 namespace grainreel {
 
 struct Progress {
-    enum class Stage { growing, settling, vibrating, charting, timing, drawing };
+    enum class Stage { growing, raining, settling, vibrating, charting, timing, drawing };
     Stage stage = Stage::growing;
     double done = 0;                              // of this stage, 0 to 1
     std::string what;                             // while charting or timing

@@ -8,7 +8,8 @@
 
 namespace grainreel {
 
-// Of a scene with two species or more. Indices that are not defined for it are left out; empty without any.
+// Of a scene with two species or more. Indices that are not defined at both moments are left out; empty where
+// none is.
 std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to);
 
 }  // namespace grainreel

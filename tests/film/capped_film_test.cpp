@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/data_size.hpp"
 #include "engine/scene/chapters/words.hpp"
+#include "engine/scene/text/data_size.hpp"
 #include "render/film/files/smaller_film.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"

@@ -172,6 +172,7 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
     take(changed("restitution = 0.7",
                  "law = \"spring-dashpot\"\nnormal_damping = 100\ntangential_damping = 50"));
     take(walton + "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n");
+    take(walton + "[[feed]]\nrate = 5\ncount = 3\nuntil = 1\n");
 
     const auto compared = deciding_differences("", all);
     const auto is_compared = [&](const std::string& key) {

@@ -12,8 +12,8 @@
 #include "engine/plan/plan_parts.hpp"
 #include "engine/run/health.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
 #include "engine/scene/chapters/words.hpp"
+#include "engine/scene/text/reader.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

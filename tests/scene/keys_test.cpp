@@ -63,7 +63,9 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string fields = wedge_text + "[output.fields]\ngrid = \"yz\"\n";
     const std::string outlet =
         with(wedge_text, "height = \"180 mm\"\n", "height = \"180 mm\"\noutlet = { width = \"20 mm\" }\n");
-    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact, layers, fields, outlet};
+    const std::string fed = wedge_text + "[[feed]]\nrate = 10\n";
+    const std::string cases[] = {wedge_text, box,    locked, motion, from_file,
+                                 exact,      layers, fields, outlet, fed};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

@@ -35,8 +35,13 @@ void read_walls(Document& document, Scene& scene);
 void write_walls(SceneText& out, const Scene& scene);
 
 void list_grains(keys::Keys& all);
-void read_grains(Document& document, Scene& scene);  // after the species
+void read_grains(Document& document, Scene& scene);  // after species and feeds
 void write_grains(SceneText& out, const Scene& scene);
+
+void list_feeds(keys::Keys& all);
+void read_feeds(Document& document, Scene& scene);  // after species and container
+void count_fed(Document& document, Scene& scene);   // how many grains they give; after the run
+void write_feeds(SceneText& out, const Scene& scene);
 
 void list_drive(keys::Keys& all);
 void read_drive(Document& document, Scene& scene);  // after gravity
@@ -63,6 +68,12 @@ void size_empty_space(Scene& scene);
 
 // What can be wrong between keys that are right by themselves. Throws UserError.
 void check_scene(const Scene& scene);
+
+// Whether a species of this number and name is that of a feed, before the feeds are read.
+bool is_fed(Document& document, std::size_t number, const std::string& name);
+
+// The species that a key names, or the first one. Throws UserError where there is none of that name.
+std::size_t species_named(Document& document, const Scene& scene, const std::string& path);
 
 // Makes a direction a unit vector. Throws UserError where it is zero.
 void make_unit(const Document& document, const std::string& path, Vec3& direction);

@@ -22,6 +22,7 @@ namespace {
 // The densest share of the container that growing spheres in layers reaches without jamming: random packings
 // of equal spheres end at 0.64, and one that can still be sheared near 0.55.
 constexpr double most_solid = 0.55;
+constexpr double closest_packing = 0.64;  // of equal spheres at random
 
 // Of the scene's size, from the camera to where it looks: nearer, and rounding says in which direction.
 constexpr double closest_camera = 1e-6;
@@ -120,9 +121,18 @@ void check_grain_sizes(const Scene& scene) {
     }
 }
 
+// m3, of the grains that are there at the start.
+double solid_at_start(const Scene& scene) {
+    Scene start = scene;
+    for (Species& species : start.species) species.fed = 0;
+    return solid_volume(start);
+}
+
 void check_room(const Scene& scene) {
-    if (scene.start.method != Start::Method::layers) return;
-    const double solid = solid_volume(scene);
+    const bool packs =
+        scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain;
+    if (!packs) return;
+    const double solid = solid_at_start(scene);
     const double room = FreeSpace(scene).volume();
     if (room <= 0)
         throw UserError(
@@ -133,8 +143,19 @@ void check_room(const Scene& scene) {
         throw UserError(
             fmt::format("{}: {} grains of {:.4g} m3 fill {:.1f} % of the {}'s {:.4g} m3, more than the "
                         "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
-                        scene.where("species"), scene.grains(), solid, 100 * solid / room,
+                        scene.where("species"), scene.grains_at_start(), solid, 100 * solid / room,
                         scene.walls.empty() ? "container" : "room", room, 100 * most_solid));
+}
+
+// All that a feed is to give must find room, unless grains leave.
+void check_feeds(const Scene& scene) {
+    if (scene.feeds.empty() || scene.container.shape == Container::Shape::none) return;
+    const double solid = solid_volume(scene), room = FreeSpace(scene).volume();
+    if (solid > closest_packing * room)
+        throw UserError(fmt::format(
+            "{}: with what is fed, {} grains fill {:.1f} % of the container's {:.4g} m3, more than the "
+            "{:.0f} % of a random close packing; feed fewer, end earlier, or take a larger container",
+            scene.where("feed"), scene.grains(), 100 * solid / room, room, 100 * closest_packing));
 }
 
 // Layers are to lie on something.
@@ -191,6 +212,7 @@ void check_scene(const Scene& scene) {
     check_wedge(scene);
     check_grain_sizes(scene);
     check_room(scene);
+    check_feeds(scene);
     check_gravity(scene);
     check_drive(scene);
     check_outlet(scene);

@@ -1,8 +1,6 @@
 // The keys of [[grain]].
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
@@ -15,14 +13,7 @@ using namespace keys;
 constexpr double same_size = 1e-6;  // relative: a diameter written by hand is not exact to the last bit
 
 void read_species_of(Document& document, const Scene& scene, const std::string& path, ListedGrain& grain) {
-    const auto name = document.text(path);
-    if (!name) return;
-    const auto& all = scene.species;
-    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == *name; });
-    if (found == all.end())
-        document.fail(
-            path, fmt::format("names \"{}\", which is no species; name one of [[species]]", excerpt(*name)));
-    grain.species = static_cast<std::size_t>(found - all.begin());
+    grain.species = species_named(document, scene, path);
 }
 
 BoundKey<ListedGrain> species_key() {
@@ -81,7 +72,7 @@ void read_grains(Document& document, Scene& scene) {
         ++scene.species[scene.start.grains.back().species].count;
     }
     for (std::size_t s = 0; s < scene.species.size(); ++s)
-        if (scene.species[s].count == 0)
+        if (scene.species[s].count == 0 && !is_fed(document, s, scene.species[s].name))
             document.fail(fmt::format("species[{}].name", s),
                           fmt::format("\"{}\" has no grain among those listed; add one or remove the species",
                                       excerpt(scene.species[s].name)));

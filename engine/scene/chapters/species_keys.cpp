@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/film/colours.hpp"
 #include "engine/scene/film/film_keys.hpp"
@@ -69,11 +70,11 @@ std::string diameter_text(const Species& species, const Scene& scene) {
     return spread_table().inline_text(scene, spread);
 }
 
-void read_count(Document& document, const Scene&, const std::string& path, Species& species) {
+void read_count(Document& document, const Scene& scene, const std::string& path, Species& species) {
     if (document.size("grain") > 0) return document.refuse(path, "the grains are listed one by one");
     const auto count = document.integer(path);
-    if (!count) document.fail_missing(path);
-    species.count = *count;
+    if (!count && !is_fed(document, scene.species.size(), species.name)) document.fail_missing(path);
+    species.count = count.value_or(0);
 }
 
 // Another way to say the density, which is what is kept and written.
@@ -108,9 +109,10 @@ BoundKey<Species> diameter_key() {
 
 BoundKey<Species> count_key() {
     return bound_by<Species>(
-        integer("count", 1, most_grains, note("required, but for [[grain]]"), "How many grains."), read_count,
-        [](const Species& species, const Scene& scene) {
-            return scene.start.grains.empty() ? as_toml(species.count) : "";
+        integer("count", 1, most_grains, note("required, but for [[grain]] and [[feed]]"),
+                "How many grains there are at the start."),
+        read_count, [](const Species& species, const Scene& scene) {
+            return scene.start.grains.empty() && species.count > 0 ? as_toml(species.count) : "";
         });
 }
 
@@ -163,6 +165,15 @@ void choose_colours(const Document& document, std::vector<Species>& species) {
 }
 
 }  // namespace
+
+std::size_t species_named(Document& document, const Scene& scene, const std::string& path) {
+    const auto name = document.text(path);
+    if (!name) return 0;
+    for (std::size_t s = 0; s < scene.species.size(); ++s)
+        if (scene.species[s].name == *name) return s;
+    document.fail(path,
+                  fmt::format("names \"{}\", which is no species; name one of [[species]]", excerpt(*name)));
+}
 
 void list_species(Keys& all) {
     species_table().list(all, "species[]");

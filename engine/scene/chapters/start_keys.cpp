@@ -14,16 +14,20 @@ using namespace keys;
 using Method = Start::Method;
 
 const Words<Method> method_words{
-    {"layers", Method::layers}, {"file", Method::file}, {"grains", Method::grains}};
+    {"layers", Method::layers}, {"rain", Method::rain}, {"file", Method::file}, {"grains", Method::grains}};
 
 const char* without_file(const Start& start) {
     return start.method != Method::file ? "the start is not from a file" : nullptr;
 }
 
-const char* without_layers(const Start& start) {
-    if (start.method == Method::layers) return nullptr;
+const char* without_settling(const Start& start) {
+    if (start.method == Method::layers || start.method == Method::rain) return nullptr;
     return start.method == Method::file ? "a start from a file does not settle"
                                         : "grains placed by hand do not settle";
+}
+
+const char* without_rain(const Start& start) {
+    return start.method != Method::rain ? "only rain has a rate" : nullptr;
 }
 
 // Throws UserError where grains are listed and the start is something else.
@@ -54,8 +58,9 @@ const KeyTable<Start>& start_table() {
     using S = Start;
     static const KeyTable<S> table{
         choice("method", &S::method, method_words, note("layers; grains with [[grain]]"),
-               "Grow and settle layers in the room before all planes, the first species of the "
-               "largest grains at the bottom; go on from a file; or the grains as listed, at once.")
+               "Grow and settle layers in the room before all planes, the species of the "
+               "largest grains at the bottom; rain, all species mixed; go on from a file; or the grains as "
+               "listed, at once.")
             .usually([](S& start, const Scene&) {
                 start.method = start.grains.empty() ? Method::layers : Method::grains;
             }),
@@ -63,11 +68,15 @@ const KeyTable<Start>& start_table() {
         flag("keep_clock", &S::keep_clock, initial(), "Go on at the checkpoint's step and phase; file only.")
             .useless_for(without_file),
         quantity("settle_limit", &S::settle_limit, Dimension::time, positive, literal("\"5 s\""),
-                 "Settling ends here at the latest; layers only.")
-            .useless_for(without_layers),
+                 "Settling ends here at the latest; layers and rain only.")
+            .useless_for(without_settling),
         quantity("settle_damping", &S::settle_damping, Dimension::rate, not_negative, literal("\"10 1/s\""),
-                 "Drag on every grain while settling only; layers only.")
-            .useless_for(without_layers),
+                 "Drag on every grain while settling only; layers and rain only.")
+            .useless_for(without_settling),
+        quantity("rain_rate", &S::rain_rate, Dimension::rate, positive,
+                 note("a thin rain, chosen by the plan"),
+                 "Grains a second that appear above the bed; rain only.")
+            .useless_for(without_rain),
     };
     return table;
 }
@@ -84,9 +93,14 @@ void read_start(Document& document, Scene& scene) {
     check_listed(document, start);
     if (start.grains.empty() && start.method == Method::grains)
         document.fail("start.method", "is \"grains\", but none is listed; write [[grain]] and its position");
-    if (start.method == Method::layers && scene.container.shape == Container::Shape::none)
+    const bool none = scene.container.shape == Container::Shape::none;
+    if (start.method == Method::layers && none)
         document.fail("container.shape",
                       "is \"none\", so nothing holds layers; list the grains or start from a file");
+    if (start.method != Method::rain) return;
+    if (none) document.fail("container.shape", "is \"none\", so nothing holds the rain; list the grains");
+    if (scene.gravity.z() >= 0)
+        document.fail("start.method", "is \"rain\", but gravity does not pull it down; write \"layers\"");
 }
 
 void write_start(SceneText& out, const Scene& scene) {

@@ -24,6 +24,10 @@ void read_value(Document& document, const std::string& path, int& value) {
     if (const auto given = document.integer(path)) value = static_cast<int>(*given);
 }
 
+void read_value(Document& document, const std::string& path, std::int64_t& value) {
+    if (const auto given = document.integer(path)) value = *given;
+}
+
 void read_value(Document& document, const std::string& path, std::uint64_t& value) {
     if (const auto given = document.integer(path)) value = static_cast<std::uint64_t>(*given);
 }

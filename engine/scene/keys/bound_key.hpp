@@ -36,6 +36,7 @@ std::string initial_text(const Vec3& value);
 void read_value(Document& document, const std::string& path, double& value);
 void read_value(Document& document, const std::string& path, bool& value);
 void read_value(Document& document, const std::string& path, int& value);
+void read_value(Document& document, const std::string& path, std::int64_t& value);
 void read_value(Document& document, const std::string& path, std::uint64_t& value);
 void read_value(Document& document, const std::string& path, std::string& value);
 void read_value(Document& document, const std::string& path, Vec3& value);

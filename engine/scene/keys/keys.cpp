@@ -18,6 +18,7 @@ const std::vector<Key>& scene_keys() {
         list_start(all);
         list_run(all);
         list_film(all);
+        list_feeds(all);
         return all;
     }();
     return keys;

@@ -63,10 +63,12 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file, 
     read_contact(document, scene);
     read_container(document, scene);
     read_walls(document, scene);
+    read_feeds(document, scene);
     read_grains(document, scene);
     read_drive(document, scene);
     read_start(document, scene);
     read_run(document, scene);
+    count_fed(document, scene);
     if (measurable) scene.measurable = measurable(scene);
     check_instruments(document, scene);
     read_film(document, scene);

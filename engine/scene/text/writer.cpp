@@ -14,6 +14,7 @@ std::string resolved_scene(const Scene& scene, const Plan& plan) {
     write_container(out, scene);
     write_walls(out, scene);
     write_grains(out, scene);
+    write_feeds(out, scene);
     write_drive(out, scene);
     write_start(out, scene);
     write_run(out, scene, plan);

@@ -1,6 +1,7 @@
 // What is simulated: grains, container, drive.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
@@ -52,6 +53,12 @@ std::string wall_text(const FreeWall& wall) {
     return wall.moves ? text + ", follows the drive" : text;
 }
 
+std::string feed_text(const Scene& scene, const Feed& feed) {
+    const double end = std::min(feed.until.value_or(scene.run.duration), scene.run.duration);
+    return fmt::format("{} {} at {:.4g} 1/s, from {:.4g} to {:.4g} s", grouped(feed.due(scene.run.duration)),
+                       scene.species[feed.species].name, feed.rate, feed.from, end);
+}
+
 std::string drive_text(const Scene& scene) {
     const Drive& d = scene.drive;
     if (!d.present) return "none";
@@ -74,8 +81,10 @@ void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
     list.line("scene", fmt::format("{} ({})", scene.title, scene.file));
     list.line("grains", fmt::format("{}, {:.3g} kg", grouped(scene.grains()), total_mass(scene)));
     for (const Species& s : scene.species)
-        list.line("", fmt::format("{} {} of {}, {:.4g} kg/m3", grouped(s.count), s.name,
-                                  diameter_text(s.diameter), s.density));
+        list.line("", fmt::format("{} {} of {}, {:.4g} kg/m3{}", grouped(s.all()), s.name,
+                                  diameter_text(s.diameter), s.density,
+                                  s.fed > 0 ? fmt::format(", {} of them fed", grouped(s.fed)) : ""));
+    for (const Feed& feed : scene.feeds) list.line("feed", feed_text(scene, feed));
     list.line("container", container_text(scene.container));
     for (const FreeWall& wall : scene.walls) list.line("", wall_text(wall));
     if (scene.start.method != Start::Method::grains)

@@ -2,11 +2,30 @@
 
 #include <fmt/format.h>
 
+#include "engine/plan/rain_plan.hpp"
 #include "render/cli/check/check_parts.hpp"
 #include "render/film/files/film_limits.hpp"
 
 namespace grainreel {
 namespace {
+
+std::string start_text(const Scene& scene) {
+    const std::string settling =
+        fmt::format("then settling for {} at most", span_text(scene.start.settle_limit));
+    switch (scene.start.method) {
+        case Start::Method::layers:
+            return "layers, " + settling;
+        case Start::Method::rain:
+            return fmt::format("rain of {:.4g} grains a second for {}, {}", rain_rate(scene),
+                               span_text(static_cast<double>(scene.grains_at_start()) / rain_rate(scene)),
+                               settling);
+        case Start::Method::file:
+            return "from " + scene.start.file;
+        case Start::Method::grains:
+            break;
+    }
+    return "the grains as listed";
+}
 
 void print_time(const Scene& scene, const Plan& plan, Listing& list) {
     const std::int64_t period = plan.clock.steps_per_period;
@@ -14,11 +33,7 @@ void print_time(const Scene& scene, const Plan& plan, Listing& list) {
               fmt::format("{}{}, chosen for: {}", span_text(plan.clock.step),
                           period > 0 ? fmt::format(", {} a period", grouped(period)) : "", plan.step_reason));
     list.line("steps", fmt::format("{} for {}", grouped(plan.steps), span_text(plan.clock.time(plan.steps))));
-    list.line("start",
-              scene.start.method == Start::Method::file ? "from " + scene.start.file
-              : scene.start.method == Start::Method::grains
-                  ? "the grains as listed"
-                  : fmt::format("layers, then settling for {} at most", span_text(scene.start.settle_limit)));
+    list.line("start", start_text(scene));
     list.line("overlap",
               fmt::format("up to {:.2g} % of the smaller diameter expected, with impacts at {:.3g} m/s; most "
                           "contacts stay below {:.2g} %",

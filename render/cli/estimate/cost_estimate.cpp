@@ -7,6 +7,7 @@
 
 #include "engine/base/team.hpp"
 #include "engine/bench/lattice_speed.hpp"
+#include "engine/plan/rain_plan.hpp"
 #include "engine/scene/text/writer.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/forces/scheme.hpp"
@@ -44,7 +45,7 @@ double law_cost(const PairPlan& pair) {
 double scene_cost(const Scene& scene, const Plan& plan) {
     std::size_t most = 0;
     for (std::size_t s = 0; s < scene.species.size(); ++s)
-        if (scene.species[s].count > scene.species[most].count) most = s;
+        if (scene.species[s].all() > scene.species[most].all()) most = s;
     const auto forces = static_cast<double>(scheme_of(plan.integrator).stages.size());
     const double size = static_cast<std::size_t>(scene.grains()) > kLargeBed ? large_bed : 1;
     return law_cost(plan.between(most, most)) * forces * size;
@@ -52,9 +53,14 @@ double scene_cost(const Scene& scene, const Plan& plan) {
 
 // In steps of a shaken bed.
 double packing_steps(const Scene& scene, const Plan& plan) {
-    if (scene.start.method != Start::Method::layers) return 0;
+    const bool rains = scene.start.method == Start::Method::rain;
+    if (!rains && scene.start.method != Start::Method::layers) return 0;
     const double settling = settling_time / plan.clock.step;
-    return growing_steps +
+    // On average half of the grains are there while it rains.
+    const auto raining = [&] {
+        return 0.5 * static_cast<double>(scene.grains_at_start()) / rain_rate(scene) / plan.clock.step;
+    };
+    return (rains ? raining() : growing_steps) +
            settling_over_shaken * std::min(static_cast<double>(plan.settle_steps_limit), settling);
 }
 

@@ -68,7 +68,7 @@ void add_grain(Frame& frame, std::size_t species, double radius, const Vec3& pos
 std::vector<std::size_t> spread_species(const Scene& scene) {
     std::vector<std::size_t> all;
     for (std::size_t s = 0; s < scene.species.size(); ++s)
-        all.insert(all.end(), static_cast<std::size_t>(scene.species[s].count), s);
+        all.insert(all.end(), static_cast<std::size_t>(scene.species[s].all()), s);
     Random random(1, Stream::centres);
     for (std::size_t i = all.size(); i > 1; --i)
         std::swap(

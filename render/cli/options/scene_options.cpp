@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "engine/scene/film/purposes.hpp"
 #include "engine/scene/chapters/words.hpp"
+#include "engine/scene/film/purposes.hpp"
 #include "render/cli/options/option_groups.hpp"
 
 namespace grainreel {

@@ -12,6 +12,8 @@ std::string to_string(Progress::Stage stage) {
     switch (stage) {
         case Progress::Stage::growing:
             return "growing";
+        case Progress::Stage::raining:
+            return "raining";
         case Progress::Stage::settling:
             return "settling";
         case Progress::Stage::charting:

@@ -71,7 +71,7 @@ class Entries {
         const Species& species = scene_.species[i];
         line(species.name, writer_.main(), writer_.palette.ink);
         // Of a container that empties, those that there were.
-        line(fmt::format("{} × {}{}", species.count, diameter_text(species.diameter),
+        line(fmt::format("{} × {}{}", species.all(), diameter_text(species.diameter),
                          scene_.container.outlet ? " at the start" : ""),
              writer_.minor(), writer_.palette.faint_ink);
         const bool by_species = scene_.film.shows.colour.by == GrainValue::species;

@@ -40,7 +40,7 @@ void Member::begin(const std::filesystem::path& folder, const std::string& comma
 bool Member::pack(const GoOn& go_on) {
     if (!run_) return true;
     const bool packed = run_->pack([&](const PackingProgress& now) {
-        done_ = (now.stage == PackingProgress::Stage::growing ? 0.0 : 0.5) + 0.5 * now.done;
+        done_ = (now.stage == PackingProgress::Stage::settling ? 0.5 : 0.0) + 0.5 * now.done;
         return go_on();
     });
     done_ = 1;

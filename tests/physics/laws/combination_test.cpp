@@ -7,8 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
 #include "engine/scene/chapters/words.hpp"
+#include "engine/scene/text/reader.hpp"
 
 namespace grainreel {
 namespace {

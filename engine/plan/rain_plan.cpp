@@ -1,0 +1,48 @@
+#include "engine/plan/rain_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/bed.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double lowest = 2, highest = 6;  // over the largest diameter
+constexpr double thin = 0.05;              // solid share of the layer
+
+double largest_diameter(const Scene& scene) {
+    double largest = 0;
+    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
+    return largest;
+}
+
+}  // namespace
+
+RainLayer rain_layer(const Scene& scene) {
+    const double largest = largest_diameter(scene);
+    return {lowest * largest, highest * largest};
+}
+
+double rain_drop(const Scene& scene) {
+    return std::min(rain_layer(scene).high, scene.container.height);
+}
+
+double rain_rate(const Scene& scene) {
+    if (scene.start.rain_rate) return *scene.start.rain_rate;
+    const RainLayer layer = rain_layer(scene);
+    const double deep = layer.high - layer.low, area = scene.container.volume() / scene.container.height;
+    const double stays = std::sqrt(2 * deep / scene.gravity.norm());  // s, that a grain falls through it
+    const double volume = solid_volume(scene) / static_cast<double>(scene.grains());
+    return thin * area * deep / volume / stays;
+}
+
+double rain_patience(const Scene& scene) {
+    return 5 * std::sqrt(2 * rain_layer(scene).high / scene.gravity.norm());
+}
+
+double rain_limit(const Scene& scene) {
+    return 2 * static_cast<double>(scene.grains_at_start()) / rain_rate(scene) + rain_patience(scene);
+}
+
+}  // namespace grainreel

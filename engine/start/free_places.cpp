@@ -1,0 +1,49 @@
+#include "engine/start/free_places.hpp"
+
+#include <algorithm>
+
+#include "engine/base/nearest_image.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int kDraws = 200;
+constexpr double kGap = 1e-3;  // over the radius
+
+}  // namespace
+
+FreePlaces::FreePlaces(const Surroundings& around, const Pose& pose, const Grains& grains, const Vec3& low,
+                       const Vec3& high, double largest)
+    : around_(around), pose_(pose), low_(low), high_(high) {
+    for (const Place& place : grains.place) {
+        const double reach = place.radius + largest * (1 + kGap);
+        const Vec3& centre = place.position;
+        const bool outside = centre.y() < low.y() - reach || centre.y() > high.y() + reach ||
+                             centre.z() < low.z() - reach || centre.z() > high.z() + reach;
+        if (!outside) near_.push_back(place);
+    }
+}
+
+bool FreePlaces::is_free(const Vec3& place, double radius) const {
+    const double wide = radius * (1 + kGap);
+    for (const Face& face : around_.faces)
+        if (distance_to(face, face.displacement(pose_), place).distance < wide) return false;
+    return std::none_of(near_.begin(), near_.end(), [&](const Place& other) {
+        Vec3 between = place - other.position;
+        between.x() = wrapped(between.x(), around_.period);
+        return between.squaredNorm() < (other.radius + wide) * (other.radius + wide);
+    });
+}
+
+std::optional<Vec3> FreePlaces::take(double radius, Random& random) {
+    for (int draw = 0; draw < kDraws; ++draw) {
+        Vec3 place;
+        for (int axis = 0; axis < 3; ++axis) place[axis] = random.between(low_[axis], high_[axis]);
+        if (!is_free(place, radius)) continue;
+        near_.push_back({place, radius});
+        return place;
+    }
+    return std::nullopt;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,37 @@
+// Places for new grains in which they touch nothing.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/base/random.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+// The box from low to high (m), with what is near it at one moment.
+class FreePlaces {
+  public:
+    // largest: m, radius of the grains to come. The surroundings must outlive the places.
+    FreePlaces(const Surroundings& around, const Pose& pose, const Grains& grains, const Vec3& low,
+               const Vec3& high, double largest);
+
+    // A place drawn evenly from the box, where a grain of this radius (m) is farther from every other grain
+    // and from every face than a thousandth of its radius; none when so many draws found none. The grain
+    // counts as being there from now on.
+    std::optional<Vec3> take(double radius, Random& random);
+
+    // Something more that is there.
+    void add(const Place& place) { near_.push_back(place); }
+
+  private:
+    bool is_free(const Vec3& place, double radius) const;
+
+    const Surroundings& around_;
+    const Pose pose_;
+    const Vec3 low_, high_;
+    std::vector<Place> near_;
+};
+
+}  // namespace grainreel

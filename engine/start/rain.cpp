@@ -1,0 +1,159 @@
+#include "engine/start/rain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/base/error.hpp"
+#include "engine/plan/free_space.hpp"
+#include "engine/plan/rain_plan.hpp"
+#include "engine/run/health.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/start/diameters.hpp"
+#include "engine/start/free_places.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr std::int64_t kStepsPerLook = 200;
+constexpr double kPoured = 0.5;  // solid share of a bed that grains still fall on
+
+// The grains to come, in a random order of species.
+class Cloud {
+  public:
+    explicit Cloud(const Scene& scene)
+        : scene_(scene),
+          order_(scene.run.seed, Stream::rain_species),
+          diameters_(scene.run.seed, Stream::diameters) {
+        for (const Species& species : scene.species)
+            left_.push_back(species.count), all_left_ += species.count;
+    }
+
+    // Its place is still to be found.
+    NewGrain next() {
+        auto drawn = static_cast<std::int64_t>(order_.uniform() * static_cast<double>(all_left_--));
+        std::size_t s = 0;
+        while (drawn >= left_[s]) drawn -= left_[s++];
+        --left_[s];
+        NewGrain grain;
+        grain.species = static_cast<std::int32_t>(s);
+        grain.radius = 0.5 * draw_diameter(scene_.species[s].diameter, diameters_);
+        grain.density = scene_.species[s].density;
+        return grain;
+    }
+
+  private:
+    const Scene& scene_;
+    Random order_, diameters_;
+    std::vector<std::int64_t> left_;
+    std::int64_t all_left_ = 0;
+};
+
+// Where grains appear once so much solid volume (m3) has come.
+class RisingLayer {
+  public:
+    explicit RisingLayer(const Scene& scene)
+        : space_(scene), layer_(rain_layer(scene)), box_(extent_of(scene)) {}
+
+    Extent at(double solid) const {
+        const double share = std::min(1.0, solid / kPoured / space_.volume());
+        const double bed = space_.height_of_share(share);
+        Extent box = box_;
+        box.high.z() = std::min(box_.high.z(), bed + layer_.high);
+        box.low.z() = std::max(0.0, box.high.z() - (layer_.high - layer_.low));
+        return box;
+    }
+
+  private:
+    const FreeSpace space_;
+    const RainLayer layer_;
+    const Extent box_;
+};
+
+double largest_radius(const Scene& scene) {
+    double largest = 0;
+    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
+    return 0.5 * largest;
+}
+
+// Grains that find their places, in the order of the cloud.
+class Shower {
+  public:
+    Shower(const Scene& scene, const Surroundings& around)
+        : scene_(scene),
+          around_(around),
+          cloud_(scene),
+          layer_(scene),
+          places_(scene.run.seed, Stream::rain_places),
+          largest_(largest_radius(scene)),
+          next_(cloud_.next()) {}
+
+    // Those that come now, until `due` have come or the next finds no place.
+    std::vector<NewGrain> fall(const Grains& there, double due) {
+        const Extent box = layer_.at(solid_);
+        FreePlaces free(around_, around_.motion.at(-1), there, box.low, box.high, largest_);
+        std::vector<NewGrain> more;
+        while (static_cast<double>(come_ + 1) <= due) {
+            const auto place = free.take(next_.radius, places_);
+            if (!place) break;
+            next_.position = *place;
+            more.push_back(next_);
+            solid_ += 4.0 / 3 * std::numbers::pi * std::pow(next_.radius, 3);
+            if (++come_ < scene_.grains_at_start()) next_ = cloud_.next();
+        }
+        return more;
+    }
+
+    std::int64_t come() const { return come_; }
+
+  private:
+    const Scene& scene_;
+    const Surroundings& around_;
+    Cloud cloud_;
+    const RisingLayer layer_;
+    Random places_;
+    const double largest_;  // m, radius
+    NewGrain next_;
+    double solid_ = 0;  // m3, that has come
+    std::int64_t come_ = 0;
+};
+
+}  // namespace
+
+RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around, Grains& grains,
+                StepLoop& loop, const std::function<bool(double, std::int64_t)>& watcher) {
+    if (scene.grains_at_start() == 0) return {};
+    const HealthLimits limits = health_limits(scene, plan);
+    const auto all = static_cast<double>(scene.grains_at_start());
+    const double rate = rain_rate(scene), step = plan.clock.step;
+    // Rain ends where settling begins, or before: the walls stand until step 0.
+    const std::int64_t first = -plan.settle_steps_limit - plan.rain_steps_limit;
+    Shower shower(scene, around);
+    RainReport report;
+    std::int64_t last = 0;  // step in which the last grain came
+    while (true) {
+        const double looked = step * static_cast<double>(report.steps + kStepsPerLook);
+        const std::vector<NewGrain> more = shower.fall(grains, std::min(all, rate * looked));
+        if (!more.empty()) last = report.steps;
+        loop.insert(more);
+        if (shower.come() == scene.grains_at_start()) return report;
+        const double waited = step * static_cast<double>(report.steps - last);
+        if (waited > rain_patience(scene) + 1 / rate || report.steps + kStepsPerLook > plan.rain_steps_limit)
+            throw RunError(fmt::format(
+                "{}: {} grains of {} have come as rain, and the next finds no room above them; use fewer "
+                "or smaller grains, a higher container, or method = \"layers\"",
+                scene.where("start.method"), shower.come(), all));
+        loop.run(first + report.steps, kStepsPerLook, step, 0);
+        report.steps += kStepsPerLook;
+        check_state(limits, around, grains, loop, first + report.steps);
+        if (!watcher(static_cast<double>(shower.come()) / all, report.steps)) {
+            report.finished = false;
+            return report;
+        }
+    }
+}
+
+}  // namespace grainreel
