@@ -152,9 +152,11 @@ void MovieRun::report_written() {
     listener_.info(fmt::format("wrote {}: {}{}, log.txt", folder_->path().string(), film_files_text(),
                                run_.files_text()));
     report_segregation();
-    listener_.info(fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s)",
-                               duration_text(watch_.seconds()), duration_text(run_.times().of("packing")),
-                               duration_text(run_.times().of("engine")), run_.speed() * 1e-6));
+    listener_.info(
+        fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s), film {}",
+                    duration_text(watch_.seconds()), duration_text(run_.times().of("packing")),
+                    duration_text(run_.times().of("engine")), run_.speed() * 1e-6,
+                    duration_text(times_.of("waiting for the film") + times_.of("finishing the film"))));
 }
 
 void MovieRun::report_segregation() {

@@ -101,6 +101,26 @@ TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
     EXPECT_NEAR(view.port.height - lowest, type_scale(scene.film).margin, 1);
 }
 
+// A wedge is wider above what the grains reach. No wall that is in the picture's height is outside its width.
+TEST(FramedPart, SlantedWallsStayInThePicture) {
+    for (const auto& [width, height] : {std::pair{1280, 720}, {1000, 900}, {640, 360}, {720, 1280}})
+        for (const double field : {0.0, 25.0})
+            for (const double reach_height : {0.05, 0.1, 0.2, 0.4}) {
+                Scene scene = framed(reach, Container::Shape::wedge, width, height);
+                scene.film.camera.reach = reach_height;
+                scene.film.camera.field_of_view = field;
+                const View view = view_of(scene);
+                for (double top = 0.01; top <= 0.5; top += 0.01)
+                    for (const Vec3& point : framing_points(scene, scene.film.camera.azimuth, {top, true})) {
+                        const Pixel seen = view.project(point);
+                        if (seen.y() < 0) continue;
+                        ASSERT_GE(seen.x(), 0) << width << " x " << height << ", " << top << " m";
+                        ASSERT_LE(seen.x(), view.port.width)
+                            << width << " x " << height << ", " << top << " m";
+                    }
+            }
+}
+
 TEST(FramedPart, GrainsOfTheShippedBedsCoverTwiceTheArea) {
     for (const char* name : {"wedge_segregation", "wedge_mixing", "teaching_brazil_nut"}) {
         const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "engine/base/nearest_name.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 
@@ -21,24 +21,6 @@ std::string without_indices(std::string_view path) {
         if (c == '[') inside = true;
     }
     return pattern;
-}
-
-// Damerau's distance: insertions, deletions, substitutions and swaps of neighbours that turn a into b.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
-    std::iota(above.begin(), above.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substituted = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            row[j] = std::min({above[j] + 1, row[j - 1] + 1, substituted});
-            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
-        }
-        std::swap(before, above);
-        std::swap(above, row);
-    }
-    return above[b.size()];
 }
 
 // Names of keys and tables directly inside a table, in the list's order.
@@ -186,10 +168,7 @@ std::string table_of(std::string_view path) {
 std::string advice_for_unknown_key(std::string_view path) {
     const std::string name = name_of(without_indices(path));
     const std::vector<std::string> here = names_inside(parent_of(without_indices(path)));
-    const auto nearest = std::min_element(here.begin(), here.end(), [&](const auto& a, const auto& b) {
-        return edit_distance(name, a) < edit_distance(name, b);
-    });
-    if (nearest != here.end() && edit_distance(name, *nearest) <= std::max<std::size_t>(2, name.size() / 3))
+    if (const std::optional<std::string> nearest = nearest_name(name, here))
         return fmt::format("did you mean '{}'?", *nearest);
     for (const Key& key : scene_keys())
         if (name_of(key.path) == name) return fmt::format("it belongs in {}", table_of(key.path));

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/shipped/shipped_scenes.hpp"
 #include "engine/scene/text/scene_file.hpp"
 
 namespace grainreel {
@@ -44,6 +45,10 @@ void take_instruments_of_film(Scene& scene) {
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const Assignments& sets, const MeasurableIn& measurable) {
+    std::error_code ignored;
+    if (!file.has_parent_path() && !std::filesystem::exists(file, ignored))
+        if (const ShippedScene* shipped = shipped_scene(file.string()))
+            return read_scene_text(shipped->text, shipped->name + ".toml", sets, measurable);
     return read_scene_text(load_scene_file(file), file, sets, measurable);
 }
 

@@ -12,6 +12,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/nearest_name.hpp"
 #include "engine/base/utf8.hpp"
 #include "render/cli/report/result.hpp"
 #include "render/cli/report/version.hpp"
@@ -44,10 +45,30 @@ void check_verb(const Verbs& verbs, const std::string& word) {
     std::vector<std::string> names;
     for (const auto& verb : verbs) names.push_back(verb->name());
     if (word[0] == '-' || std::find(names.begin(), names.end(), word) != names.end()) return;
-    throw UserError(
-        fmt::format("{}; there are {}; see grainreel --help",
-                    word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
-                    fmt::join(names, ", ")));
+    const std::optional<std::string> meant = nearest_name(word, names);
+    throw UserError(fmt::format(
+        "{}; {}there are {}; see grainreel --help",
+        word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
+        meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "", fmt::join(names, ", ")));
+}
+
+// "--duratoin=3" and "--duratoin" are the option "--duratoin". Empty for what is none.
+std::string option_name(const std::string& word) {
+    return word.compare(0, 2, "--") == 0 && word.size() > 2 ? word.substr(0, word.find('=')) : "";
+}
+
+// Tells the first option that the verb does not have, if there is one.
+void check_options(const Verb& verb, const CLI::App& parser, int argc, const char* const* argv) {
+    std::vector<std::string> names = {"--help"};
+    for (const CLI::Option* option : parser.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (int i = 2; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+        const std::string word = option_name(argv[i]);
+        if (word.empty() || std::find(names.begin(), names.end(), word) != names.end()) continue;
+        const std::optional<std::string> meant = nearest_name(word, names);
+        throw UserError(fmt::format("unknown option '{}'; {}see grainreel {} --help", excerpt(word),
+                                    meant ? fmt::format("did you mean '{}'? ", *meant) : "", verb.name()));
+    }
 }
 
 void add_verb(CLI::App& app, Verb& verb) {
@@ -81,6 +102,9 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
         return nullptr;
     } catch (const CLI::ParseError& mistake) {
         check_verb(verbs, argc > 1 ? argv[1] : "");
+        for (const auto& verb : verbs)
+            if (app.got_subcommand(verb->name()))
+                check_options(*verb, *app.get_subcommand(verb->name()), argc, argv);
         throw UserError(fmt::format("{}; see grainreel --help", excerpt(mistake.what(), most_of_a_mistake)));
     }
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),

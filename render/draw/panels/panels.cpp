@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/plan/reach.hpp"
 #include "render/draw/marks/marks.hpp"
 #include "render/draw/words/captions.hpp"
 
@@ -101,6 +102,18 @@ void share_colours(std::vector<Panel>& panels) {
         common.range = {std::min(common.range[0], own.range[0]), std::max(common.range[1], own.range[1])};
     }
     for (Panel& panel : panels) colour(panel) = common;
+}
+
+void share_reach(std::vector<Panel>& panels) {
+    std::optional<double> highest;
+    for (const Panel& panel : panels) {
+        const Camera& camera = panel.scene.film.camera;
+        if (camera.frame != CameraFrame::reach) return;
+        const std::optional<double> reach = camera.reach ? camera.reach : estimated_reach(panel.scene);
+        if (!reach) return;
+        highest = std::max(highest.value_or(*reach), *reach);
+    }
+    for (Panel& panel : panels) panel.scene.film.camera.reach = highest;
 }
 
 std::vector<std::string> captions_of(const std::vector<Scene>& scenes) {

@@ -208,6 +208,7 @@ void make_panels(const CompareRequest& what, Comparison& all) {
             all.panels[i].scene.run.duration = all.pictures.instants.back().time;
     }
     share_colours(all.panels);
+    share_reach(all.panels);
     if (!common_of(all.panels).exaggerated)  // then each panel has to say so
         for (Panel& panel : all.panels)
             if (panel.scene.film.exaggerate != 1)
