@@ -55,7 +55,7 @@ struct Sink {
 TEST(TrafficFilm, FilesHaveWhoIsThere) {
     const TemporaryFolder here;
     Sink sink(sink_scene());
-    RunFiles files(here.path(), sink.scene, sink.plan, "test");
+    RunFiles files(here.path(), sink.scene, sink.plan, sink.simulation, "test");
     std::vector<Frame> frames;
     std::vector<Measures> measures;
     const std::int64_t every = sink.plan.steps / 20;
