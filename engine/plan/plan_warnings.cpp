@@ -230,6 +230,21 @@ void warn_of_outlet(const Scene& scene, Warnings& warnings) {
                              wide / largest, kFewest));
 }
 
+void warn_of_short_period(const Scene& scene, Warnings& warnings) {
+    constexpr double kWide = 6;  // diameters, above which a bed hardly knows its images
+    const Container& c = scene.container;
+    if (!c.periodic_depth) return;
+    double largest = 0;
+    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
+    if (c.depth >= kWide * largest) return;
+    warnings.add(
+        "container.depth",
+        fmt::format("the period is {:.3g} diameters of the largest grain, and below {} grains meet the "
+                    "images of their own neighbours, which orders the bed; lengthen it unless you "
+                    "mean that",
+                    c.depth / largest, kWide));
+}
+
 void warn_of_film(const Scene& scene, Warnings& warnings) {
     double shown = 0;
     for (const FilmSegment& segment : scene.film.segments) {
@@ -258,6 +273,7 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
     warn_of_step(scene, plan, bed, step, warnings);
     warn_of_colours(scene, warnings);
     warn_of_outlet(scene, warnings);
+    warn_of_short_period(scene, warnings);
     warn_of_film(scene, warnings);
     return warnings.take();
 }

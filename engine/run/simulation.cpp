@@ -337,7 +337,7 @@ Frame Simulation::frame() const {
         f.species.push_back(g.species[i]);
         f.radius.push_back(g.place[i].radius);
         Vec3 x = g.place[i].position;
-        x.x() = nearest_image(x.x(), m.around.period);
+        x.x() = wrapped(x.x(), m.around.period);
         f.position.push_back(x);
         f.velocity.push_back(g.motion[i].velocity);
         f.spin.push_back(g.motion[i].spin);

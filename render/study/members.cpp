@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "engine/scene/text/toml_text.hpp"
@@ -87,7 +88,7 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
             const Variation::Value& value = study.variations[i].values[member.at[i]];
             member.sets.push_back({study.variations[i].key + "=" + value.toml, value.place});
         }
-        const Scene scene = read_scene_text(study.scene_text, study.scene, member.sets);
+        const Scene scene = read_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
         const Plan plan = make_plan(scene);
         accept(scene, plan);
         // Members read a copy of the scene, from whose folder other paths would count.

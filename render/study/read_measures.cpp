@@ -40,7 +40,7 @@ void read_threshold(Document& document, const std::string& table, const MeasureC
 }  // namespace
 
 void read_measure(Document& document, const Scene& scene, const std::string& table, Study& study) {
-    const std::vector<MeasureColumn> columns = columns_of(scene);
+    const std::vector<MeasureColumn> columns = measure_columns(scene);
     StudyMeasure measure;
     const std::string name = document.required_text(table + ".column");
     const MeasureColumn* column = find_column(columns, name);

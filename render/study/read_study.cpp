@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "engine/scene/text/scene_file.hpp"
 #include "render/study/read_parts.hpp"
@@ -38,7 +39,7 @@ Scene first_scene(const Study& study) {
     Assignments sets = study.sets;
     for (const Variation& variation : study.variations)
         sets.push_back({variation.key + "=" + variation.values.front().toml, variation.values.front().place});
-    return read_scene_text(study.scene_text, study.scene, sets);
+    return read_scene_text(study.scene_text, study.scene, sets, measurable_in);
 }
 
 }  // namespace

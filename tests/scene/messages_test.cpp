@@ -206,9 +206,10 @@ INSTANTIATE_TEST_SUITE_P(
             "\"20 deg\"", "20",
             "18:1: 'half_angle' must be less than 90 deg, but is 1145.92 deg; a bare number is in rad, write "
             "\"20 deg\""},
-        Case{"depth = \"45 mm\"", "depth = \"39 mm\"\nperiodic_depth = true",
-             "21:1: 'depth' of 0.039 m is too short to be periodic, less than 4 diameters of \"big\", 0.04 "
-             "m; lengthen it"},
+        Case{
+            "depth = \"45 mm\"", "depth = \"24 mm\"\nperiodic_depth = true",
+            "21:1: 'depth' of 0.024 m is too short to be periodic, less than 2.5 diameters of \"big\", 0.025 "
+            "m; lengthen it"},
         Case{"count = 100\n", "count = 10000\n",
              "3:3: 10010 grains of 0.0006597 m3 fill 81.4 % of the container's 0.0008107 m3, more than the "
              "55 % that can be "

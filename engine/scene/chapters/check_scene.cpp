@@ -24,6 +24,10 @@ namespace {
 constexpr double most_solid = 0.55;
 constexpr double closest_packing = 0.64;  // of equal spheres at random
 
+// Over the largest diameter. From two on, no grain touches two images of another; half a diameter more is
+// what lists of neighbours may reach beyond contact.
+constexpr double shortest_period = 2.5;
+
 // Of the scene's size, from the camera to where it looks: nearer, and rounding says in which direction.
 constexpr double closest_camera = 1e-6;
 
@@ -112,12 +116,12 @@ void check_grain_sizes(const Scene& scene) {
                                  "use smaller "
                                  "grains or a larger container",
                                  largest, extent.size, extent.key));
-        if (c.periodic_depth && c.depth < 4 * largest)
+        if (c.periodic_depth && c.depth < shortest_period * largest)
             fail(scene, "container.depth",
                  fmt::format(
-                     "of {:.6g} m is too short to be periodic, less than 4 diameters of \"{}\", {:.6g} m; "
+                     "of {:.6g} m is too short to be periodic, less than {} diameters of \"{}\", {:.6g} m; "
                      "lengthen it",
-                     c.depth, scene.species[i].name, 4 * largest));
+                     c.depth, shortest_period, scene.species[i].name, shortest_period * largest));
     }
 }
 
