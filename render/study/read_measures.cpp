@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/utf8.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/film/live_text.hpp"
 #include "engine/scene/film/named_grains.hpp"

@@ -11,7 +11,7 @@
 
 #include "engine/base/team.hpp"
 #include "engine/bench/lattice_speed.hpp"
-#include "engine/scene/text/words.hpp"
+#include "engine/scene/chapters/words.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/gl/context.hpp"
