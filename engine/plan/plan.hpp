@@ -72,6 +72,9 @@ struct Plan {
 
     // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.
     double trajectory_every = 0, measures_every = 0;
+    // Of a drive that changes, where the scene has no interval: so many periods of the stage that is on,
+    // which are those steps on average. 0: every so many steps.
+    double trajectory_periods = 0, measures_periods = 0;
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
     std::vector<std::string> warnings;  // each one line, with place and remedy
 

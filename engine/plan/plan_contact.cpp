@@ -12,6 +12,7 @@
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 
 namespace grainreel {
 namespace {
@@ -245,8 +246,9 @@ BedPlan plan_bed(const Scene& scene) {
     BedPlan bed;
     const Drive& drive = scene.drive;
     bed.gravity = scene.gravity.norm();
-    if (drive.present) bed.frequency = drive.frequency;
-    if (drive.present && bed.gravity > 0) bed.g_level = drive.g_level(bed.gravity);
+    const DrivePeaks peaks = drive.present ? drive_peaks(drive) : DrivePeaks{};
+    bed.frequency = peaks.frequency;
+    if (bed.gravity > 0) bed.g_level = peaks.acceleration / bed.gravity;
     bed.height = fill_height(scene, settled_solid_fraction);
     bed.carried_height = std::min(bed.height, 2 * bed_width(scene));
     double diameters = 0;
@@ -259,7 +261,7 @@ BedPlan plan_bed(const Scene& scene) {
 
     double restitution = 0;
     for (const PairContact& pair : scene.contact.grain) restitution = std::max(restitution, pair.restitution);
-    if (drive.present) bed.impact_speed = speed_over_drive(restitution, bed.layers) * drive.speed();
+    if (drive.present) bed.impact_speed = speed_over_drive(restitution, bed.layers) * peaks.speed;
     const double fall = std::sqrt(2 * bed.gravity * (scene.container.height - bed.height));
     if (scene.start.method == Start::Method::grains) {
         bed.impact_speed += fall + closing_speed(scene);

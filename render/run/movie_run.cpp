@@ -55,7 +55,8 @@ void MovieRun::describe() {
     std::vector<std::string> warnings = run_.plan().warnings;
     if (wants_pictures()) {
         for (const std::vector<std::string>& found :
-             {pace_warnings(scene, run_.plan().clock), strobe_warnings(scene.film, scene.drive),
+             {pace_warnings(scene, run_.plan().clock),
+              strobe_warnings(scene.film, scene.drive, scene.run.duration),
               film_warnings(scene, static_cast<std::int64_t>(pictures_.instants.size()))})
             warnings.insert(warnings.end(), found.begin(), found.end());
     }

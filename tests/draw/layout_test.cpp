@@ -64,7 +64,7 @@ std::vector<Named> blocks_of(const Scene& scene, const PictureLayout& layout) {
     part("clock", plan.clock_part), part("caption", plan.caption_part), part("note", plan.note_part);
     if (plan.has_dial) part("dial", plan.dial_part);
     for (const Rectangle& plot : plan.plots) part("plot", plot);
-    const TextSize drive = drive_block(measure, scene, 0, 0);
+    const TextSize drive = drive_block(measure, scene, nullptr, 0, 0);
     add("drive", layout.second, plan.drive.x, plan.drive.y, drive.width, drive.height);
     if (layout.stacked && plan.has_arrows) {
         const TextSize arrows = arrows_block(measure, scene, nullptr, 0, 0);

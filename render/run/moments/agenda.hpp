@@ -20,13 +20,24 @@ struct Stop {
     bool strobe = false;  // one of the moments at which periods are compared
 };
 
+// What comes again and again: every so many steps, or of a drive that changes every so many of its periods.
+struct Rhythm {
+    double steps = 0;    // not always whole; 0: never, unless it goes by periods
+    double periods = 0;  // 0: it goes by steps
+
+    Rhythm(double every_steps, double every_periods = 0) : steps(every_steps), periods(every_periods) {}
+    // The first step, not below this one (which is not negative), that is nearest to a multiple.
+    std::int64_t next(std::int64_t step, const Clock& clock) const;
+};
+
 class Agenda {
   public:
     // Steps from `first` to `last`. Shots before `first` are left out; trajectory and measures come at
-    // the steps nearest to multiples of their interval (0: never), measures at `first` and `last` too.
-    // moments: steps. strobe_every: steps between moments at which periods are compared.
-    Agenda(std::vector<Shot> shots, double trajectory_every, double measures_every, std::int64_t first,
-           std::int64_t last, std::set<std::int64_t> moments = {}, std::int64_t strobe_every = 0);
+    // their steps, measures at `first` and `last` too. moments: steps. strobe: of moments at which periods
+    // are compared. clock: for what goes by periods.
+    Agenda(std::vector<Shot> shots, const Rhythm& trajectory, const Rhythm& measures, std::int64_t first,
+           std::int64_t last, std::set<std::int64_t> moments = {}, const Rhythm& strobe = 0,
+           const Clock& clock = {});
 
     // The next stop, in rising order of step; the last is at `last`. Empty after it.
     std::optional<Stop> next();
@@ -37,7 +48,8 @@ class Agenda {
     std::vector<Shot> shots_;
     std::size_t shot_ = 0;
     std::set<std::int64_t> moments_;
-    double trajectory_every_, measures_every_, strobe_every_;
+    Rhythm trajectory_, measures_, strobe_;
+    Clock clock_;
     std::int64_t first_, last_;
     std::int64_t at_;  // steps below are done with
 };
