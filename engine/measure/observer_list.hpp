@@ -9,6 +9,7 @@
 #include "engine/measure/observers/big_in_top_quarter.hpp"
 #include "engine/measure/observers/centre_of_mass.hpp"
 #include "engine/measure/observers/contact_number.hpp"
+#include "engine/measure/observers/drive_now.hpp"
 #include "engine/measure/observers/energies.hpp"
 #include "engine/measure/observers/floor_position.hpp"
 #include "engine/measure/observers/height_difference.hpp"
@@ -35,6 +36,7 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::ContactNumber,     //
                                   observers::LargestOverlap,    //
                                   observers::FloorPosition,     //
-                                  observers::BedPeriods>;
+                                  observers::BedPeriods,        //
+                                  observers::DriveNow>;
 
 }  // namespace grainreel

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/drive_clock.hpp"
+#include "render/film/sampling/timeline.hpp"
 
 namespace grainreel {
 namespace {
@@ -301,6 +302,13 @@ TEST(PlaybackCaption, SaysWhatIsPlayedWhereStepsAreCoarser) {
                 ElementsAre(HasSubstr("= 0.00334,")));
     EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, 0.00334)})), odd), IsEmpty());
     EXPECT_EQ(playback_caption(motion({}, 1 / 20'000.33), drive_of(20), 30), "slow motion, 1/20000 speed");
+}
+
+TEST(Timeline, LockedInstantsFindThePhaseOfTheStageThatIsOn) {
+    const Clock clock = changing_clock(changing_drive());
+    const std::vector<Shot> shots = shots_at({{0.41, 0}, {1.507, 0}}, {locked({}, 1, 0.25)}, clock, 80'000);
+    for (const Shot& shot : shots) EXPECT_NEAR(clock.phase(shot.step), 0.25, 0.5 / 1212);
+    EXPECT_LE(std::abs(clock.time(shots[1].step) - 1.507), 0.5 / 33 + clock.step);
 }
 
 TEST(StrobeWarnings, GiveTheApparentMotion) {
