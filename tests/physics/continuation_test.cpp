@@ -172,6 +172,7 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
     take(changed("restitution = 0.7",
                  "law = \"spring-dashpot\"\nnormal_damping = 100\ntangential_damping = 50"));
     take(walton + "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n");
+    take(walton + "[[drive.stage]]\nfrom = 0\nkind = \"taps\"\ninterval = 0.1\n");
 
     const auto compared = deciding_differences("", all);
     const auto is_compared = [&](const std::string& key) {
@@ -180,7 +181,8 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
         });
     };
     // What the plan or the reader turns into other keys.
-    const std::vector<std::string> turned = {"drive.g_level", "species[].mass", "run.steps_per_contact"};
+    const std::vector<std::string> turned = {"drive.g_level", "drive.stage[].g_level", "species[].mass",
+                                             "run.steps_per_contact"};
     for (const Key& key : scene_keys()) {
         if (!decides_future(key.path) || key.path.starts_with("species[].diameter.")) continue;
         if (std::find(turned.begin(), turned.end(), key.path) != turned.end()) continue;

@@ -28,20 +28,21 @@ TEST(Captions, StayUntilTheNextOrTheEnd) {
 TEST(Captions, MistakesAreToldWordForWord) {
     const std::pair<const char*, const char*> mistakes[] = {
         {"[[film.caption]]\nfrom = 1\nto = 1.5\ntext = \"a\"\n[[film.caption]]\nfrom = 1.4\ntext = \"b\"\n",
-         "test.toml:32:8: 'film.caption[1].from' is 1.4 s, but the caption before it stays until 1.5 s; "
+         "test.toml:33:1: 'from' is 1.4 s, but the caption before it stays until 1.5 s; "
          "captions "
          "follow each other in time"},
         {"[[film.caption]]\nfrom = 2\ntext = \"a\"\n",
-         "test.toml:28:8: 'film.caption[0].from' is 2 s, but the run ends at 2 s; bring it forward or "
+         "test.toml:29:1: 'from' is 2 s, but the run ends at 2 s; bring it forward or "
          "lengthen "
          "run.duration"},
         {"[[film.caption]]\nfrom = 1\nto = 0.5\ntext = \"a\"\n",
-         "test.toml:29:6: 'film.caption[0].to' is 0.5 s, not later than 'from', 1 s; write a later time"},
+         "test.toml:30:1: 'to' is 0.5 s, not later than 'from', 1 s; write a later time"},
         {"[[film.caption]]\nfrom = 1\ntext = \"\"\n",
-         "test.toml:29:8: 'film.caption[0].text' must not be empty; take the caption out"},
-        {"[[film.caption]]\nfrom = 1\n", "test.toml:27:1: [[film.caption]] lacks 'text'"},
+         "test.toml:30:1: 'text' must not be empty; take the caption out"},
+        {"[[film.caption]]\nfrom = 1\n",
+         "test.toml:28:1: [[film.caption]] lacks 'text'; write for example text = \"small\""},
         {"[[film.caption]]\nfrom = 1\ntext = \"a\"\nhold = 90\n",
-         "test.toml:30:8: 'film.caption[0].hold' must be from 0 to 60 s, but is 90 s"},
+         "test.toml:31:1: 'hold' must be from 0 to 60, but is 90; write for example 0"},
     };
     for (const auto& [captions, message] : mistakes) {
         try {

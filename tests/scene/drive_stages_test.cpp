@@ -136,39 +136,40 @@ struct Mistake {
 TEST(DriveStageMessages, WordForWord) {
     const Mistake mistakes[] = {
         {"[[drive.stage]]\nfrom = 1\n[[drive.stage]]\nfrom = 0.8\n",
-         "test.toml:30:8: 'from' is 0.8 s, not later than the stage before it, 1 s; stages follow each other "
+         "test.toml:31:1: 'from' is 0.8 s, not later than the stage before it, 1 s; stages follow each other "
          "in "
          "time"},
         {"[[drive.stage]]\nfrom = 2\n",
-         "test.toml:28:8: 'from' is 2 s, but the run ends at 2 s; bring it forward or lengthen run.duration"},
+         "test.toml:29:1: 'from' is 2 s, but the run ends at 2 s; bring it forward or lengthen run.duration"},
         {"[[drive.stage]]\nfrom = 0.1\n",
-         "test.toml:28:8: 'from' is 0.1 s, but until 0.15 s the drive still grows (drive.ramp); begin later, "
+         "test.toml:29:1: 'from' is 0.1 s, but until 0.15 s the drive still grows (drive.ramp); begin later, "
          "or at "
          "0 in place of that drive"},
-        {"[[drive.stage]]\nfrom = 1\nover = 30\n",
-         "test.toml:29:8: 'over' is 30 periods, until 2.5 s, but the run ends at 2 s; change in fewer, or "
+        {"[[drive.stage]]\nfrom = 1\nover = 30\ng_level = 1\n",
+         "test.toml:30:1: 'over' is 30 periods, until 2.5 s, but the run ends at 2 s; change in fewer, or "
          "make "
          "the stage longer"},
         {"[[drive.stage]]\nfrom = 1\nover = 10\ng_level = 1\n[[drive.stage]]\nfrom = 1.4\n",
-         "test.toml:29:8: 'over' is 10 periods, until 1.5 s, but the next stage begins at 1.4 s; change in "
+         "test.toml:30:1: 'over' is 10 periods, until 1.5 s, but the next stage begins at 1.4 s; change in "
          "fewer, "
          "or make the stage longer"},
         {"[[drive.stage]]\nfrom = 1\ng_level = 2\namplitude = 0.001\n",
-         "test.toml:29:11: 'drive.stage[0].g_level' does not belong here: 'amplitude' is given; remove it"},
+         "test.toml:30:1: 'g_level' is of no use here: 'amplitude' is given; remove it"},
         {"[[drive.stage]]\nfrom = 1\nkind = \"rest\"\nfrequency = 30\n",
-         "test.toml:30:13: 'drive.stage[0].frequency' does not belong here: at rest nothing oscillates; "
+         "test.toml:31:1: 'frequency' is of no use here: at rest nothing oscillates; "
          "remove it"},
-        {"[[drive.stage]]\nfrom = 1\nkind = \"taps\"\n", "test.toml:27:1: [[drive.stage]] lacks 'interval'"},
+        {"[[drive.stage]]\nfrom = 1\nkind = \"taps\"\n",
+         "test.toml:28:1: [[drive.stage]] lacks 'interval'; write for example interval = \"10 s\""},
         {"[[drive.stage]]\nfrom = 1\nkind = \"taps\"\ninterval = 0.01\n",
-         "test.toml:30:12: 'drive.stage[0].interval' is 0.01 s, but a tap of 20 Hz lasts 0.05 s; lengthen it "
+         "test.toml:31:1: 'interval' is 0.01 s, but a tap of 20 Hz lasts 0.05 s; lengthen it "
          "or "
          "raise the frequency"},
         {"[[drive.stage]]\nfrom = 1.84\nkind = \"taps\"\ninterval = 0.1\n",
-         "test.toml:30:12: 'interval' has no time for a tap: the first would begin at 2 s, and the run ends "
+         "test.toml:31:1: 'interval' has no time for a tap: the first would begin at 2 s, and the run ends "
          "at 2 "
          "s; make the stage longer"},
         {"[[drive.stage]]\nfrom = 1\ninterval = 0.01\n",
-         "test.toml:29:12: 'drive.stage[0].interval' does not belong here: is for kind = \"taps\"; remove "
+         "test.toml:30:1: 'interval' is of no use here: is for kind = \"taps\"; remove "
          "it"},
     };
     for (const auto& [stages, message] : mistakes) {

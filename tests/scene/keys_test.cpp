@@ -60,7 +60,10 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
         exact = with(exact, line, "");
     exact += "[drive]\nfrequency = 20\namplitude = 0.001\n";
     const std::string layers = wedge_text + "[film.colour]\nby = \"start-height\"\n";
-    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact, layers};
+    const std::string staged = wedge_text + "[[drive.stage]]\nfrom = 1\n";
+    const std::string captioned = wedge_text + "[[film.caption]]\nfrom = 1\ntext = \"a\"\n";
+    const std::string cases[] = {wedge_text, box,    locked, motion,   from_file,
+                                 exact,      layers, staged, captioned};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

@@ -8,8 +8,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/text/data_size.hpp"
 #include "engine/scene/chapters/words.hpp"
+#include "engine/scene/text/data_size.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

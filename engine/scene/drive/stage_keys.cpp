@@ -79,8 +79,9 @@ const KeyTable<DriveStage>& stage_table() {
         quantity("interval", &S::interval, Dimension::time, positive, note("required for taps"),
                  "taps: from the start of one to that of the next.")
             .needed()
-            .useless_for(
-                [](const S& stage) { return stage.kind != Kind::taps ? "is for kind = \"taps\"" : nullptr; }),
+            .useless_for([](const S& stage) {
+                return stage.kind != Kind::taps ? "only taps have an interval" : nullptr;
+            }),
         integer("over", &S::over, 3, 1000000, initial(),
                 "Periods in which a vibration changes, begins or ends."),
     };

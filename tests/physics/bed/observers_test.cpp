@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -51,6 +53,9 @@ struct Bed {
         scene.species[1].name = "big";
         scene.species[1].diameter.mean = 4;
         scene.drive.direction = {0, 0, 1};
+        scene.drive.present = true;
+        scene.drive.frequency = 100;
+        scene.drive.amplitude = 1e-4;
         grains.add(0, 0, {0, -1, 2}, 1, 1);
         grains.add(2, 1, {0, 0, 5}, 2, 1);
         grains.add(1, 0, {0, 1, 2}, 1, 1);
@@ -159,7 +164,9 @@ TEST(Observers, GiveEveryColumnOfThreeGrains) {
         {"contact_number", (2 + 1) / 3.0},
         {"largest_overlap", 0.03},
         {"floor_position_m", 0.5},
-        {"bed_periods", 1}};
+        {"bed_periods", 1},
+        {"drive_frequency_Hz", 100},
+        {"drive_g_level", 1e-4 * std::pow(2 * std::numbers::pi * 100, 2) / 10}};
     ASSERT_EQ(m.names().size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const auto& [name, value] = expected[i];
