@@ -116,7 +116,7 @@ void MovieRun::show_progress() {
     progress.end = plan.clock.time(plan.steps);
     progress.particle_steps_per_second = run_.recent_speed();
     progress.frames = film_ ? film_->frames_done() : 0;
-    progress.frames_planned = pictures_planned_;
+    progress.frames_planned = frames_planned_;
     progress.elapsed = watch_.seconds();
     const double vibrating = vibrating_->seconds();
     if (progress.done > 0 && vibrating > 1)

@@ -90,6 +90,7 @@ TEST(DriveSchedule, TellsWhatIsOn) {
     EXPECT_NEAR(level(at(0.55).amplitude, 30), 3, 1e-9);
     EXPECT_EQ(at(0.7).frequency, 40);
     EXPECT_EQ(at(1.1).kind, Kind::rest);
+    EXPECT_EQ(at(1.1).amplitude, 0);
     EXPECT_EQ(at(1.3).kind, Kind::taps);
     EXPECT_EQ(at(1.3).interval, 0.1);
 }

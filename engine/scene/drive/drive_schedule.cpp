@@ -19,7 +19,7 @@ double acceleration_of(double amplitude, double frequency) {
 
 double amplitude_of(double acceleration, double frequency) {
     const double omega = 2 * std::numbers::pi * frequency;
-    return acceleration / (omega * omega);
+    return acceleration > 0 ? acceleration / (omega * omega) : 0;  // at rest there is no frequency either
 }
 
 // Of a vibration, or of a tap.
