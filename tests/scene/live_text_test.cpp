@@ -11,10 +11,13 @@
 namespace grainreel {
 namespace {
 
-const std::vector<MeasureColumn> kColumns = measure_columns(read_text(wedge_text));
+const std::vector<MeasureColumn>& columns() {
+    static const std::vector<MeasureColumn> all = measure_columns(read_text(wedge_text));
+    return all;
+}
 
 std::string shown(const std::string& text, std::optional<double> value) {
-    return live_text(parse_live_text(text, kColumns), [&](const std::string&) { return value; });
+    return live_text(parse_live_text(text, columns()), [&](const std::string&) { return value; });
 }
 
 TEST(LiveText, ShowsValuesInTheirUnits) {
@@ -31,7 +34,7 @@ TEST(LiveText, ShowsValuesInTheirUnits) {
 TEST(LiveText, SaysWhatIsWrong) {
     const auto complaint = [](const std::string& text) -> std::string {
         try {
-            parse_live_text(text, kColumns);
+            parse_live_text(text, columns());
             return "accepted";
         } catch (const UserError& error) {
             return error.what();

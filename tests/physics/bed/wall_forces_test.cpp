@@ -16,7 +16,8 @@ namespace grainreel {
 namespace {
 
 Scene scene_of(const std::string& text, std::vector<std::string> sets = {}) {
-    sets.insert(sets.end(), {"output.instruments=[\"walls\"]", "start.settle_limit=0.02 s"});
+    sets.push_back("output.instruments=[\"walls\"]");
+    if (text == test::small_scene_text) sets.push_back("start.settle_limit=0.02 s");
     return read_scene_text(text, "walls.toml", with_tested_precision(sets), measurable_in);
 }
 
