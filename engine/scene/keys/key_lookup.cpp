@@ -42,10 +42,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 // Names of keys and tables directly inside a table, in the list's order.
-std::vector<std::string> names_inside(const std::string& table) {
+std::vector<std::string> names_inside(const std::string& table, const std::vector<Key>& keys) {
     const std::string start = table.empty() ? "" : table + ".";
     std::vector<std::string> names;
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : keys) {
         if (key.path.compare(0, start.size(), start) != 0) continue;
         std::string name = key.path.substr(start.size());
         name = name.substr(0, name.find_first_of(".["));
@@ -87,6 +87,12 @@ std::string value_words(const Key& key) {
             return "list of names";
         case KeyKind::integer_list:
             return "list of whole numbers";
+        case KeyKind::seeds:
+            return "whole number or a list of them";
+        case KeyKind::value:
+            return "number or quantity";
+        case KeyKind::value_list:
+            return "list of values";
         case KeyKind::quantity:
         case KeyKind::gravity:
         case KeyKind::diameter:
@@ -126,6 +132,9 @@ std::string Key::example() const {
     if (kind == KeyKind::interval) return "[0, 1]";
     if (kind == KeyKind::name_list) return "[\"small\"]";
     if (kind == KeyKind::integer_list) return "[3, 14]";
+    if (kind == KeyKind::seeds) return "3";
+    if (kind == KeyKind::value) return "\"2 mm\"";
+    if (kind == KeyKind::value_list) return "[1, 2, 3]";
     if (kind == KeyKind::vector)
         return dimension == Dimension::number ? "[0, 0, 1]"
                                               : fmt::format("[{}, 0, 0]", text_of(dimension).example);
@@ -148,18 +157,17 @@ Range Key::bounds() const {
     return left;
 }
 
-const Key* find_key(std::string_view path) {
+const Key* find_key(std::string_view path, const std::vector<Key>& keys) {
     const std::string pattern = without_indices(path);
-    const auto& keys = scene_keys();
     const auto found =
         std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.path == pattern; });
     return found == keys.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> rivals_of(std::string_view path) {
+std::vector<std::string> rivals_of(std::string_view path, const std::vector<Key>& keys) {
     const std::string pattern = without_indices(path), name = name_of(pattern);
     std::vector<std::string> rivals;
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : keys) {
         if (parent_of(key.path) != parent_of(pattern)) continue;
         if (key.path == pattern) rivals.insert(rivals.end(), key.excludes.begin(), key.excludes.end());
         const auto& others = key.excludes;
@@ -169,37 +177,37 @@ std::vector<std::string> rivals_of(std::string_view path) {
     return rivals;
 }
 
-bool is_table_path(std::string_view path) {
+bool is_table_path(std::string_view path, const std::vector<Key>& keys) {
     const std::string start = without_indices(path) + ".";
-    return std::any_of(scene_keys().begin(), scene_keys().end(),
+    return std::any_of(keys.begin(), keys.end(),
                        [&](const Key& k) { return k.path.compare(0, start.size(), start) == 0; });
 }
 
-bool is_table_array_path(std::string_view path) {
-    return is_table_path(std::string(path) + "[]");
+bool is_table_array_path(std::string_view path, const std::vector<Key>& keys) {
+    return is_table_path(std::string(path) + "[]", keys);
 }
 
 std::string table_of(std::string_view path) {
     return heading_of(parent_of(without_indices(path)));
 }
 
-std::string advice_for_unknown_key(std::string_view path) {
+std::string advice_for_unknown_key(std::string_view path, const std::vector<Key>& keys) {
     const std::string name = name_of(without_indices(path));
-    const std::vector<std::string> here = names_inside(parent_of(without_indices(path)));
+    const std::vector<std::string> here = names_inside(parent_of(without_indices(path)), keys);
     const auto nearest = std::min_element(here.begin(), here.end(), [&](const auto& a, const auto& b) {
         return edit_distance(name, a) < edit_distance(name, b);
     });
     if (nearest != here.end() && edit_distance(name, *nearest) <= std::max<std::size_t>(2, name.size() / 3))
         return fmt::format("did you mean '{}'?", *nearest);
-    for (const Key& key : scene_keys())
+    for (const Key& key : keys)
         if (name_of(key.path) == name) return fmt::format("it belongs in {}", table_of(key.path));
     return fmt::format("the keys there are {}", fmt::join(here, ", "));
 }
 
-std::string key_table_markdown() {
+std::string key_table_markdown(const std::vector<Key>& keys) {
     std::string text;
     std::string table = "none yet";
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : keys) {
         std::string inside = parent_of(key.path);
         std::string name = name_of(key.path);
         if (inside == "species[].diameter") {
