@@ -12,6 +12,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/shell_word.hpp"
 #include "engine/base/utf8.hpp"
 #include "render/cli/report/result.hpp"
 #include "render/cli/report/version.hpp"
@@ -24,21 +25,6 @@ namespace {
 constexpr std::size_t most_of_a_mistake = 300;  // characters of what CLI11 says
 
 using Verbs = std::vector<std::unique_ptr<Verb>>;
-
-// A word as the shell would need it typed.
-std::string quoted(const std::string& word) {
-    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
-    return result + "'";
-}
-
-std::string as_typed(int argc, const char* const* argv) {
-    std::string command;
-    for (int i = 0; i < argc; ++i) command += (i == 0 ? "" : " ") + quoted(argv[i]);
-    return command;
-}
 
 void check_verb(const Verbs& verbs, const std::string& word) {
     std::vector<std::string> names;
@@ -86,7 +72,7 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),
                                      [&](const auto& verb) { return app.got_subcommand(verb->name()); });
     GRAINREEL_CHECK(chosen != verbs.end());
-    (*chosen)->command = as_typed(argc, argv);
+    (*chosen)->command = shell_words({argv, argv + argc});
     return std::move(*chosen);
 }
 
