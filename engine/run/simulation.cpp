@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
@@ -51,8 +52,8 @@ struct Simulation::Impl {
           team(threads > 0 ? threads : usable_processors()),
           around(make_surroundings(s, p)),
           bodies(bodies_of(s.drive, s.walls)),
-          limits(health_limits(s, p)) {
-        for (const Species& one : scene.species) species_names.push_back(one.name);
+          limits(health_limits(s, p)),
+          observers(all_observers(), scene, plan) {
         if (scene.start.method != Start::Method::layers) take_grains();
     }
 
@@ -72,8 +73,7 @@ struct Simulation::Impl {
 
     bool continued = false;  // goes on where the file stopped
 
-    std::vector<std::string> species_names;
-    std::unique_ptr<Observers> observers;  // of all columns; made when they are first wanted
+    Observers observers;
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     void take_grains();
@@ -82,7 +82,8 @@ struct Simulation::Impl {
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
     void look_at_health();
-    Measures look(Observers& by) const;
+    Moment moment() const;
+    ShowContacts contacts() const;
 };
 
 void check_start(const Scene& scene, const Plan& plan) {
@@ -113,11 +114,16 @@ void Simulation::Impl::take_grains() {
 
 void Simulation::Impl::go_on() {
     make_loop();
-    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop);
+    std::string gathered;
+    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop, gathered);
     set_orientations();
     step = header.step;
     start_energy = header.start_energy;
     continued = true;
+    Bytes in(gathered);
+    observers.load(moment(), in);
+    if (in.failed()) throw damaged_checkpoint(scene);
+    observers.start(moment(), contacts());
     if (step >= plan.steps)
         throw UserError(
             fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
@@ -152,6 +158,7 @@ void Simulation::Impl::begin_drive() {
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
     step = 0;
+    observers.start(moment(), contacts());
 }
 
 PackingResult Simulation::pack() {
@@ -201,9 +208,11 @@ void Simulation::advance(std::int64_t target) {
     Impl& m = *impl_;
     while (m.step < target) {
         if (m.next_look <= m.step) m.look_at_health();  // the first: where all begins
-        const std::int64_t count = std::min(target, m.next_look) - m.step;
+        const std::int64_t gathering = m.observers.gathers_after(m.step);
+        const std::int64_t count = std::min({target, m.next_look, gathering}) - m.step;
         m.loop->run(m.step, count, m.plan.clock.step, 0);
         m.step += count;
+        if (m.step == gathering) m.observers.gather(m.moment(), m.contacts());
         if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
 }
@@ -290,25 +299,41 @@ double Simulation::centre_height() const {
     return moment / mass - m.around.motion.at(m.step).offset.z();
 }
 
-Measures Simulation::Impl::look(Observers& by) const {
-    const Moment moment{
-        scene,        plan.clock,     grains, step, around.gravity, around.period, around.motion.at(step),
-        start_energy, loop->traffic()};
-    return by.look(moment, [&](const auto& see) { loop->visit_contacts(step, see); });
+Moment Simulation::Impl::moment() const {
+    return {scene,
+            plan.clock,
+            grains,
+            step,
+            around.gravity,
+            around.period,
+            around.motion.at(step),
+            start_energy,
+            loop->traffic(),
+            around.faces};
+}
+
+ShowContacts Simulation::Impl::contacts() const {
+    return [this](const auto& see) { loop->visit_contacts(step, see); };
 }
 
 Measures Simulation::measures() const {
-    Impl& m = *impl_;
-    if (!m.observers)
-        m.observers = std::make_unique<Observers>(all_observers(), m.species_names,
-                                                  [](const std::string&) { return true; });
-    return m.look(*m.observers);
+    return impl_->observers.look(impl_->moment(), impl_->contacts());
 }
 
 double Simulation::measure(const std::string& column) const {
-    Observers of_column(all_observers(), impl_->species_names,
-                        [&](const std::string& name) { return name == column; });
-    return impl_->look(of_column).at(column);
+    return impl_->observers.look(impl_->moment(), impl_->contacts(), column);
+}
+
+const std::vector<std::string>& Simulation::measured() const {
+    return impl_->observers.names();
+}
+
+std::vector<const FieldSet*> Simulation::field_sets() const {
+    return impl_->observers.fields();
+}
+
+std::vector<FieldValues> Simulation::fields() const {
+    return impl_->observers.look_at_fields(impl_->moment(), impl_->contacts());
 }
 
 std::uint64_t Simulation::state_hash() const {
@@ -341,7 +366,9 @@ void Simulation::save_checkpoint(const std::filesystem::path& path) const {
         header.wall_offset = m.around.motion.at(m.step).offset;
         header.wall_velocity = m.around.motion.at(m.step).velocity;
     }
-    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop);
+    std::ostringstream gathered;
+    m.observers.save(gathered);
+    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, gathered.str());
 }
 
 }  // namespace grainreel

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "engine/measure/field.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
@@ -77,8 +78,12 @@ class Simulation {
     Frame frame() const;
     double centre_height() const;  // m, of the centre of mass above the floor where that is now
     Measures measures() const;     // all columns of measures.csv
+    const std::vector<std::string>& measured() const;  // their names
     // One of them. Looks at no more than that needs.
     double measure(const std::string& column) const;
+    // On grids: what the observers give, which stays the same, and the values now in the same order.
+    std::vector<const FieldSet*> field_sets() const;
+    std::vector<FieldValues> fields() const;
     std::uint64_t state_hash() const;  // of every bit that decides the future
 
     // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.

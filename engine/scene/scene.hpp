@@ -182,6 +182,7 @@ struct Output {
     bool orientation = false;                 // keep orientations in the trajectory
     bool contacts = false;                    // write contacts.nc beside it
     bool trajectory = true;
+    std::vector<std::string> instruments;  // what is measured beside the usual columns
     bool operator==(const Output&) const = default;
 };
 
@@ -274,6 +275,9 @@ struct Scene {
     Run run;
     Output output;
     Film film;
+
+    // As far as the reader was told.
+    Measurable measurable;
 
     // What the reader took in place of what was written, for the user to know.
     std::vector<std::string> notes;

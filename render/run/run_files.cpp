@@ -30,7 +30,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Simulation& simulation,
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                    const Simulation& simulation, const std::string& program_version)
-    : measures_(folder / "measures.csv", species_names(scene)) {
+    : measures_(folder / "measures.csv", simulation.measured()) {
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (plan.trajectory_every == 0) return;
     trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, simulation, program_version));

@@ -103,7 +103,7 @@ TEST(MeasuresCsv, HasAColumnForEveryNumber) {
     const TemporaryFolder here;
     const std::vector<std::string> species{"small", "big, \"round\""};
     {
-        MeasuresWriter writer(here / "m.csv", species);
+        MeasuresWriter writer(here / "m.csv", made_measures(1, species).names());
         writer.write(made_measures(1, species));
         writer.write(made_measures(2, species));
         EXPECT_EQ(writer.rows(), 2);

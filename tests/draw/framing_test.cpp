@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/measure/columns.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "support.hpp"
@@ -103,7 +104,8 @@ TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
 TEST(FramedPart, GrainsOfTheShippedBedsCoverTwiceTheArea) {
     for (const char* name : {"wedge_segregation", "wedge_mixing", "teaching_brazil_nut"}) {
         const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";
-        const Scene scene = read_scene(file, {}), whole = read_scene(file, {"film.camera.frame=container"});
+        const Scene scene = read_scene(file, {}, measurable_in),
+                    whole = read_scene(file, {"film.camera.frame=container"}, measurable_in);
         // Grains cover the square of the scale.
         EXPECT_GE(std::pow(scale_of(scene) / scale_of(whole), 2), 2) << name;
     }

@@ -6,11 +6,12 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
 namespace {
 
-const std::vector<MeasureColumn> kColumns = measure_columns({"small", "big"});
+const std::vector<MeasureColumn> kColumns = measure_columns(read_text(wedge_text));
 
 std::string shown(const std::string& text, std::optional<double> value) {
     return live_text(parse_live_text(text, kColumns), [&](const std::string&) { return value; });

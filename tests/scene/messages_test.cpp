@@ -22,7 +22,7 @@ std::string complaint(const std::string& text, const Assignments& sets = {}) {
 TEST(Messages, Files) {
     const auto of = [](const char* path) -> std::string {
         try {
-            read_scene(path);
+            read_scene(path, {}, measurable_in);
         } catch (const UserError& error) {
             return error.what();
         }

@@ -29,7 +29,7 @@ Scene filled_in(Scene scene, const Plan& plan) {
 void expect_round_trip(const Scene& original) {
     const Plan plan = make_plan(original);
     const std::string text = resolved_scene(original, plan);
-    const Scene back = read_scene_text(text, "scene.toml");
+    const Scene back = read_scene_text(text, "scene.toml", {}, measurable_in);
     const Scene expected = filled_in(original, plan);
     EXPECT_EQ(back.title, expected.title);
     EXPECT_EQ(back.species, expected.species);
@@ -123,7 +123,7 @@ TEST(Writer, ShippedScenesReadBackBitByBit) {
     for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
         SCOPED_TRACE(entry.path());
-        expect_round_trip(read_scene(entry.path()));
+        expect_round_trip(read_scene(entry.path(), {}, measurable_in));
     }
 }
 

@@ -8,7 +8,7 @@ namespace grainreel::observers {
 // As long as nobody has looked at whole periods (PeriodMultiple): 1. Who has sets the column.
 class BedPeriods final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"bed_periods", "periods until the bed repeats itself"}},
                  "periods",
                  "of the drive, after which the bed repeats itself, as far as is known by then (see "

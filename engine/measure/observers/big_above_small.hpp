@@ -12,7 +12,7 @@ namespace grainreel::observers {
 
 class BigAboveSmall final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"big_above_small", "P(big above small)"}},
                  "1",
                  "probability that a grain of the largest species lies above one of the smallest: 0 all "

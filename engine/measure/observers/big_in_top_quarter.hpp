@@ -13,7 +13,7 @@ namespace grainreel::observers {
 
 class BigInTopQuarter final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"big_in_top_quarter", "big grains in top quarter"}},
                  "1",
                  "share of the largest species' grains whose centres lie above 3/4 of the bed's height"}};

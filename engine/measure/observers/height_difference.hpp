@@ -12,7 +12,7 @@ namespace grainreel::observers {
 
 class HeightDifference final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"height_difference", "height of big − small"}},
                  "1",
                  "`NAME_height_m` of the species of the largest mean diameter minus that of the smallest, "

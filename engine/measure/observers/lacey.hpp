@@ -13,7 +13,7 @@ namespace grainreel::observers {
 
 class Lacey final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {
             {{{"lacey", "Lacey mixing index"}}, "1", "Lacey's mixing index: 0 segregated, 1 randomly mixed"}};
     }

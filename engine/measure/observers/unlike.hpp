@@ -11,7 +11,7 @@ namespace grainreel::observers {
 
 class Unlike final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"unlike_neighbours", "unlike pairs / chance"}},
                  "1",
                  "pairs of neighbours of different species over what chance would give: 0 segregated, 1 "

@@ -37,10 +37,8 @@ std::string trimmed(const std::string& name) {
 
 // Names that differ in commas or quotes alone would share their columns of measures.csv.
 void check_columns(const Scene& scene) {
-    std::vector<std::string> names;
-    for (const Species& species : scene.species) names.push_back(species.name);
     std::set<std::string> columns;
-    for (const MeasureColumn& column : measure_columns(names))
+    for (const MeasureColumn& column : scene.measurable.columns)
         if (!columns.insert(column.name).second)
             throw UserError(
                 fmt::format("{}: the names of the species give measures.csv the column \"{}\" twice; choose "

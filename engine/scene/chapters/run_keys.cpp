@@ -81,6 +81,12 @@ const KeyTable<Run>& run_table() {
     return table;
 }
 
+std::string names_text(const std::vector<std::string>& names) {
+    std::vector<std::string> words;
+    for (const std::string& name : names) words.push_back(quoted(name));
+    return words.empty() ? "" : toml_list(words);
+}
+
 const char* without_trajectory(const Output& output) {
     return output.trajectory ? nullptr : "no trajectory is kept";
 }
@@ -98,6 +104,14 @@ const KeyTable<Output>& output_table() {
         flag("orientation", &O::orientation, initial(), "Orientations in the trajectory.")
             .useless_for(without_trajectory),
         flag("contacts", &O::contacts, initial(), "Contacts and forces in contacts.nc.").written_at(1),
+        bound_by<O>(
+            entry("instruments", KeyKind::name_list, note("those whose columns the film shows"),
+                  "What is measured beside the usual columns of measures.csv."),
+            [](Document& document, const Scene&, const std::string& path, O& into) {
+                into.instruments = document.name_list(path);
+            },
+            [](const O& from, const Scene&) { return names_text(from.instruments); })
+            .written_at(1),
     };
     return table;
 }

@@ -45,6 +45,7 @@ struct FilmPlot {
     std::string column;                          // as in the file: "height_difference", "centre_z_m"
     std::string label;                           // in words, without the unit
     std::optional<std::array<double, 2>> range;  // SI; grows with the data when empty
+    Dimension dimension = Dimension::number;
     bool operator==(const FilmPlot&) const = default;
 };
 
