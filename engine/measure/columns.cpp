@@ -19,11 +19,17 @@ std::string names_of(const std::vector<MeasureColumn>& columns) {
 }
 
 // Of the documentation.
-Scene scene_of_one_species() {
+Scene scene_of_names() {
     Scene scene;
     scene.species.resize(1);
     scene.species[0].name = "NAME";
+    scene.walls.resize(1);
+    scene.walls[0].name = "FACE";
     return scene;
+}
+
+std::string instrument_of(const ObserverEntry& entry) {
+    return entry.instrument == nullptr ? "" : fmt::format(" (instrument `{}`)", entry.instrument);
 }
 
 }  // namespace
@@ -54,8 +60,9 @@ Measurable measurable_in(const Scene& scene) {
 std::string column_table_markdown() {
     std::string text = "| column | unit | what it is |\n|---|---|---|\n";
     for (const ObserverEntry& entry : all_observers())
-        for (const ColumnGroup& group : entry.columns(scene_of_one_species()))
-            text += fmt::format("| {} | {} | {} |\n", names_of(group.columns), group.unit, group.about);
+        for (const ColumnGroup& group : entry.columns(scene_of_names()))
+            text += fmt::format("| {} | {} | {}{} |\n", names_of(group.columns), group.unit, group.about,
+                                instrument_of(entry));
     return text;
 }
 

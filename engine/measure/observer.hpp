@@ -27,6 +27,7 @@
 #include "engine/state/drive_pose.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/contact_view.hpp"
+#include "engine/step/forces/wall_sums.hpp"
 #include "engine/step/traffic.hpp"
 
 namespace grainreel {
@@ -43,6 +44,7 @@ struct Moment {
     double start_energy;     // J, of all grains and contacts when the drive started
     const Traffic& traffic;  // what came and left since then
     std::span<const Face> faces = {};
+    const WallSums* wall_sums = nullptr;  // since the drive started; null unless somebody needs them
 
     double floor_height() const { return pose.offset.z(); }  // m
     // Whether there is anything to segregate.
@@ -71,6 +73,8 @@ class Observer {
     // was broken off and taken up again. gather() comes after the same calls as look(), and before it.
     static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
     virtual std::int64_t gathers_after(std::int64_t) const { return kNever; }
+    // Whether Moment::wall_sums is there.
+    virtual bool needs_wall_sums() const { return false; }
     // Once, before all gathering: when the drive starts, or where a run goes on from a checkpoint that has
     // nothing of this observer.
     virtual void start(const Moment&) {}

@@ -17,6 +17,7 @@
 #include "engine/measure/observers/species_places.hpp"
 #include "engine/measure/observers/times.hpp"
 #include "engine/measure/observers/unlike.hpp"
+#include "engine/measure/observers/walls/wall_forces.hpp"
 
 namespace grainreel {
 
@@ -35,6 +36,7 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::ContactNumber,     //
                                   observers::LargestOverlap,    //
                                   observers::FloorPosition,     //
-                                  observers::BedPeriods>;
+                                  observers::BedPeriods,        //
+                                  observers::WallForces>;
 
 }  // namespace grainreel

@@ -94,6 +94,11 @@ std::vector<FieldValues> Observers::look_at_fields(const Moment& moment, const S
     return values;
 }
 
+bool Observers::need_wall_sums() const {
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [](const Entry& entry) { return entry.observer->needs_wall_sums(); });
+}
+
 void Observers::start(const Moment& moment, const ShowContacts& show_contacts) {
     visit(
         moment, show_contacts, [](const Entry& entry) { return !entry.started && gathers(*entry.observer); },

@@ -30,6 +30,8 @@ class Observers {
     std::vector<const FieldSet*> fields() const;
     std::vector<FieldValues> look_at_fields(const Moment& moment, const ShowContacts& show_contacts);
 
+    // Whether somebody needs Moment::wall_sums.
+    bool need_wall_sums() const;
     // When the drive starts, or for those that load() has found nothing of.
     void start(const Moment& moment, const ShowContacts& show_contacts);
     // The first step after `step` at which somebody gathers; Observer::kNever.

@@ -16,6 +16,7 @@
 #include "engine/measure/energy.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
+#include "engine/measure/wall_faces.hpp"
 #include "engine/run/health.hpp"
 #include "engine/run/surroundings.hpp"
 #include "engine/start/layers.hpp"
@@ -74,6 +75,7 @@ struct Simulation::Impl {
     bool continued = false;  // goes on where the file stopped
 
     Observers observers;
+    std::optional<WallSums> wall_sums;  // of the last moment, where an observer needs them
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     void take_grains();
@@ -82,7 +84,9 @@ struct Simulation::Impl {
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
     void look_at_health();
-    Moment moment() const;
+    Moment moment();
+    void take_gathered(const std::string& bytes);
+    std::string gathered() const;
     ShowContacts contacts() const;
 };
 
@@ -120,14 +124,38 @@ void Simulation::Impl::go_on() {
     step = header.step;
     start_energy = header.start_energy;
     continued = true;
-    Bytes in(gathered);
-    observers.load(moment(), in);
-    if (in.failed()) throw damaged_checkpoint(scene);
+    take_gathered(gathered);
     observers.start(moment(), contacts());
     if (step >= plan.steps)
         throw UserError(
             fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
                         scene.where("run.duration"), step, plan.steps));
+}
+
+// What was gathered of walls stands before what the observers have gathered. Without it, it begins here.
+void Simulation::Impl::take_gathered(const std::string& bytes) {
+    Bytes in(bytes);
+    WallSums sums;
+    read_vector(in, sums.faces);
+    read_vector(in, sums.slices);
+    if (observers.need_wall_sums()) {
+        const WallScale scale = wall_scale(scene, plan);
+        const bool there = !sums.faces.empty();
+        if (there && !is_sound(sums, around.faces.size(), scale)) in.fail();
+        if (in.failed()) throw damaged_checkpoint(scene);
+        there ? loop->go_on_tallying(sums, scale) : loop->tally_walls(scale, step);
+    }
+    observers.load(moment(), in);
+    if (in.failed()) throw damaged_checkpoint(scene);
+}
+
+std::string Simulation::Impl::gathered() const {
+    std::ostringstream out;
+    const WallSums sums = observers.need_wall_sums() ? loop->wall_sums() : WallSums();
+    write_vector(out, sums.faces);
+    write_vector(out, sums.slices);
+    observers.save(out);
+    return out.str();
 }
 
 // They decide nothing: a run may begin or cease to keep them when it goes on.
@@ -158,6 +186,7 @@ void Simulation::Impl::begin_drive() {
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
     step = 0;
+    if (observers.need_wall_sums()) loop->tally_walls(wall_scale(scene, plan), step);
     observers.start(moment(), contacts());
 }
 
@@ -299,7 +328,8 @@ double Simulation::centre_height() const {
     return moment / mass - m.around.motion.at(m.step).offset.z();
 }
 
-Moment Simulation::Impl::moment() const {
+Moment Simulation::Impl::moment() {
+    if (observers.need_wall_sums()) wall_sums = loop->wall_sums();
     return {scene,
             plan.clock,
             grains,
@@ -309,7 +339,8 @@ Moment Simulation::Impl::moment() const {
             around.motion.at(step),
             start_energy,
             loop->traffic(),
-            around.faces};
+            around.faces,
+            wall_sums ? &*wall_sums : nullptr};
 }
 
 ShowContacts Simulation::Impl::contacts() const {
@@ -366,9 +397,7 @@ void Simulation::save_checkpoint(const std::filesystem::path& path) const {
         header.wall_offset = m.around.motion.at(m.step).offset;
         header.wall_velocity = m.around.motion.at(m.step).velocity;
     }
-    std::ostringstream gathered;
-    m.observers.save(gathered);
-    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, gathered.str());
+    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.gathered());
 }
 
 }  // namespace grainreel

@@ -68,7 +68,7 @@ const UnitSystem& unit_system() {
     return system;
 }
 
-constexpr std::array<DimensionText, 17> dimension_texts{{
+constexpr std::array<DimensionText, 18> dimension_texts{{
     {"m", "a length", "\"5 mm\"", 1e-12, 1e6},
     {"s", "a time", "\"10 s\"", 1e-30, 1e12},
     {"Hz", "a frequency", "\"25 Hz\"", 1e-12, 1e12},
@@ -85,6 +85,7 @@ constexpr std::array<DimensionText, 17> dimension_texts{{
     {"m/s2", "an acceleration", "\"9.81 m/s2\"", 0, 1e6},
     {"J", "an energy", "\"5 µJ\"", 0, 1e30},
     {"N", "a force", "\"10 mN\"", 0, 1e30},
+    {"N.m", "a moment", "\"1 N.m\"", 0, 1e30},
     {"1", "a plain number", "0.5", 0, 1e30},
 }};
 

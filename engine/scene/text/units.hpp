@@ -26,6 +26,7 @@ enum class Dimension {
     acceleration,
     energy,
     force,
+    moment,
     number,
 };
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/state/container_faces.hpp"
+#include "engine/step/forces/wall_sums.hpp"
 
 namespace grainreel {
 
@@ -26,7 +27,8 @@ struct alignas(64) FaceMotion {
 struct WallState {
     std::vector<FaceRecord> faces;  // where they are at the step's end
     std::vector<FaceMotion> motion;
-    bool any_round = false;  // a cylinder among them
+    bool any_round = false;      // a cylinder among them
+    WallTally* tally = nullptr;  // sums up what grains do to the faces, where somebody wants to know
 
     // From `before` to `now` within `step` seconds; without a step the velocity is that of `now`.
     void set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step);
