@@ -106,7 +106,7 @@ const KeyTable<Output>& output_table() {
         flag("contacts", &O::contacts, initial(), "Contacts and forces in contacts.nc.").written_at(1),
         bound_by<O>(
             entry("instruments", KeyKind::name_list, note("those whose columns the film shows"),
-                  "What is measured beside the usual columns of measures.csv."),
+                  "What is measured beside the usual columns of measures.csv: \"walls\"."),
             [](Document& document, const Scene&, const std::string& path, O& into) {
                 into.instruments = document.name_list(path);
             },
