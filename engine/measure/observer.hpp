@@ -32,6 +32,9 @@
 
 namespace grainreel {
 
+struct Surroundings;
+class StepLoop;
+
 // The state that an observer may look at.
 struct Moment {
     const Scene& scene;
@@ -45,6 +48,9 @@ struct Moment {
     const Traffic& traffic;  // what came and left since then
     std::span<const Face> faces = {};
     const WallSums* wall_sums = nullptr;  // since the drive started; null unless somebody needs them
+    // Of a run; null for a state that was put together by hand.
+    const Surroundings* around = nullptr;
+    const StepLoop* loop = nullptr;
 
     double floor_height() const { return pose.offset.z(); }  // m
     // Whether there is anything to segregate.

@@ -10,6 +10,7 @@
 #include "engine/measure/observers/centre_of_mass.hpp"
 #include "engine/measure/observers/contact_number.hpp"
 #include "engine/measure/observers/energies.hpp"
+#include "engine/measure/observers/energy_shares.hpp"
 #include "engine/measure/observers/floor_position.hpp"
 #include "engine/measure/observers/height_difference.hpp"
 #include "engine/measure/observers/lacey.hpp"
@@ -37,6 +38,7 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::LargestOverlap,    //
                                   observers::FloorPosition,     //
                                   observers::BedPeriods,        //
+                                  observers::EnergyShares,      //
                                   observers::WallForces>;
 
 }  // namespace grainreel

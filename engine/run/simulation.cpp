@@ -340,7 +340,9 @@ Moment Simulation::Impl::moment() {
             start_energy,
             loop->traffic(),
             around.faces,
-            wall_sums ? &*wall_sums : nullptr};
+            wall_sums ? &*wall_sums : nullptr,
+            &around,
+            loop.get()};
 }
 
 ShowContacts Simulation::Impl::contacts() const {

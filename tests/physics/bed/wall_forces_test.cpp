@@ -175,16 +175,16 @@ TEST(WallForcesOfRuns, AreTheSameBitsAtAnyNumberOfThreadsAndWhenTakenUp) {
     first.advance(std::llround(3.4 * plan.measures_every));  // between two rows
     first.save_checkpoint(here / "a.grs");
     const std::vector<double> expected = later_row(first, plan, 4), last = later_row(first, plan, 9);
-    EXPECT_EQ(first.fields()[0].size(), 5u);
+    EXPECT_EQ(first.fields().at(0).size(), 4u);  // all that stands
     for (const int threads : {2, 3}) {
         Simulation whole(scene, plan, threads);
         whole.pack();
         later_row(whole, plan, 3);
         EXPECT_EQ(later_row(whole, plan, 4), expected) << threads;
-        const Scene next =
-            scene_of(test::small_scene_text,
-                     {"start.method=file", "start.file=" + (here / "a.grs").string(), "start.keep_clock=true",
-                      "contact.stiffness=" + std::to_string(plan.wall[0].loading_stiffness)});
+        Scene next = scene;
+        next.start.method = Start::Method::file;
+        next.start.file = (here / "a.grs").string();
+        next.start.keep_clock = true;
         Simulation taken_up(next, plan, threads);
         taken_up.pack();
         EXPECT_EQ(later_row(taken_up, plan, 4), expected) << threads;
