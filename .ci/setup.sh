@@ -35,6 +35,8 @@ gnuplot-nox          gnuplot, for ./movie chart
 test_packages="
 libgtest-dev         gtest
 libgmock-dev         gmock
+python3-xarray       xarray for Python, which reads fields.nc in a test
+python3-netcdf4      netCDF4 for Python
 "
 
 say() { printf '%s\n' "$*" >&2; }

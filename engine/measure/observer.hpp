@@ -6,6 +6,8 @@
 // which says what it gives, without a state: the scene's reader knows columns from it. An observer that is
 // made only where the scene asks for it (output.instruments, or a plot or live word of its columns) also has
 //     static constexpr const char* instrument = "walls";
+// and one that a key of its own asks for
+//     static bool wanted(const Scene& scene);
 #pragma once
 
 #include <cstdint>
@@ -93,15 +95,17 @@ class Observer {
 
 // What is known of an observer before one is made.
 struct ObserverEntry {
-    const char* instrument;  // null: it is always made
+    const char* instrument;              // null: it is always made, unless `wanted` says otherwise
+    bool (*wanted)(const Scene& scene);  // null: as `instrument` says
     std::vector<ColumnGroup> (*columns)(const Scene& scene);
     std::unique_ptr<Observer> (*make)(const Scene& scene, const Plan& plan);
 };
 
 template <class T>
 ObserverEntry entry_of() {
-    ObserverEntry entry{nullptr, &T::columns, nullptr};
+    ObserverEntry entry{nullptr, nullptr, &T::columns, nullptr};
     if constexpr (requires { T::instrument; }) entry.instrument = T::instrument;
+    if constexpr (requires { &T::wanted; }) entry.wanted = &T::wanted;
     entry.make = [](const Scene& scene, const Plan& plan) -> std::unique_ptr<Observer> {
         if constexpr (std::is_constructible_v<T, const Scene&, const Plan&>)
             return std::make_unique<T>(scene, plan);

@@ -8,6 +8,7 @@
 #include "engine/measure/observers/big_above_small.hpp"
 #include "engine/measure/observers/big_in_top_quarter.hpp"
 #include "engine/measure/observers/centre_of_mass.hpp"
+#include "engine/measure/observers/coarse_grained_fields.hpp"
 #include "engine/measure/observers/contact_number.hpp"
 #include "engine/measure/observers/energies.hpp"
 #include "engine/measure/observers/energy_shares.hpp"
@@ -39,6 +40,7 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::FloorPosition,     //
                                   observers::BedPeriods,        //
                                   observers::EnergyShares,      //
-                                  observers::WallForces>;
+                                  observers::WallForces,        //
+                                  observers::CoarseGrainedFields>;
 
 }  // namespace grainreel

@@ -13,6 +13,7 @@ bool gathers(const Observer& observer) {
 }
 
 bool is_wanted(const ObserverEntry& entry, const Scene& scene) {
+    if (entry.wanted != nullptr) return entry.wanted(scene);
     const std::vector<std::string>& wanted = scene.output.instruments;
     return entry.instrument == nullptr ||
            std::find(wanted.begin(), wanted.end(), entry.instrument) != wanted.end();
@@ -32,6 +33,8 @@ Observers::Observers(const std::vector<ObserverEntry>& table, const Scene& scene
                      : entry.columns.empty()     ? ""
                                                  : entry.columns.front();
         entry.observer = known.make(scene, plan);
+        if (const FieldSet* const set = entry.observer->fields(); set != nullptr && entry.name.empty())
+            entry.name = set->fields.front().name;
         entries_.push_back(std::move(entry));
     }
     names_ = std::make_shared<const std::vector<std::string>>(std::move(names));

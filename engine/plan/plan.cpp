@@ -90,6 +90,8 @@ void plan_output(const Scene& scene, Plan& plan) {
         check_records(scene, plan, plan.trajectory_every, "frames of the trajectory",
                       "output.trajectory_interval");
     check_records(scene, plan, plan.measures_every, "rows of measures", "output.measures_interval");
+    check_field_size(scene);
+    plan.fields = field_times(output.fields, plan.clock, plan.steps);
 }
 
 // Here and not in the reader: a finished run is drawn again though its start file may be gone.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
+#include "engine/plan/field_times.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -72,6 +73,7 @@ struct Plan {
 
     // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.
     double trajectory_every = 0, measures_every = 0;
+    FieldTimes fields;                  // when fields are looked at, if there are any
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
     std::vector<std::string> warnings;  // each one line, with place and remedy
 

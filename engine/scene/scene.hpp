@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/field_output.hpp"
 #include "engine/scene/film/film_look.hpp"
 #include "engine/scene/film/film_shows.hpp"
 
@@ -183,6 +184,7 @@ struct Output {
     bool contacts = false;                    // write contacts.nc beside it
     bool trajectory = true;
     std::vector<std::string> instruments;  // what is measured beside the usual columns
+    FieldOutput fields;
     bool operator==(const Output&) const = default;
 };
 

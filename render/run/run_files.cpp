@@ -30,8 +30,12 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Simulation& simulation,
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                    const Simulation& simulation, const std::string& program_version)
-    : measures_(folder / "measures.csv", simulation.measured()) {
+    : clock_(plan.clock),
+      field_times_(plan.fields),
+      measures_(folder / "measures.csv", simulation.measured()) {
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
+    if (const auto sets = simulation.field_sets(); !sets.empty())
+        fields_.emplace(folder / "fields.nc", sets, scene.title, program_version);
     if (plan.trajectory_every == 0) return;
     trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, simulation, program_version));
     if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, program_version);
@@ -41,6 +45,11 @@ void RunFiles::add_frame(const Frame& frame, const Simulation& simulation) {
     const std::int64_t index = trajectory_->frames();
     trajectory_->write(frame);
     if (contacts_) contacts_->write(index, simulation.contacts());
+}
+
+void RunFiles::add_fields(const Simulation& simulation) {
+    const std::int64_t end = simulation.step();
+    fields_->write(clock_.time(field_times_.begin_of_record(end)), clock_.time(end), simulation.fields());
 }
 
 void RunFiles::add_measures(const Measures& measures) {

@@ -8,6 +8,7 @@
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/output/contacts_file.hpp"
+#include "engine/output/fields_file.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/plan/plan.hpp"
@@ -26,8 +27,12 @@ class RunFiles {
     // The frame, and the contacts of the same moment when the scene asks for them.
     void add_frame(const Frame& frame, const Simulation& simulation);
     void add_measures(const Measures& measures);
+    // What observers give on grids, at the end of a record.
+    bool has_fields() const { return fields_.has_value(); }
+    void add_fields(const Simulation& simulation);
 
     std::int64_t trajectory_frames() const { return trajectory_ ? trajectory_->frames() : 0; }
+    std::int64_t field_records() const { return fields_ ? fields_->records() : 0; }
     std::int64_t measures_rows() const { return measures_.rows(); }
     // The rows again, for those who draw them; null unless the film has plots.
     std::shared_ptr<const MeasureTable> measures() const { return table_; }
@@ -38,6 +43,9 @@ class RunFiles {
   private:
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<ContactsWriter> contacts_;
+    Clock clock_;
+    FieldTimes field_times_;
+    std::optional<FieldsWriter> fields_;
     MeasuresWriter measures_;
     std::shared_ptr<MeasureTable> table_;
     std::optional<Measures> first_, last_;

@@ -92,7 +92,7 @@ void SceneRun::start(const Pictures& pictures) {
     files_.emplace(folder_->folder(), scene_, plan_, simulation_, program_version_);
     want_moments(shots);
     agenda_.emplace(shots, plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
-                    kept_.steps(), bed_periods_->every());
+                    kept_.steps(), bed_periods_->every(), files_->has_fields() ? &plan_.fields : nullptr);
     // As far as one knows: what a bed of several periods leaves out is found later.
     shots_ = std::count_if(shots.begin(), shots.end(), [&](const Shot& shot) {
         const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));
@@ -169,6 +169,10 @@ FramePtr SceneRun::serve(const Stop& stop) {
         const auto timer = times_.during("measuring");
         add_measures();
     }
+    if (stop.fields) {
+        const auto timer = times_.during("writing");
+        files_->add_fields(simulation_);
+    }
     if (!stop.trajectory && !stop.moment && stop.segments.empty()) return nullptr;
     const auto frame = std::make_shared<Frame>(simulation_.frame());
     if (stop.trajectory) {
@@ -223,6 +227,7 @@ std::string SceneRun::files_text() const {
     if (plan_.trajectory_every > 0)
         text += fmt::format("trajectory.nc ({} frames), ", files_->trajectory_frames());
     if (files_->has_contacts()) text += "contacts.nc, ";
+    if (files_->has_fields()) text += fmt::format("fields.nc ({} records), ", files_->field_records());
     return text + fmt::format("measures.csv ({} rows), final.csv, checkpoint.grs, scene.toml, run.json",
                               files_->measures_rows());
 }

@@ -122,6 +122,7 @@ const KeyTable<Output>& output_table() {
 void list_run(Keys& all) {
     run_table().list(all, "run");
     output_table().list(all, "output");
+    list_fields(all);
 }
 
 void read_run(Document& document, Scene& scene) {
@@ -133,6 +134,7 @@ void read_run(Document& document, Scene& scene) {
             "is made for velocity-verlet and the law walton-braun with a restitution that is the same at "
             "any speed; remove it");
     output_table().read(document, scene, "output", scene.output);
+    read_fields(document, scene);
 }
 
 void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
@@ -147,6 +149,7 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     output.measures_interval = static_cast<double>(plan.measures_every) * plan.clock.step;
     out.table("output");
     output_table().write(out, scene, output);
+    write_fields(out, scene);
 }
 
 }  // namespace grainreel
