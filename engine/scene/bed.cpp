@@ -29,6 +29,13 @@ double solid_volume(const Scene& scene) {
     return volume;
 }
 
+double mean_diameter(const Scene& scene) {
+    double sum = 0;
+    for (const Species& species : scene.species)
+        sum += static_cast<double>(species.count) * species.diameter.mean;
+    return sum / static_cast<double>(scene.grains());
+}
+
 double total_mass(const Scene& scene) {
     double mass = 0;
     for (const Species& s : scene.species)

@@ -7,6 +7,7 @@ namespace grainreel {
 
 double mean_cube(const SizeSpread& diameter);  // m3, the mean of d^3
 double solid_volume(const Scene& scene);       // m3, of all grains together
+double mean_diameter(const Scene& scene);      // m, of all grains
 double total_mass(const Scene& scene);         // kg
 
 // m, how high the container is filled when the grains lie at this solid fraction; its height at most.

@@ -24,14 +24,24 @@ std::array<double, motion_width> motion_of(const FieldGrain& grain) {
     return all;
 }
 
-void add_to(double* cell, const double* numbers, std::size_t width, double weight) {
-    for (std::size_t n = 0; n < width; ++n) cell[n] += weight * numbers[n];
+// Force times branch, row by row.
+std::array<double, contact_width> product_of(const FieldContact& contact) {
+    std::array<double, contact_width> all{};
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+            all[static_cast<std::size_t>(3 * a + b)] = contact.force[a] * contact.branch[b];
+    return all;
+}
+
+template <std::size_t Width>
+void add_to(double* cell, const std::array<double, Width>& numbers, double weight) {
+    for (std::size_t n = 0; n < Width; ++n) cell[n] += weight * numbers[n];
 }
 
 }  // namespace
 
 CoarseGraining::CoarseGraining(const Scene& scene, int phases)
-    : grid_(make_field_grid(scene)),
+    : grid_(make_field_grid(scene, scene.output.fields)),
       shares_(inside_shares(grid_, scene)),
       footprint_(grid_,
                  FieldKernel(scene.output.fields.kernel, scene.output.fields.width, grid_.dimensions())),
@@ -67,8 +77,7 @@ void CoarseGraining::add_grain(const FieldGrain& grain, double* motion) {
     const std::array<double, motion_width> numbers = motion_of(grain);
     double inside = 0;
     for (const CellWeight& cell : cells) {
-        add_to(motion + static_cast<std::size_t>(cell.cell) * motion_width, numbers.data(), motion_width,
-               cell.weight);
+        add_to(motion + static_cast<std::size_t>(cell.cell) * motion_width, numbers, cell.weight);
         inside += cell.weight * shares_[static_cast<std::size_t>(cell.cell)];
     }
     if (!is_inside(grain.position)) return;
@@ -85,11 +94,10 @@ void CoarseGraining::add(const FieldState& state, int phase) {
     double* const motion = motion_.at(static_cast<std::size_t>(phase)).data();
     for (const FieldGrain& grain : state.grains) add_grain(grain, motion);
     for (const FieldContact& contact : state.contacts) {
-        const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> product =
-            contact.force * contact.branch.transpose();
+        const std::array<double, contact_width> product = product_of(contact);
         for (const CellWeight& cell : footprint_.of_line(contact.begin, contact.branch))
-            add_to(contact_.data() + static_cast<std::size_t>(cell.cell) * contact_width, product.data(),
-                   contact_width, cell.weight);
+            add_to(contact_.data() + static_cast<std::size_t>(cell.cell) * contact_width, product,
+                   cell.weight);
     }
     ++moments_;
 }

@@ -38,8 +38,7 @@ void pad(GridAxis& axis, double reach) {
 
 }  // namespace
 
-FieldGrid make_field_grid(const Scene& scene) {
-    const FieldOutput& fields = scene.output.fields;
+FieldGrid make_field_grid(const Scene& scene, const FieldOutput& fields) {
     const Extent extent = extent_of(scene);
     const bool has_walls = scene.container.shape != Container::Shape::none;
     FieldGrid grid;

@@ -36,9 +36,9 @@ struct FieldGrid {
     int dimensions() const;
 };
 
-// What the scene asks for. Its outermost cells begin where the container's walls are, and beyond each wall
-// there are as many cells more as the kernel reaches: stress is spread beyond the walls, too.
-FieldGrid make_field_grid(const Scene& scene);
+// The outermost cells inside end at the container's walls, and beyond each wall
+// there are as many more as the kernel reaches: stress is spread beyond the walls, too.
+FieldGrid make_field_grid(const Scene& scene, const FieldOutput& fields);
 
 // How much of each cell is inside the container at rest, 0 to 1. Where the floor alone moves, the container
 // counts from the floor's lowest place. Planes of the scene cut nothing off.

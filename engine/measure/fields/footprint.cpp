@@ -1,21 +1,18 @@
 #include "engine/measure/fields/footprint.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace grainreel {
 namespace {
 
-struct CellRange {
-    std::int64_t begin, end;
-};
+constexpr double longest_stretch = 2.5;  // widths
 
-// Cells whose middles may lie between low and high.
-CellRange range_of(const GridAxis& axis, double low, double high) {
-    if (!axis.resolved) return {0, 1};
-    return {static_cast<std::int64_t>(std::floor((low - axis.low) / axis.cell)),
-            static_cast<std::int64_t>(std::floor((high - axis.low) / axis.cell)) + 1};
-}
+// Points between 0 and 1 and their weights, of Gauss-Legendre quadrature (Abramowitz & Stegun, table 25.4).
+constexpr std::array<std::array<double, 2>, 4> quadrature{
+    {{0.5 * (1 - 0.8611363115940526), 0.5 * 0.3478548451374538},
+     {0.5 * (1 - 0.3399810435848563), 0.5 * 0.6521451548625461},
+     {0.5 * (1 + 0.3399810435848563), 0.5 * 0.6521451548625461},
+     {0.5 * (1 + 0.8611363115940526), 0.5 * 0.3478548451374538}}};
 
 // The cell of the grid that a number stands for; -1 beyond its edge.
 std::int64_t inside(const GridAxis& axis, std::int64_t k) {
@@ -25,53 +22,86 @@ std::int64_t inside(const GridAxis& axis, std::int64_t k) {
 
 }  // namespace
 
-// value(r): of the kernel at the middle of a cell, relative to the grid's axes; along directions that are not
-// resolved r is 0.
-template <class Value>
-std::span<const CellWeight> Footprint::spread(const Vec3& low, const Vec3& high, const Value& value) {
-    const auto& [x, y, z] = grid_.axes;
-    const CellRange along_x = range_of(x, low.x(), high.x()), along_y = range_of(y, low.y(), high.y()),
-                    along_z = range_of(z, low.z(), high.z());
+// All cells whose middles may lie between low and high; all of a direction that is not resolved.
+Footprint::Range Footprint::range_of(std::size_t k, double low, double high) const {
+    const GridAxis& axis = grid_.axes[k];
+    if (!axis.resolved) return {};
+    return {static_cast<std::int64_t>(std::floor((low - axis.low) / axis.cell)),
+            static_cast<std::int64_t>(std::floor((high - axis.low) / axis.cell)) + 1};
+}
+
+void Footprint::clear_box(const Vec3& low, const Vec3& high) {
+    std::size_t size = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int axis = static_cast<int>(k);
+        box_[k] = range_of(k, low[axis] - kernel_.cutoff(), high[axis] + kernel_.cutoff());
+        size *= static_cast<std::size_t>(box_[k].end - box_[k].begin);
+    }
+    values_.assign(size, 0);
+}
+
+// Adds its values about a point, times `share`.
+void Footprint::add_kernel(const Vec3& middle, double share) {
+    std::array<Range, 3> near;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double at = middle[static_cast<int>(k)];
+        near[k] = range_of(k, at - kernel_.cutoff(), at + kernel_.cutoff());
+    }
+    const auto square = [&](std::size_t k, std::int64_t cell) {
+        const GridAxis& axis = grid_.axes[k];
+        const double away = axis.resolved ? axis.middle(cell) - middle[static_cast<int>(k)] : 0;
+        return away * away;
+    };
+    const std::int64_t row = box_[0].end - box_[0].begin, layer = row * (box_[1].end - box_[1].begin);
+    for (std::int64_t z = near[2].begin; z < near[2].end; ++z) {
+        const double square_z = square(2, z);
+        for (std::int64_t y = near[1].begin; y < near[1].end; ++y) {
+            const double square_yz = square_z + square(1, y);
+            double* const values =
+                values_.data() + (z - box_[2].begin) * layer + (y - box_[1].begin) * row - box_[0].begin;
+            for (std::int64_t x = near[0].begin; x < near[0].end; ++x)
+                values[x] += share * kernel_.at(square_yz + square(0, x));
+        }
+    }
+}
+
+// The cells of the box that have a value, scaled.
+std::span<const CellWeight> Footprint::collect() {
     cells_.clear();
     double sum = 0;
-    for (std::int64_t k = along_z.begin; k < along_z.end; ++k) {
-        const std::int64_t cell_z = inside(z, k);
-        for (std::int64_t j = along_y.begin; j < along_y.end; ++j) {
-            const std::int64_t cell_y = inside(y, j);
-            for (std::int64_t i = along_x.begin; i < along_x.end; ++i) {
-                const double here = value(Vec3(x.resolved ? x.middle(i) : 0, y.middle(j), z.middle(k)));
-                if (here <= 0) continue;
-                sum += here;
-                const std::int64_t cell_x = inside(x, i);
+    const double* value = values_.data();
+    for (std::int64_t z = box_[2].begin; z < box_[2].end; ++z) {
+        const std::int64_t cell_z = inside(grid_.axes[2], z);
+        for (std::int64_t y = box_[1].begin; y < box_[1].end; ++y) {
+            const std::int64_t cell_y = inside(grid_.axes[1], y);
+            for (std::int64_t x = box_[0].begin; x < box_[0].end; ++x, ++value) {
+                if (*value <= 0) continue;
+                sum += *value;
+                const std::int64_t cell_x = inside(grid_.axes[0], x);
                 if (cell_x >= 0 && cell_y >= 0 && cell_z >= 0)
-                    cells_.push_back({grid_.index(cell_x, cell_y, cell_z), here});
+                    cells_.push_back({grid_.index(cell_x, cell_y, cell_z), *value});
             }
         }
     }
-    for (CellWeight& cell : cells_) cell.weight /= sum * grid_.cell_volume();
+    const double scale = 1 / (sum * grid_.cell_volume());
+    for (CellWeight& cell : cells_) cell.weight *= scale;
     return cells_;
 }
 
 std::span<const CellWeight> Footprint::of_point(const Vec3& point) {
-    Vec3 seen = point;
-    if (!grid_.axes[0].resolved) seen.x() = 0;
-    const Vec3 reach = kernel_.cutoff() * Vec3::Ones();
-    return spread(seen - reach, seen + reach,
-                  [&](const Vec3& r) { return kernel_.at((r - seen).squaredNorm()); });
+    clear_box(point, point);
+    add_kernel(point, 1);
+    return collect();
 }
 
 std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& branch) {
-    Vec3 from = begin, way = branch;
-    if (!grid_.axes[0].resolved) from.x() = way.x() = 0;
-    const double length = way.norm();
-    if (length < 1e-9 * kernel_.cutoff()) return of_point(from);  // seen end-on
-    const Vec3 direction = way / length, to = from + way, reach = kernel_.cutoff() * Vec3::Ones();
-    return spread(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach, [&](const Vec3& r) {
-        const Vec3 away = r - from;
-        const double ahead = away.dot(direction);
-        const double square = std::max(0.0, away.squaredNorm() - ahead * ahead);
-        return kernel_.along(square, -ahead, length - ahead);
-    });
+    const Vec3 end = begin + branch;
+    clear_box(begin.cwiseMin(end), begin.cwiseMax(end));
+    const int stretches =
+        std::max(1, static_cast<int>(std::ceil(branch.norm() / (longest_stretch * kernel_.width()))));
+    for (int k = 0; k < stretches; ++k)
+        for (const auto& [at, share] : quadrature) add_kernel(begin + (k + at) / stretches * branch, share);
+    return collect();
 }
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 // The keys of [output.fields]: fields by coarse-graining.
 #include <fmt/format.h>
 
+#include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/bound_key.hpp"
@@ -23,14 +24,6 @@ const char* beside_phase(const FieldOutput& fields) {
     return fields.phase ? "a 'phase' has one moment in each period" : nullptr;
 }
 
-// Half of the mean diameter of all grains.
-void usual_width(FieldOutput& fields, const Scene& scene) {
-    double sum = 0;
-    for (const Species& species : scene.species)
-        sum += static_cast<double>(species.count) * species.diameter.mean;
-    fields.width = 0.5 * sum / static_cast<double>(scene.grains());
-}
-
 void usual_cell(FieldOutput& fields, const Scene&) {
     fields.cell = (fields.grid == FieldOutput::Grid::xyz ? 2 : 1) * fields.width;
 }
@@ -47,7 +40,7 @@ const KeyTable<FieldOutput>& field_table() {
         quantity("width", &F::width, Dimension::length, positive, note("half of the grains' mean diameter"),
                  "Standard deviation of the kernel along one axis.")
             .useless_for(without_fields)
-            .usually(usual_width),
+            .usually([](F& fields, const Scene& scene) { fields.width = 0.5 * mean_diameter(scene); }),
         quantity("cell", &F::cell, Dimension::length, positive, note("`width`; twice that with xyz"),
                  "Largest side of a cell; twice `width` at most.")
             .useless_for(without_fields)

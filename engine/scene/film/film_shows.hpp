@@ -37,6 +37,9 @@ struct GrainColouring {
     bool fixed = false;                 // the range is the user's
     std::string unit;                   // of the colour bar; empty for pure numbers
     int layers = 5;                     // bands of start_height
+    bool as_field = false;              // a layer of means before pale grains, in place of coloured grains
+    bool of_grains() const { return by != GrainValue::species && !as_field; }
+    bool of_field() const { return by != GrainValue::species && as_field; }
     bool operator==(const GrainColouring&) const = default;
 };
 

@@ -28,7 +28,7 @@ Scene cylinder() {
 }
 
 double free_volume(const Scene& scene) {
-    const FieldGrid grid = make_field_grid(scene);
+    const FieldGrid grid = make_field_grid(scene, scene.output.fields);
     double sum = 0;
     for (const double share : inside_shares(grid, scene)) {
         EXPECT_GE(share, 0);
@@ -45,7 +45,7 @@ TEST(FieldCells, AddUpToTheContainer) {
 
 TEST(FieldCells, BeginAtTheWallsAndReachAsFarBeyondAsTheKernel) {
     const Scene scene = field_box({4, 10, 12}, Grid::yz, 0.5, 0.37);
-    const FieldGrid grid = make_field_grid(scene);
+    const FieldGrid grid = make_field_grid(scene, scene.output.fields);
     const FieldKernel kernel(scene.output.fields.kernel, 0.5, 2);
     EXPECT_FALSE(grid.axes[0].resolved);
     EXPECT_EQ(grid.axes[0].cell, 4);
