@@ -27,11 +27,13 @@ class FieldRecord {
 
     // What was gathered of the record that goes on.
     void save(std::ostream& out) const;
-    // Makes the reading fail where save() could not have written what is read.
+    // Makes the reading fail where save() could not have written what is read. What was gathered with other
+    // settings is left: gathering then waits for the next record.
     void load(Bytes& in);
 
   private:
     FieldTimes times_;
+    std::vector<double> settings_;  // by which saved sums are told from those of other fields
     CoarseGraining sums_;
     bool open_ = false;  // whether a record has begun
     std::optional<CoarseFields> last_;
