@@ -3,6 +3,7 @@
 #include <netcdf.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <set>
@@ -52,6 +53,7 @@ struct FieldsWriter::Impl {
         : file(NetcdfFile::create(path, format_for(all))) {}
 
     void define_times();
+    void define_checksum();
     void define_axes(const FieldSet& set);
     void define_fields(const FieldSet& set);
 
@@ -63,7 +65,8 @@ struct FieldsWriter::Impl {
     std::map<std::string, Axis> axes;          // by their names in the file
     std::map<std::string, std::string> named;  // the axes of the set at hand: their names in the file
     std::set<std::string> names;               // of fields in the file
-    int record = -1, time = -1, bounds = -1, checksum = -1;
+    int record = -1, time = -1, bounds = -1;
+    std::array<int, 2> checksum{-1, -1};
     std::vector<std::vector<Variable>> fields;  // of each set
     std::size_t records = 0;
 };
@@ -76,8 +79,15 @@ void FieldsWriter::Impl::define_times() {
     file.attribute(time, "axis", "T");
     file.attribute(time, "bounds", "time_bounds");
     bounds = file.variable("time_bounds", NC_DOUBLE, {record, two});
-    checksum = file.variable("checksum", NC_INT, {record, two});
-    file.attribute(checksum, "long_name", "XXH64 of the record's numbers, chained in the order of the file");
+}
+
+// Two variables of one number a record: VTK's reader would take one of two numbers for the grid to show.
+void FieldsWriter::Impl::define_checksum() {
+    for (const std::size_t word : {0, 1}) {
+        checksum[word] = file.variable(word == 0 ? "checksum_high" : "checksum_low", NC_INT, {record});
+        file.attribute(checksum[word], "long_name",
+                       "half of the XXH64 of the record's numbers, chained in the order of the file");
+    }
 }
 
 void FieldsWriter::Impl::define_axes(const FieldSet& set) {
@@ -133,6 +143,7 @@ FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<
         impl_->define_axes(*set);
         impl_->define_fields(*set);
     }
+    impl_->define_checksum();
     file.end_definitions();
     for (const auto& [name, axis] : impl_->axes)
         file.put(axis.variable, {0}, {axis.axis.at.size()}, axis.axis.at.data());
@@ -168,7 +179,7 @@ void FieldsWriter::write(double begin, double end, const std::vector<FieldValues
             put(variable.id, variable.shape, values[set][f].data());
         }
     }
-    to.file.put(to.checksum, {at, 0}, {1, 2}, sum.words().data());
+    for (const std::size_t word : {0, 1}) to.file.put(to.checksum[word], {at}, {1}, &sum.words()[word]);
     to.file.sync(at + 1);
     ++to.records;  // only now: one that failed does not count
 }

@@ -47,7 +47,8 @@ def run(program, folder, grid):
     scene = Path(folder) / "scene.toml"
     scene.write_text(SCENE.replace("GRID", grid))
     run_folder = Path(folder) / grid
-    subprocess.run([program, "movie", scene, "--out", run_folder, "--no-film", "--quiet"], check=True)
+    subprocess.run([program, "movie", scene, "--out", run_folder, "--no-film", "--quiet"], check=True,
+                   stdout=subprocess.DEVNULL)
     return run_folder / "fields.nc"
 
 
@@ -89,14 +90,14 @@ def with_xarray(program, folder):
 
 def with_vtk(program, folder):
     from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
     from vtkmodules.vtkIONetCDF import vtkNetCDFCFReader
 
     reader = vtkNetCDFCFReader()
     reader.SetFileName(str(run(program, folder, "xyz")))
     reader.SphericalCoordinatesOff()
     reader.UpdateInformation()
-    times = reader.GetOutputInformation(0).Get(
-        __import__("vtkmodules.vtkCommonExecutionModel", fromlist=["x"]).vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+    times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
     expect(len(times) == 3, f"time steps {times}")
     reader.UpdateTimeStep(times[1])
     output = reader.GetOutput()

@@ -49,8 +49,8 @@ TEST(FieldsOfRun, BedAtRestCarriesTheWeightAbove) {
     for (const char* grid : {"yz", "xyz"}) {
         const Scene scene = read_scene_text(
             column_text, "column.toml",
-            with_tested_precision({std::string("output.fields.grid=") + grid, "output.fields.interval=0.1 s",
-                                   "output.fields.samples=5"}));
+            with_tested_precision({std::string("output.fields.grid=") + grid, "output.fields.cell=2 mm",
+                                   "output.fields.interval=0.1 s", "output.fields.samples=5"}));
         const Plan plan = make_plan(scene);
         Simulation run(scene, plan, 1);
         run.pack();
