@@ -50,9 +50,8 @@ TEST(FieldKeys, RefusesWhatMakesNoSense) {
         sets.insert(sets.begin(), "output.fields.grid=yz");
         return sets;
     };
-    EXPECT_THAT(
-        complaint(wedge_text, {"output.fields.width=1 mm"}),
-        HasSubstr("--set output.fields.width: 'output.fields.width' is of no use here: no fields are kept"));
+    EXPECT_THAT(complaint(wedge_text, {"output.fields.width=1 mm"}),
+                HasSubstr("'width' is of no use here: without a 'grid' no fields are kept"));
     EXPECT_THAT(complaint(wedge_text, with_grid({"output.fields.cell=20 mm"})),
                 HasSubstr("which is more than twice the kernel's width of 0.00273 m"));
     EXPECT_THAT(complaint(wedge_text, with_grid({"output.fields.interval=1 s"})),

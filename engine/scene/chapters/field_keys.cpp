@@ -16,7 +16,7 @@ using namespace keys;
 constexpr double largest_cell = 2;  // widths
 
 const char* without_fields(const FieldOutput& fields) {
-    return fields.wanted() ? nullptr : "no fields are kept; write grid = \"yz\" beside it";
+    return fields.wanted() ? nullptr : "without a 'grid' no fields are kept";
 }
 
 const char* beside_phase(const FieldOutput& fields) {
