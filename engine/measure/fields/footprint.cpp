@@ -14,6 +14,12 @@ constexpr std::array<std::array<double, 2>, 4> quadrature{
      {0.5 * (1 + 0.3399810435848563), 0.5 * 0.6521451548625461},
      {0.5 * (1 + 0.8611363115940526), 0.5 * 0.3478548451374538}}};
 
+// std::floor is a call where the program is built for any processor.
+std::int64_t floor_of(double value) {
+    const auto towards_zero = static_cast<std::int64_t>(value);
+    return towards_zero - (value < static_cast<double>(towards_zero));
+}
+
 // The cell of the grid that a number stands for; -1 beyond its edge.
 std::int64_t inside(const GridAxis& axis, std::int64_t k) {
     if (axis.periodic) return ((k % axis.count) + axis.count) % axis.count;
@@ -26,8 +32,8 @@ std::int64_t inside(const GridAxis& axis, std::int64_t k) {
 Footprint::Range Footprint::range_of(std::size_t k, double low, double high) const {
     const GridAxis& axis = grid_.axes[k];
     if (!axis.resolved) return {};
-    return {static_cast<std::int64_t>(std::floor((low - axis.low) / axis.cell)),
-            static_cast<std::int64_t>(std::floor((high - axis.low) / axis.cell)) + 1};
+    const double cells = 1 / axis.cell;
+    return {floor_of((low - axis.low) * cells), floor_of((high - axis.low) * cells) + 1};
 }
 
 void Footprint::clear_box(const Vec3& low, const Vec3& high) {
@@ -40,7 +46,8 @@ void Footprint::clear_box(const Vec3& low, const Vec3& high) {
     values_.assign(size, 0);
 }
 
-// Adds its values about a point, times `share`.
+// Adds its values about a point, times `share`. Cells of one row lie side by side: along x, or along y where
+// x is not resolved.
 void Footprint::add_kernel(const Vec3& middle, double share) {
     std::array<Range, 3> near;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -52,17 +59,20 @@ void Footprint::add_kernel(const Vec3& middle, double share) {
         const double away = axis.resolved ? axis.middle(cell) - middle[static_cast<int>(k)] : 0;
         return away * away;
     };
-    const std::int64_t row = box_[0].end - box_[0].begin, layer = row * (box_[1].end - box_[1].begin);
-    for (std::int64_t z = near[2].begin; z < near[2].end; ++z) {
-        const double square_z = square(2, z);
-        for (std::int64_t y = near[1].begin; y < near[1].end; ++y) {
-            const double square_yz = square_z + square(1, y);
-            double* const values =
-                values_.data() + (z - box_[2].begin) * layer + (y - box_[1].begin) * row - box_[0].begin;
-            for (std::int64_t x = near[0].begin; x < near[0].end; ++x)
-                values[x] += share * kernel_.at(square_yz + square(0, x));
+    const std::size_t along = grid_.axes[0].resolved ? 0 : 1, across = 1 - along;
+    const Range row = near[along];
+    squares_.clear();
+    for (std::int64_t cell = row.begin; cell < row.end; ++cell) squares_.push_back(square(along, cell));
+    const std::int64_t width = box_[along].end - box_[along].begin,
+                       layer = width * (box_[across].end - box_[across].begin);
+    for (std::int64_t z = near[2].begin; z < near[2].end; ++z)
+        for (std::int64_t other = near[across].begin; other < near[across].end; ++other) {
+            const double away = square(2, z) + square(across, other);
+            double* const values = values_.data() + (z - box_[2].begin) * layer +
+                                   (other - box_[across].begin) * width + row.begin - box_[along].begin;
+            for (std::size_t k = 0; k < squares_.size(); ++k)
+                values[k] += share * kernel_.at(away + squares_[k]);
         }
-    }
 }
 
 // The cells of the box that have a value, scaled.

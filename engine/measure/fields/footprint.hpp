@@ -43,7 +43,8 @@ class Footprint {
     const FieldGrid& grid_;
     FieldKernel kernel_;
     std::array<Range, 3> box_{};
-    std::vector<double> values_;  // of the box, x fastest
+    std::vector<double> values_;   // of the box, x fastest
+    std::vector<double> squares_;  // m2, away along one row
     std::vector<CellWeight> cells_;
 };
 

@@ -26,6 +26,7 @@ FieldKernel::FieldKernel(FieldOutput::Kernel kind, double width, int dimensions)
       places_(kEntries / (cutoff_ * cutoff_)) {
     for (int k = 0; k <= kEntries; ++k)
         values_.push_back(kernel_value(kind, std::sqrt(static_cast<double>(k) / kEntries)));
+    values_.insert(values_.end(), {0.0, 0.0});
 }
 
 }  // namespace grainreel

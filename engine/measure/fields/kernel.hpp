@@ -27,8 +27,9 @@ class FieldKernel {
     // Value at a distance whose square (m2) is given; 0 from the cutoff on. From a table over the square,
     // within 2e-5 of the formula.
     double at(double square) const {
-        const double place = square * places_;
-        if (place >= kEntries) return 0;
+        const double exact = square * places_;
+        const double place =
+            exact < kEntries ? exact : kEntries + 1.0;  // no jump: it is as often one as the other
         const auto entry = static_cast<std::size_t>(place);
         const double share = place - static_cast<double>(entry);
         return values_[entry] + share * (values_[entry + 1] - values_[entry]);
@@ -37,9 +38,9 @@ class FieldKernel {
   private:
     static constexpr int kEntries = 4096;
 
-    double width_, cutoff_;  // m
-    double places_;          // 1/m2, entries for each square metre
-    std::vector<double> values_;
+    double width_, cutoff_;       // m
+    double places_;               // 1/m2, entries for each square metre
+    std::vector<double> values_;  // with zeros behind
 };
 
 }  // namespace grainreel

@@ -23,6 +23,8 @@ class CoarseGrainedFields final : public Observer {
         for (std::size_t i = 0; i < m.grains.size(); ++i) state_.grains.push_back(field_grain(m, i));
     }
     void contact(const Moment& m, const ContactView& c) override {
+        // Latched springs and grains that part touch without a force.
+        if (c.normal_force == 0 && c.tangential.isZero(0)) return;
         state_.contacts.push_back(field_contact(m, c));
     }
     void look(const Moment&, std::vector<double>&) override {}
