@@ -139,7 +139,7 @@ Plan make_plan(const Scene& scene) {
         throw UserError(
             fmt::format("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
                         scene.where("run.duration"), scene.run.duration, plan.clock.step));
-    if (scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain)
+    if (scene.start.packs())
         plan.settle_steps_limit =
             count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");
     if (scene.start.method == Start::Method::rain)

@@ -13,10 +13,10 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
+#include "engine/measure/health.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
 #include "engine/run/feeder.hpp"
-#include "engine/run/health.hpp"
 #include "engine/run/surroundings.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
@@ -44,11 +44,6 @@ double solid_fraction(const Container& container, const Grains& grains) {
     return top > 0 ? solid / container.volume_below(top) : 0;
 }
 
-// Whether the grains are still to be packed.
-bool packs(const Scene& scene) {
-    return scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain;
-}
-
 }  // namespace
 
 struct Simulation::Impl {
@@ -63,7 +58,7 @@ struct Simulation::Impl {
             species_names.push_back(one.name);
             expected.comes += static_cast<std::size_t>(one.fed);
         }
-        if (!packs(scene)) take_grains();
+        if (!scene.start.packs()) take_grains();
     }
 
     Scene scene;
@@ -99,7 +94,7 @@ struct Simulation::Impl {
 };
 
 void check_start(const Scene& scene, const Plan& plan) {
-    if (!packs(scene)) Simulation(scene, plan, 1);
+    if (!scene.start.packs()) Simulation(scene, plan, 1);
 }
 
 Simulation::Simulation(const Scene& scene, const Plan& plan, int threads)
