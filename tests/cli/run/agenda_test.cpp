@@ -79,8 +79,12 @@ TEST(Agenda, RhythmsByPeriodsFollowTheDriveThatChanges) {
     const std::vector<Stop> stops = all_of(Agenda({}, Rhythm(0, 1), 0, 0, 2000, {}, Rhythm(0, 0.25), clock));
     std::int64_t periods = 0, quarters = 0;
     for (const Stop& stop : stops) {
-        if (stop.trajectory) EXPECT_EQ(stop.step, clock.step_at(static_cast<double>(periods++)));
-        if (stop.strobe) EXPECT_EQ(stop.step, clock.step_at(0.25 * static_cast<double>(quarters++)));
+        if (stop.trajectory) {
+            EXPECT_EQ(stop.step, clock.step_at(static_cast<double>(periods++)));
+        }
+        if (stop.strobe) {
+            EXPECT_EQ(stop.step, clock.step_at(0.25 * static_cast<double>(quarters++)));
+        }
     }
     EXPECT_EQ(periods, static_cast<std::int64_t>(clock.cycles(2000)) + 1);
     EXPECT_EQ(quarters, static_cast<std::int64_t>(4 * clock.cycles(2000)) + 1);
