@@ -113,7 +113,7 @@ TEST(AveragedSteps, GoBackByPeriodsOfTheStagesThatWereOn) {
     const std::vector<std::int64_t> steps = averaged_steps({shot, 0}, mean, clock);
     ASSERT_EQ(steps.size(), 65u);
     for (std::size_t k = 0; k < steps.size(); ++k)
-        EXPECT_NEAR(clock.cycles(steps[k]), 20 + static_cast<double>(k) / 16, 0.5 / 1212);
+        EXPECT_NEAR(clock.cycles(steps[k]), 20 + static_cast<double>(k) / 16, 1.0 / 1212);
 }
 
 TEST(FilmSchedule, WithoutSegmentsTheFilmIsInRealTime) {

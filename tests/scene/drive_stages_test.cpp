@@ -170,7 +170,7 @@ TEST(DriveStageMessages, WordForWord) {
          "at 2 "
          "s; make the stage longer"},
         {"[[drive.stage]]\nfrom = 1\ninterval = 0.01\n",
-         "test.toml:30:1: 'interval' is of no use here: is for kind = \"taps\"; remove "
+         "test.toml:30:1: 'interval' is of no use here: only taps have an interval; remove "
          "it"},
     };
     for (const auto& [stages, message] : mistakes) {
