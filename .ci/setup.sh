@@ -19,6 +19,7 @@ libudunits2-dev      udunits2, with its XML database
 libxxhash-dev        libxxhash
 libhwy-dev           libhwy (Highway)
 libnetcdf-dev        netcdf
+libfftw3-dev         fftw3
 libpng-dev           libpng
 libdeflate-dev       libdeflate
 libpango1.0-dev      pangocairo, pangoft2, cairo

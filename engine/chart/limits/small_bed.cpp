@@ -84,7 +84,7 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
     const Frame frame = simulation.frame();
     std::vector<std::uint8_t> lower;
     for (const std::int32_t s : frame.species) lower.push_back(s == 0);
-    result.mixing = lacey_index(frame.position, lower);
+    result.mixing = lacey_index(take_samples(frame.position, lower));
     return result;
 }
 

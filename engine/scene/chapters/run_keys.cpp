@@ -105,9 +105,9 @@ const KeyTable<Output>& output_table() {
             .useless_for(without_trajectory),
         flag("contacts", &O::contacts, initial(), "Contacts and forces in contacts.nc.").written_at(1),
         bound_by<O>(
-            entry(
-                "instruments", KeyKind::name_list, note("those whose columns the film shows"),
-                "What is measured beside the usual columns of measures.csv: \"energy_balance\", \"walls\"."),
+            entry("instruments", KeyKind::name_list, note("those whose columns the film shows"),
+                  "What is measured beside the usual columns of measures.csv: \"bed\", \"convection\", "
+                  "\"energy_balance\", \"intruder\", \"outflow\", \"surface\", \"walls\"."),
             [](Document& document, const Scene&, const std::string& path, O& into) {
                 into.instruments = document.name_list(path);
             },

@@ -54,6 +54,12 @@ struct Bed {
         scene.species[0].diameter.mean = 2;
         scene.species[1].name = "big";
         scene.species[1].diameter.mean = 4;
+        scene.species[0].count = 2;
+        scene.species[1].count = 1;
+        scene.container.shape = Container::Shape::box;
+        scene.container.half_width = 6;
+        scene.container.depth = 8;
+        scene.container.height = 20;
         scene.drive.direction = {0, 0, 1};
         grains.add(0, 0, {0, -1, 2}, 1, 1);
         grains.add(2, 1, {0, 0, 5}, 2, 1);
@@ -70,7 +76,8 @@ struct Bed {
 
 ContactView touch(std::int32_t second, double overlap, double force, double energy) {
     ContactView c{};
-    c.normal = c.tangential = c.point = Vec3::Zero();
+    c.tangential = c.point = Vec3::Zero();
+    c.normal = {0, 0, 1};
     c.second = second;
     c.overlap = overlap;
     c.smaller_radius = 1;
@@ -252,14 +259,23 @@ TEST(Observers, GiveEveryColumnOfThreeGrains) {
         {"height_difference", (4.5 - 1.5) / 1.5},
         {"big_above_small", 1},
         {"big_in_top_quarter", 1},
+        {"big_in_bottom_quarter", 0},
+        {"big_at_walls", 0},
         // All three are neighbours of each other: two pairs of three are unlike; by chance pairs weigh
         // (r + r)^2, the like one 4 and each unlike one 9.
         {"unlike_neighbours", (2.0 / 3) / (18.0 / 22)},
         {"lacey", nan},
+        // Two samples: one small grain, and one of each.
+        {"intensity", (1.0 / 9 + 1.0 / 36) / 2 / (2.0 / 9)},
         {"contact_number", (2 + 1) / 3.0},
+        {"fabric_anisotropy", 1},
+        {"fabric_vertical", 1},
         {"largest_overlap", 0.03},
         {"floor_position_m", 0.5},
-        {"bed_periods", 1}};
+        {"bed_periods", 1},
+        {"bed_top_m", 1.5},
+        // The lower halves of the small grains reach up to there.
+        {"bed_solid_fraction", small / (12 * 8 * 1.5)}};
     ASSERT_EQ(m.names().size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const auto& [name, value] = expected[i];
@@ -278,7 +294,8 @@ TEST(Observers, OfSegregationGiveNothingForOneSpecies) {
     Observers all(all_observers(), bed.scene, Plan());
     const Measures m = all.look(bed.moment(), three_contacts);
     for (const char* name :
-         {"height_difference", "big_above_small", "big_in_top_quarter", "unlike_neighbours", "lacey"})
+         {"height_difference", "big_above_small", "big_in_top_quarter", "big_in_bottom_quarter",
+          "big_at_walls", "unlike_neighbours", "lacey", "intensity"})
         EXPECT_TRUE(std::isnan(m.at(name))) << name;
     EXPECT_NEAR(m.at("small_height_m"), 2.5, 1e-12);
 }

@@ -1,9 +1,8 @@
 // Do grains of different species lie side by side as often as by chance?
 #pragma once
 
-#include <limits>
-
 #include "engine/measure/big_and_small.hpp"
+#include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/unlike_neighbours.hpp"
 
@@ -18,7 +17,7 @@ class Unlike final : public Observer {
                  "randomly mixed"}};
     }
     void look(const Moment& m, std::vector<double>& row) override {
-        if (!m.has_two_kinds()) return row.push_back(std::numeric_limits<double>::quiet_NaN());
+        if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);
         const double gap = kNeighbourGap * m.scene.species[kinds.small].diameter.mean;
         row.push_back(unlike_neighbours(m.grains.place, m.grains.species, gap, m.period));

@@ -1,10 +1,9 @@
 // How much higher big grains lie than small ones.
 #pragma once
 
-#include <limits>
-
 #include "engine/measure/big_and_small.hpp"
 #include "engine/measure/heights.hpp"
+#include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/segregation.hpp"
 
@@ -20,7 +19,7 @@ class HeightDifference final : public Observer {
                  "in size, the first minus the second"}};
     }
     void look(const Moment& m, std::vector<double>& row) override {
-        if (!m.has_two_kinds()) return row.push_back(std::numeric_limits<double>::quiet_NaN());
+        if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);
         const std::vector<double> mean = mean_heights(m.grains, m.scene.species.size(), m.floor_height());
         std::vector<double> heights = heights_above(m.grains, m.floor_height());

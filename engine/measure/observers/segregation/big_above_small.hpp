@@ -1,10 +1,9 @@
 // How often a big grain lies above a small one.
 #pragma once
 
-#include <limits>
-
 #include "engine/measure/big_and_small.hpp"
 #include "engine/measure/heights.hpp"
+#include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/segregation.hpp"
 
@@ -19,7 +18,7 @@ class BigAboveSmall final : public Observer {
                  "below, 1/2 mixed, 1 all above"}};
     }
     void look(const Moment& m, std::vector<double>& row) override {
-        if (!m.has_two_kinds()) return row.push_back(std::numeric_limits<double>::quiet_NaN());
+        if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);
         std::vector<double> big = heights_above(m.grains, m.floor_height(), kinds.big);
         std::vector<double> small = heights_above(m.grains, m.floor_height(), kinds.small);
