@@ -53,6 +53,7 @@ void EnergyBalance::note_traffic() {
         std::sort(present_.begin(), present_.end());
     }
     some_left_ = now.left != traffic_.left;
+    opened_ = now.openings != traffic_.openings;
     traffic_ = now;
     terms_.came = now.energy_in - came_at_start_;
     terms_.left = now.energy_out - left_at_start_;
@@ -65,8 +66,8 @@ void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
     kept = {step, c.latched_energy, c.sideways_energy, c.rubbing_power};
 }
 
-// What a tangential spring still held when its contact parted goes to friction. Where a grain has left, it
-// went with that.
+// What a tangential spring still held when its contact parted goes to friction. Where a grain has left, or an
+// outlet has opened below it, it went out with that.
 void EnergyBalance::end_contacts(std::int64_t step) {
     for (auto at = contacts_.begin(); at != contacts_.end();) {
         const Kept& kept = at->second;
@@ -74,7 +75,8 @@ void EnergyBalance::end_contacts(std::int64_t step) {
             ++at;
             continue;
         }
-        if (!some_left_ || are_there(at->first)) add_friction(half_step_ * kept.rubbing + kept.sideways);
+        const bool went_out = (some_left_ && !are_there(at->first)) || (opened_ && is_at_wall(at->first));
+        if (!went_out) add_friction(half_step_ * kept.rubbing + kept.sideways);
         at = contacts_.erase(at);
     }
 }
@@ -89,7 +91,7 @@ bool EnergyBalance::are_there(std::uint64_t key) const {
         return std::binary_search(present_.begin(), present_.end(), static_cast<std::int32_t>(id));
     };
     const std::uint64_t second = key & 0xffffffff;
-    return there(key >> 32) && (second >> 31 != 0 || there(second));
+    return there(key >> 32) && (is_at_wall(key) || there(second));
 }
 
 // Grains by id, for their indices change; walls behind all grains.

@@ -64,6 +64,7 @@ class EnergyBalance {
     void end_contacts(std::int64_t step);
     void note_traffic();
     bool are_there(std::uint64_t key) const;
+    static bool is_at_wall(std::uint64_t key) { return (key >> 31 & 1) != 0; }
     void add_friction(double spent);
     std::uint64_t key(const ContactView& contact) const;
 
@@ -77,7 +78,7 @@ class EnergyBalance {
     double held_at_start_ = 0, work_at_start_ = 0;  // J
     Traffic traffic_;                               // until the last step noted
     double came_at_start_ = 0, left_at_start_ = 0;  // J
-    bool some_left_ = false;                        // in the last step
+    bool some_left_ = false, opened_ = false;       // in the last step
     std::vector<std::int32_t> present_;             // ids, rising, when that was so
 };
 

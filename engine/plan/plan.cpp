@@ -92,6 +92,18 @@ void plan_output(const Scene& scene, Plan& plan) {
     check_records(scene, plan, plan.measures_every, "rows of measures", "output.measures_interval");
 }
 
+void plan_outlet(const Scene& scene, Plan& plan) {
+    if (!scene.container.outlet) return;
+    const double opens = scene.container.outlet->opens;
+    plan.opens = count_steps(scene, opens, plan.clock.step, "container.outlet.opens");
+    plan.traffic = true;
+    if (*plan.opens >= plan.steps)
+        throw UserError(
+            fmt::format("{}: the outlet opens at {:.4g} s, but the run ends at {:.4g} s; open it "
+                        "earlier or lengthen run.duration",
+                        scene.where("container.outlet.opens"), opens, scene.run.duration));
+}
+
 // Here and not in the reader: a finished run is drawn again though its start file may be gone.
 void check_start_file(const Scene& scene) {
     std::error_code ignored;
@@ -125,6 +137,8 @@ Plan make_plan(const Scene& scene) {
                         std::any_of(scene.walls.begin(), scene.walls.end(),
                                     [](const FreeWall& wall) { return !wall.velocity.isZero(0); });
 
+    plan.capacity = scene.grains();
+
     const BedPlan bed = plan_bed(scene);
     plan.bed_height = bed.height;
     plan.impact_speed = bed.impact_speed;
@@ -138,6 +152,7 @@ Plan make_plan(const Scene& scene) {
         throw UserError(
             fmt::format("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
                         scene.where("run.duration"), scene.run.duration, plan.clock.step));
+    plan_outlet(scene, plan);
     if (scene.start.method == Start::Method::layers)
         plan.settle_steps_limit =
             count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");

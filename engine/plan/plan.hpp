@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,11 @@ struct Plan {
 
     // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.
     double trajectory_every = 0, measures_every = 0;
+    // The greatest number of grains that there will ever be, those that have left counted; and whether any
+    // may leave or come.
+    std::int64_t capacity = 0;
+    bool traffic = false;
+    std::optional<std::int64_t> opens;  // the step in which the container's outlet opens
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
     std::vector<std::string> warnings;  // each one line, with place and remedy
 

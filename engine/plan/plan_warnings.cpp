@@ -217,6 +217,19 @@ void warn_of_colours(const Scene& scene, Warnings& warnings) {
     }
 }
 
+void warn_of_outlet(const Scene& scene, Warnings& warnings) {
+    constexpr double kFewest = 5;  // grains side by side, below which they arch (Zuriguel 2014)
+    if (!scene.container.outlet) return;
+    double largest = 0;
+    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
+    const double wide = 2 * scene.container.outlet->half_width;
+    if (wide >= kFewest * largest) return;
+    warnings.add("container.outlet",
+                 fmt::format("the outlet is {:.2g} grains wide, and one narrower than {} may clog; widen it "
+                             "unless you mean to see that",
+                             wide / largest, kFewest));
+}
+
 void warn_of_film(const Scene& scene, Warnings& warnings) {
     double shown = 0;
     for (const FilmSegment& segment : scene.film.segments) {
@@ -244,6 +257,7 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
     warn_of_arms(plan, warnings);
     warn_of_step(scene, plan, bed, step, warnings);
     warn_of_colours(scene, warnings);
+    warn_of_outlet(scene, warnings);
     warn_of_film(scene, warnings);
     return warnings.take();
 }

@@ -68,9 +68,9 @@ struct Simulation::Impl {
     HealthLimits limits;
     EnergyWatch energy_watch;
     std::int64_t next_look = 0;  // step
-    ExpectedTraffic expected;
 
     bool continued = false;  // goes on where the file stopped
+    bool opened = false;     // the container's outlet
 
     std::vector<std::string> species_names;
     std::unique_ptr<Observers> observers;  // of all columns; made when they are first wanted
@@ -81,6 +81,7 @@ struct Simulation::Impl {
     void set_orientations();
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
+    void open_when_due();
     void look_at_health();
     Measures look(Observers& by) const;
 };
@@ -118,6 +119,8 @@ void Simulation::Impl::go_on() {
     step = header.step;
     start_energy = header.start_energy;
     continued = true;
+    opened = plan.opens && step >= *plan.opens;
+    if (opened) open_outlet(scene, around);
     if (step >= plan.steps)
         throw UserError(
             fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
@@ -152,6 +155,13 @@ void Simulation::Impl::begin_drive() {
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
     step = 0;
+    open_when_due();
+}
+
+void Simulation::Impl::open_when_due() {
+    if (opened || !plan.opens || step < *plan.opens) return;
+    loop->open_faces([&] { open_outlet(scene, around); }, step);
+    opened = true;
 }
 
 PackingResult Simulation::pack() {
@@ -201,27 +211,13 @@ void Simulation::advance(std::int64_t target) {
     Impl& m = *impl_;
     while (m.step < target) {
         if (m.next_look <= m.step) m.look_at_health();  // the first: where all begins
-        const std::int64_t count = std::min(target, m.next_look) - m.step;
-        m.loop->run(m.step, count, m.plan.clock.step, 0);
-        m.step += count;
+        std::int64_t until = std::min(target, m.next_look);
+        if (!m.opened && m.plan.opens) until = std::min(until, *m.plan.opens);
+        m.loop->run(m.step, until - m.step, m.plan.clock.step, 0);
+        m.step = until;
+        m.open_when_due();
         if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
-}
-
-void Simulation::expect(const ExpectedTraffic& traffic) {
-    impl_->expected = traffic;
-}
-
-const ExpectedTraffic& Simulation::expected() const {
-    return impl_->expected;
-}
-
-std::size_t Simulation::capacity() const {
-    return impl_->grains.size() + impl_->expected.comes;
-}
-
-void Simulation::set_exits(std::vector<Exit> exits) {
-    impl_->around.exits = std::move(exits);
 }
 
 void Simulation::remove(const std::vector<std::int32_t>& ids) {

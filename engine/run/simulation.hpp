@@ -54,14 +54,6 @@ class Simulation {
     // Runs up to step `target`. Throws RunError when the run stopped being healthy.
     void advance(std::int64_t target);
 
-    // What is to be expected, before files are made; a run of a scene expects none.
-    void expect(const ExpectedTraffic& traffic);
-    const ExpectedTraffic& expected() const;
-    // The most grains there can be in all: those there are, and those that may come.
-    std::size_t capacity() const;
-
-    // Where grains leave, from now on. Not part of the checkpoint: whoever opens an exit opens it again.
-    void set_exits(std::vector<Exit> exits);
     // At the step that has been reached. New grains must touch nothing; returns the id of the first of them.
     // Both once the run is packed.
     void remove(const std::vector<std::int32_t>& ids);

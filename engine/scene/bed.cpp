@@ -55,7 +55,8 @@ Extent extent_of(const Scene& scene) {
     const Container& c = scene.container;
     if (c.shape != Container::Shape::none) {
         const double x = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
-        return {Vec3(-x, -c.half_width, 0), Vec3(x, c.half_width, c.height)};
+        const double low = c.outlet ? -c.outlet->exit_depth : 0.0;
+        return {Vec3(-x, -c.half_width, low), Vec3(x, c.half_width, c.height)};
     }
     double largest = 0;
     for (const Species& s : scene.species) largest = std::max(largest, s.diameter.largest);

@@ -88,6 +88,16 @@ struct Contact {
     bool operator==(const Contact&) const = default;
 };
 
+// An opening in the floor through which grains leave. It must be wider than the largest grain.
+struct Outlet {
+    enum class Shape { slot, hole };
+    Shape shape = Shape::slot;  // a slot over the whole depth, or a round hole; both in the floor's middle
+    double half_width = 0;      // m, along y; the radius of a hole
+    double opens = 0;           // s, since the drive started
+    double exit_depth = 0;      // m below the floor's rest position, where grains leave the run
+    bool operator==(const Outlet&) const = default;
+};
+
 struct Container {
     enum class Shape { wedge, box, cylinder, none };
     Shape shape = Shape::wedge;  // none: empty space; the sizes then are those of what is looked at
@@ -97,6 +107,7 @@ struct Container {
     double half_angle = 0;       // rad, slanted walls against the vertical; wedge only
     double slant_height = 0;     // m, H: height of the slanted part; wedge only
     bool lid = true;
+    std::optional<Outlet> outlet;         // empty: a closed floor
     bool periodic_depth = false;          // no front and back walls: what leaves at one enters at the other
     double floor_half_width() const;      // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
     double volume() const;                // m3, floor to height

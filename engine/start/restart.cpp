@@ -67,16 +67,6 @@ bool has_all_values(const Grains& g) {
            (g.orientation.empty() || all(g.orientation)) && (g.derivatives.empty() || all(g.derivatives));
 }
 
-// From 0 without gaps, in the order of the ids: those of a run that grains have left have some.
-std::vector<std::int32_t> numbers_of(const std::vector<std::int32_t>& ids) {
-    std::vector<std::int32_t> rising = ids, numbers;
-    std::sort(rising.begin(), rising.end());
-    for (const std::int32_t id : ids)
-        numbers.push_back(
-            static_cast<std::int32_t>(std::lower_bound(rising.begin(), rising.end(), id) - rising.begin()));
-    return numbers;
-}
-
 struct Saved {
     std::string scene;
     CheckpointHeader header;
@@ -174,7 +164,7 @@ Grains grains_from_checkpoint(const Scene& scene) {
     check_grains_possible(scene, saved.grains);
     Grains grains;
     grains.reserve(saved.grains.size());
-    const std::vector<std::int32_t> number = numbers_of(saved.grains.id);
+    const std::vector<std::int32_t> number = numbers_without_gaps(saved.grains.id);
     for (std::size_t i = 0; i < saved.grains.size(); ++i) {
         const Place& place = saved.grains.place[i];
         const Motion& motion = saved.grains.motion[i];

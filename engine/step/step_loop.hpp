@@ -48,6 +48,9 @@ class StepLoop {
     // Likewise, after a restart(). New grains must touch nothing. They get rising ids, none of which any
     // grain has had; returns the first of them.
     std::int32_t insert(const std::vector<NewGrain>& grains);
+    // Between two runs: `change` opens an outlet, so that faces of the surroundings end or have a gap. Faces
+    // keep their numbers, and no face grows.
+    void open_faces(const std::function<void()>& change, std::int64_t step);
     const Traffic& traffic() const { return traffic_; }
     // Who has left since the last call, by step, then by id.
     std::vector<Departure> take_departures();
@@ -107,10 +110,11 @@ class StepLoop {
     void copy_foreign(int member);
 
     bool in_exit(std::int32_t grain) const;
-    bool may_leave(int member) const;
+    bool may_leave(int member, double step) const;
     void let_leave(std::int64_t step);
     void take_out(const std::vector<std::int32_t>& leavers, std::int64_t step);
-    void note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step);
+    std::vector<bool> note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step);
+    void sum_loads_anew(const std::vector<bool>& of, std::int64_t step);
     void add(const NewGrain& grain);
     bool is_traffic_sound() const;
 

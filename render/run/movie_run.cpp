@@ -150,7 +150,8 @@ void MovieRun::report_segregation() {
     const Scene& scene = run_.scene();
     const RunFiles& files = *run_.files();
     if (scene.species.size() < 2 || !files.last_measures()) return;
-    listener_.info(segregation_text(scene, *files.first_measures(), *files.last_measures()));
+    const std::string segregation = segregation_text(scene, *files.first_measures(), *files.last_measures());
+    if (!segregation.empty()) listener_.info(segregation);
 }
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// The files of one run that grow while it goes on: trajectory, contacts, measures.
+// The files of one run that grow while it goes on: trajectory, contacts, measures, outflow.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include "engine/measure/measure_table.hpp"
 #include "engine/output/contacts_file.hpp"
 #include "engine/output/measures_csv.hpp"
+#include "engine/output/outflow_csv.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
@@ -18,19 +19,21 @@ namespace grainreel {
 
 class RunFiles {
   public:
-    // With room for all grains of the simulation, and for those that may come. Throws RunError when a file
-    // cannot be made.
+    // With room for all grains that the plan expects. Throws RunError when a file cannot be made.
     RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
-             const Simulation& simulation, const std::string& program_version);
+             const std::string& program_version);
 
     // The frame, and the contacts of the same moment when the scene asks for them.
     void add_frame(const Frame& frame, const Simulation& simulation);
     void add_measures(const Measures& measures);
+    // Who has left since the last call.
+    void add_departures(Simulation& simulation);
 
     std::int64_t trajectory_frames() const { return trajectory_ ? trajectory_->frames() : 0; }
     std::int64_t measures_rows() const { return measures_.rows(); }
     // The rows again, for those who draw them; null unless the film has plots.
     std::shared_ptr<const MeasureTable> measures() const { return table_; }
+    std::optional<std::int64_t> outflow_rows() const;
     bool has_contacts() const { return contacts_.has_value(); }
     const std::optional<Measures>& first_measures() const { return first_; }
     const std::optional<Measures>& last_measures() const { return last_; }
@@ -39,6 +42,8 @@ class RunFiles {
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<ContactsWriter> contacts_;
     MeasuresWriter measures_;
+    std::optional<OutflowWriter> outflow_;  // where grains may leave
+    Clock clock_;
     std::shared_ptr<MeasureTable> table_;
     std::optional<Measures> first_, last_;
 };

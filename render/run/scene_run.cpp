@@ -89,7 +89,7 @@ void SceneRun::start(const Pictures& pictures) {
     const std::vector<Shot> shots = shots_of(pictures);
     segments_ = pictures.segments;
     bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
-    files_.emplace(folder_->folder(), scene_, plan_, simulation_, program_version_);
+    files_.emplace(folder_->folder(), scene_, plan_, program_version_);
     want_moments(shots);
     agenda_.emplace(shots, plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
                     kept_.steps(), bed_periods_->every());
@@ -154,6 +154,7 @@ bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
             const auto timer = times_.during("engine");
             simulation_.advance(to);
         }
+        files_->add_departures(simulation_);
         const double seconds = stretch.seconds();
         pace_.took(to - from, seconds);
         const double work = static_cast<double>(to - from) * static_cast<double>(simulation_.grains());
@@ -223,6 +224,7 @@ std::string SceneRun::files_text() const {
     if (plan_.trajectory_every > 0)
         text += fmt::format("trajectory.nc ({} frames), ", files_->trajectory_frames());
     if (files_->has_contacts()) text += "contacts.nc, ";
+    if (const auto rows = files_->outflow_rows()) text += fmt::format("outflow.csv ({} grains), ", *rows);
     return text + fmt::format("measures.csv ({} rows), final.csv, checkpoint.grs, scene.toml, run.json",
                               files_->measures_rows());
 }

@@ -27,6 +27,7 @@ std::string segregation_text(const Scene& scene, const Measures& from, const Mea
         false);
     say("unlike neighbours over chance", "unlike_neighbours", " (1 is mixed)", false);
     say("Lacey mixing index", "lacey", " (1 is mixed)", false);
+    if (parts.empty()) return "";
     return fmt::format("segregation: {}", fmt::join(parts, "; "));
 }
 

@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-// Of a scene with two species or more. Indices that are not defined for it are left out.
+// Of a scene with two species or more. Indices that are not defined for it are left out; empty without any.
 std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to);
 
 }  // namespace grainreel

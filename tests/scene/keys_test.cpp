@@ -60,7 +60,9 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
         exact = with(exact, line, "");
     exact += "[drive]\nfrequency = 20\namplitude = 0.001\n";
     const std::string layers = wedge_text + "[film.colour]\nby = \"start-height\"\n";
-    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact, layers};
+    const std::string outlet =
+        with(wedge_text, "height = \"180 mm\"\n", "height = \"180 mm\"\noutlet = { width = \"20 mm\" }\n");
+    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact, layers, outlet};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

@@ -88,6 +88,9 @@ TEST(Writer, ResolvedScenesReadBackBitByBit) {
     expect_round_trip(
         read_text(box_text, {"species.a.diameter={mean=0.0011, deviation=0.00013}",
                              "contact.wall.restitution=0.77", "contact.tangential_damping=12.3"}));
+    expect_round_trip(read_text(
+        wedge_text, {"container.floor_width=57.3 mm", "container.outlet={width=\"21.7 mm\", opens=0.317}"}));
+    expect_round_trip(read_text(box_text, {"container.outlet={diameter=\"7.3 mm\", exit_depth=\"1 cm\"}"}));
 }
 
 TEST(Writer, WhatTheFilmShowsReadsBackBitByBit) {

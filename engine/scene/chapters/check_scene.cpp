@@ -12,6 +12,7 @@
 #include "engine/plan/free_space.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/outlet_keys.hpp"
 #include "engine/scene/film/measure_columns.hpp"
 #include "engine/scene/keys/key_path.hpp"
 
@@ -194,6 +195,7 @@ void check_scene(const Scene& scene) {
     check_room(scene);
     check_gravity(scene);
     check_drive(scene);
+    check_outlet(scene);
     check_film(scene);
 }
 

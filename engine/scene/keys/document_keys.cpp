@@ -41,7 +41,9 @@ std::optional<double> plain_number(std::string_view text) {
 // `text` as TOML where it is TOML and the key does not want text; otherwise as a number or a string.
 toml::table parsed_value(const std::string& text, const Key* key) {
     const bool quoted = !text.empty() && (text.front() == '"' || text.front() == '\'');
-    const bool wants_text = key != nullptr && (key->kind == KeyKind::text || key->kind == KeyKind::choice);
+    const bool a_table = key != nullptr && is_table_path(key->path) && text.rfind('{', 0) == 0;
+    const bool wants_text =
+        key != nullptr && !a_table && (key->kind == KeyKind::text || key->kind == KeyKind::choice);
     // "0x0" is a hexadecimal number to TOML.
     const bool plain_size = key != nullptr && key->kind == KeyKind::picture_size && text.rfind('[', 0) != 0;
     if (quoted || !(wants_text || plain_size)) {

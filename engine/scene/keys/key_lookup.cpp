@@ -202,9 +202,9 @@ std::string key_table_markdown() {
     for (const Key& key : scene_keys()) {
         std::string inside = parent_of(key.path);
         std::string name = name_of(key.path);
-        if (inside == "species[].diameter") {
-            inside = "species[]";
-            name = "diameter." + name;
+        if (find_key(inside) != nullptr) {  // a value that may be a table
+            name = name_of(inside) + "." + name;
+            inside = parent_of(inside);
         }
         if (inside != table) {
             table = inside;

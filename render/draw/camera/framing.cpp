@@ -64,6 +64,14 @@ std::vector<Vec3> corners_of(const Scene& scene, const FramedPart& part) {
     return prism_corners(scene.container, top);
 }
 
+// What falls through an outlet, as far as it stays in the run.
+void add_stream(const Container& container, std::vector<Vec3>& corners) {
+    const Outlet& outlet = *container.outlet;
+    const double y = outlet.half_width, x = outlet.shape == Outlet::Shape::slot ? 0.5 * container.depth : y;
+    for (const double side : {-1.0, 1.0})
+        for (const double end : {-1.0, 1.0}) corners.emplace_back(end * x, side * y, -outlet.exit_depth);
+}
+
 }  // namespace
 
 FramedPart whole_container(const Scene& scene) {
@@ -90,6 +98,7 @@ Vec3 framed_middle(const Scene& scene) {
 
 std::vector<Vec3> framing_points(const Scene& scene, double azimuth, const FramedPart& part) {
     std::vector<Vec3> corners = corners_of(scene, part);
+    if (scene.container.outlet) add_stream(scene.container, corners);
     if (!part.cut && part.top > scene.container.height) corners.emplace_back(0, 0, part.top);
     std::vector<Vec3> points;
     const Vec3 stroke = drawn_stroke(scene);

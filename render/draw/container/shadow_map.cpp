@@ -33,6 +33,7 @@ ShadowMap::ShadowMap(const Scene& scene)
     const double stroke =
         scene.drive.present ? scene.drive.amplitude * std::abs(scene.drive.direction.z()) : 0;
     height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
+    if (container_.outlet) height_ = std::min(height_, -container_.outlet->exit_depth);
 }
 
 Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {

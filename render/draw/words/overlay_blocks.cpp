@@ -195,14 +195,16 @@ namespace {
 // Time first, then the lines below it.
 std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
     std::vector<std::string> lines{time_text(frame.time, scene.run.duration)};
-    if (!scene.drive.present) return lines;
-    if (frame.time < 0) {
+    if (scene.drive.present && frame.time < 0) {
         lines.emplace_back("before the drive");
-    } else {
+    } else if (scene.drive.present) {
         const ShownCycle shown = shown_cycle(frame);
         lines.push_back(fmt::format("cycle {}", shown.cycle));
         lines.push_back(fmt::format("phase {:.2f}", shown.phase));
     }
+    if (scene.container.outlet)
+        lines.push_back(fmt::format("{} of {} left", scene.grains() - static_cast<std::int64_t>(frame.size()),
+                                    scene.grains()));
     return lines;
 }
 
