@@ -157,7 +157,7 @@ Plan make_plan(const Scene& scene) {
                         scene.where("run.duration"), scene.run.duration, plan.clock.step));
     plan_outlet(scene, plan);
     plan.traffic = plan.traffic || !scene.feeds.empty();
-    if (scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain)
+    if (scene.start.packs())
         plan.settle_steps_limit =
             count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");
     if (scene.start.method == Start::Method::rain)

@@ -157,11 +157,9 @@ void warn_of_arms(const Plan& plan, Warnings& warnings) {
 
 void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, const StepChoice& step,
                   Warnings& warnings) {
-    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-    for (const Species& s : scene.species) {
-        smallest = std::min(smallest, s.diameter.smallest);
-        largest = std::max(largest, s.diameter.largest);
-    }
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Species& s : scene.species) smallest = std::min(smallest, s.diameter.smallest);
+    const double largest = largest_diameter(scene);
     const double travelled = std::max(bed.impact_speed, bed.drop_speed) * plan.clock.step;
     if (travelled > 0.1 * smallest / 2)
         warnings.add(
@@ -234,8 +232,7 @@ void warn_of_short_period(const Scene& scene, Warnings& warnings) {
     constexpr double kWide = 6;  // diameters, above which a bed hardly knows its images
     const Container& c = scene.container;
     if (!c.periodic_depth) return;
-    double largest = 0;
-    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
+    const double largest = largest_diameter(scene);
     if (c.depth >= kWide * largest) return;
     warnings.add(
         "container.depth",

@@ -11,12 +11,6 @@ namespace {
 constexpr double lowest = 2, highest = 6;  // over the largest diameter
 constexpr double thin = 0.05;              // solid share of the layer
 
-double largest_diameter(const Scene& scene) {
-    double largest = 0;
-    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
-    return largest;
-}
-
 }  // namespace
 
 RainLayer rain_layer(const Scene& scene) {

@@ -13,10 +13,10 @@
 namespace grainreel {
 namespace {
 
-constexpr std::int64_t kStepsPerLook = 200;
 constexpr double kLeastPatience = 20;  // looks
 
-// s: what a grain takes to leave the box by itself, or else falls from the container's top to its floor.
+// s: how long a grain may wait for a place: twice as long as it takes to fall through the container, so that
+// the one before it has had time to leave the box; and at least some looks.
 double patience(const Scene& scene, double look) {
     const double gravity = scene.gravity.norm();
     const double fall = gravity > 0 ? std::sqrt(2 * scene.container.height / gravity) : 0;

@@ -14,11 +14,11 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy.hpp"
+#include "engine/measure/health.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
 #include "engine/run/feeder.hpp"
 #include "engine/measure/wall_faces.hpp"
-#include "engine/run/health.hpp"
 #include "engine/run/surroundings.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
@@ -46,11 +46,6 @@ double solid_fraction(const Container& container, const Grains& grains) {
     return top > 0 ? solid / container.volume_below(top) : 0;
 }
 
-// Whether the grains are still to be packed.
-bool packs(const Scene& scene) {
-    return scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain;
-}
-
 }  // namespace
 
 struct Simulation::Impl {
@@ -62,7 +57,7 @@ struct Simulation::Impl {
           bodies(bodies_of(s.drive, s.walls)),
           limits(health_limits(s, p)),
           observers(all_observers(), scene, plan) {
-        if (!packs(scene)) take_grains();
+        if (!scene.start.packs()) take_grains();
     }
 
     Scene scene;
@@ -102,7 +97,7 @@ struct Simulation::Impl {
 };
 
 void check_start(const Scene& scene, const Plan& plan) {
-    if (!packs(scene)) Simulation(scene, plan, 1);
+    if (!scene.start.packs()) Simulation(scene, plan, 1);
 }
 
 Simulation::Simulation(const Scene& scene, const Plan& plan, int threads)

@@ -22,6 +22,12 @@ double mean_cube(const SizeSpread& d) {
     return d.mean * d.mean * d.mean + 3 * d.mean * variance;
 }
 
+double largest_diameter(const Scene& scene) {
+    double largest = 0;
+    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
+    return largest;
+}
+
 double solid_volume(const Scene& scene) {
     double volume = 0;
     for (const Species& s : scene.species)
@@ -65,9 +71,7 @@ Extent extent_of(const Scene& scene) {
         const double low = c.outlet ? -c.outlet->exit_depth : 0.0;
         return {Vec3(-x, -c.half_width, low), Vec3(x, c.half_width, c.height)};
     }
-    double largest = 0;
-    for (const Species& s : scene.species) largest = std::max(largest, s.diameter.largest);
-    const Vec3 margin = largest * Vec3::Ones();
+    const Vec3 margin = largest_diameter(scene) * Vec3::Ones();
     if (scene.start.grains.empty()) {
         const double side = std::cbrt(solid_volume(scene) / 0.2);
         return {-0.5 * side * Vec3::Ones() - margin, 0.5 * side * Vec3::Ones() + margin};

@@ -176,6 +176,8 @@ struct Start {
     double settle_damping = 10;       // 1/s, extra drag on every grain while settling only; 0 for none
     std::optional<double> rain_rate;  // 1/s; the plan chooses it when empty
     std::vector<ListedGrain> grains;  // with `grains`
+    // Whether the grains are packed and settled before the drive starts.
+    bool packs() const { return method == Method::layers || method == Method::rain; }
     bool operator==(const Start&) const = default;
 };
 

@@ -1,6 +1,7 @@
 // Places for new grains in which they touch nothing.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
+
+// Whoever adds grains looks for places every so many steps. Each look that finds one has the lists made anew.
+constexpr std::int64_t kStepsPerLook = 200;
 
 // The box from low to high (m), with what is near it at one moment.
 class FreePlaces {

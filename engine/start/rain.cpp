@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/health.hpp"
 #include "engine/plan/free_space.hpp"
 #include "engine/plan/rain_plan.hpp"
-#include "engine/run/health.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/diameters.hpp"
 #include "engine/start/free_places.hpp"
@@ -18,7 +18,6 @@
 namespace grainreel {
 namespace {
 
-constexpr std::int64_t kStepsPerLook = 200;
 constexpr double kPoured = 0.5;  // solid share of a bed that grains still fall on
 
 // The grains to come, in a random order of species.
@@ -73,12 +72,6 @@ class RisingLayer {
     const Extent box_;
 };
 
-double largest_radius(const Scene& scene) {
-    double largest = 0;
-    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
-    return 0.5 * largest;
-}
-
 // Grains that find their places, in the order of the cloud.
 class Shower {
   public:
@@ -88,7 +81,7 @@ class Shower {
           cloud_(scene),
           layer_(scene),
           places_(scene.run.seed, Stream::rain_places),
-          largest_(largest_radius(scene)),
+          largest_(0.5 * largest_diameter(scene)),
           next_(cloud_.next()) {}
 
     // Those that come now, until `due` have come or the next finds no place.

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/measure/energy.hpp"
-#include "engine/run/health.hpp"
+#include "engine/measure/health.hpp"
 
 namespace grainreel {
 

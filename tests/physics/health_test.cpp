@@ -1,5 +1,5 @@
 // The health check: it stops what is no longer physics, says where, and lets be what is.
-#include "engine/run/health.hpp"
+#include "engine/measure/health.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -133,9 +133,7 @@ double solid_at_start(const Scene& scene) {
 }
 
 void check_room(const Scene& scene) {
-    const bool packs =
-        scene.start.method == Start::Method::layers || scene.start.method == Start::Method::rain;
-    if (!packs) return;
+    if (!scene.start.packs()) return;
     const double solid = solid_at_start(scene);
     const double room = FreeSpace(scene).volume();
     if (room <= 0)

@@ -21,7 +21,7 @@ const char* without_file(const Start& start) {
 }
 
 const char* without_settling(const Start& start) {
-    if (start.method == Method::layers || start.method == Method::rain) return nullptr;
+    if (start.packs()) return nullptr;
     return start.method == Method::file ? "a start from a file does not settle"
                                         : "grains placed by hand do not settle";
 }

@@ -53,8 +53,8 @@ double scene_cost(const Scene& scene, const Plan& plan) {
 
 // In steps of a shaken bed.
 double packing_steps(const Scene& scene, const Plan& plan) {
+    if (!scene.start.packs()) return 0;
     const bool rains = scene.start.method == Start::Method::rain;
-    if (!rains && scene.start.method != Start::Method::layers) return 0;
     const double settling = settling_time / plan.clock.step;
     // On average half of the grains are there while it rains.
     const auto raining = [&] {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/bed.hpp"
 #include "render/draw/grains/grain_colours.hpp"
 #include "render/draw/grains/lit_ball.hpp"
 #include "render/draw/words/captions.hpp"
@@ -13,12 +14,6 @@ namespace grainreel {
 namespace {
 
 constexpr std::size_t most_species = 12;  // more are summed up in a last line
-
-double largest_diameter(const Scene& scene) {
-    double largest = 0;
-    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
-    return largest;
-}
 
 // The entries of a legend of which the first `shown` species have one each, and the others one together.
 class Entries {

@@ -1,4 +1,4 @@
-#include "engine/run/health.hpp"
+#include "engine/measure/health.hpp"
 
 #include <fmt/format.h>
 
