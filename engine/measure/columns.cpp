@@ -23,6 +23,7 @@ Scene scene_of_names() {
     Scene scene;
     scene.species.resize(1);
     scene.species[0].name = "NAME";
+    scene.container.shape = Container::Shape::none;
     scene.walls.resize(1);
     scene.walls[0].name = "FACE";
     return scene;
