@@ -32,7 +32,8 @@ class Columns {
           deep_(columns_in(frame.front - frame.back, frame.diameter)),
           width_((frame.right - frame.left) / across_),
           depth_((frame.front - frame.back) / deep_),
-          chords_(static_cast<std::size_t>(across_ * deep_)) {}
+          chords_(static_cast<std::size_t>(across_ * deep_)),
+          covered_(chords_.size(), false) {}
 
     void add(const Place& grain) {
         const Vec3& p = grain.position;
@@ -41,6 +42,7 @@ class Columns {
         const int own_y = std::clamp(static_cast<int>(std::floor(y)), 0, across_ - 1);
         const int own_x = std::clamp(static_cast<int>(std::floor(x)), 0, deep_ - 1);
         at(own_y, own_x).push_back({p.z() - grain.radius, p.z() + grain.radius});
+        covered_[index(own_y, own_x)] = true;
         const int reach_y = static_cast<int>(grain.radius / width_ + 1);
         const int reach_x = static_cast<int>(grain.radius / depth_ + 1);
         for (int j = std::max(0, own_y - reach_y); j <= std::min(across_ - 1, own_y + reach_y); ++j) {
@@ -50,6 +52,8 @@ class Columns {
                 const double dx = std::max(0.0, std::abs(i + 0.5 - x) - 0.5) * depth_;
                 const double square = grain.radius * grain.radius - dy * dy - dx * dx;
                 if (square > 0) at(j, i).push_back({p.z() - std::sqrt(square), p.z() + std::sqrt(square)});
+                const double to_middle = std::hypot((j + 0.5 - y) * width_, (i + 0.5 - x) * depth_);
+                if (to_middle < grain.radius) covered_[index(j, i)] = true;
             }
         }
     }
@@ -59,9 +63,8 @@ class Columns {
         for (int j = 0; j < across_; ++j) {
             double sum = 0, filled = 0;
             for (int i = 0; i < deep_; ++i) {
-                const double top = top_of(at(j, i));
-                if (top == kEmpty) continue;
-                sum += top;
+                if (!covered_[index(j, i)]) continue;
+                sum += top_of(at(j, i));
                 filled += 1;
             }
             if (filled > 0) s.height[static_cast<std::size_t>(j)] = sum / filled;
@@ -70,7 +73,8 @@ class Columns {
     }
 
   private:
-    std::vector<Chord>& at(int j, int i) { return chords_[static_cast<std::size_t>(j * deep_ + i)]; }
+    std::size_t index(int j, int i) const { return static_cast<std::size_t>(j * deep_ + i); }
+    std::vector<Chord>& at(int j, int i) { return chords_[index(j, i)]; }
 
     double top_of(std::vector<Chord>& chords) const {
         std::sort(chords.begin(), chords.end(), [](const Chord& a, const Chord& b) { return a.low < b.low; });
@@ -86,6 +90,7 @@ class Columns {
     const int across_, deep_;
     const double width_, depth_;  // m, of a column
     std::vector<std::vector<Chord>> chords_;
+    std::vector<bool> covered_;  // by a grain whose centre is in the column, or that reaches over its middle
 };
 
 // The mean of the nearest filled bins on both sides, or that of one side.

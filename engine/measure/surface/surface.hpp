@@ -31,7 +31,8 @@ std::size_t bins_across(const SurfaceFrame& frame);
 // where the next grain leaves a gap of more than a diameter and a half, so grains in flight have no say. The
 // top of the highest grain below that is the surface there, and h is its mean over the depth. A grain stands
 // in the column that holds its centre, and with its longest chord there in every other column that it reaches
-// into. A bin without grains takes the mean of the nearest ones that have some. Empty without grains.
+// into. Columns that no grain reaches up to their middle have no say: they are beside the bed. A bin without
+// others takes the mean of the nearest ones. Empty without grains.
 Surface surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
 
 }  // namespace grainreel
