@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # What a study's members reach side by side against as many `bench` processes, in turns on the hopper of the default
 # film, one thread each:
-#   tests/bench/study.sh [FOLDER [TURNS]]        default: output/study-speed, 5 turns of about two minutes
+#   tests/bench/study.sh [FOLDER [TURNS]]        default: output/study-speed, 5 turns of a quarter of a minute
 # A turn: two benches at a time; then a study of two members of the bench's scene for as many steps as the bench
 # vibrates. Prints million particle-steps/s of both and their ratio, and the median of the ratios. A member's speed is
 # that of its whole time after packing, files and measures included, and is multiplied by the share of the study's time
-# that its members fill: starting processes, tables, charts and the page count.
+# that its longer member fills: starting processes, tables, charts and the page count. That one of the two members has
+# a shorter packing and leaves its processor idle does not.
 set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
 program=${PROGRAM:-$root/build/release/grainreel}
@@ -44,8 +45,8 @@ for path in glob.glob("run/members/*/run.json"):
     run = json.load(open(path))
     engine, times = run["engine"], run["wall_s"]
     speed += engine["grains"] * engine["steps"] / (times["total"] - times["packing"])
-    filled += times["total"]
-print(speed * filled / (2 * wall) / 1e6)
+    filled = max(filled, times["total"])
+print(speed * filled / wall / 1e6)
 SPEED
 }
 
