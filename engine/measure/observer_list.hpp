@@ -12,6 +12,7 @@
 #include "engine/measure/observers/centre_of_mass.hpp"
 #include "engine/measure/observers/coarse_grained_fields.hpp"
 #include "engine/measure/observers/contact_number.hpp"
+#include "engine/measure/observers/drive_now.hpp"
 #include "engine/measure/observers/energies.hpp"
 #include "engine/measure/observers/energy_shares.hpp"
 #include "engine/measure/observers/floor_position.hpp"
@@ -49,6 +50,7 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::LargestOverlap,    //
                                   observers::FloorPosition,     //
                                   observers::BedPeriods,        //
+                                  observers::DriveNow,          //
                                   observers::EnergyShares,      //
                                   observers::BedShape,          //
                                   observers::BedMotion,         //

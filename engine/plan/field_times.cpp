@@ -15,14 +15,27 @@ constexpr double most_bytes = 2e9;  // of sums, in which each phase has its own
 
 }  // namespace
 
-// Of the moment nearest to a step.
+std::int64_t FieldTimes::tick_of(std::int64_t step) const {
+    if (clock.changes.empty()) return step;
+    return std::llround(clock.cycles(step) * static_cast<double>(clock.steps_per_period));
+}
+
+std::int64_t FieldTimes::step_of(std::int64_t tick) const {
+    if (clock.changes.empty()) return tick;
+    return clock.step_at(static_cast<double>(tick) / static_cast<double>(clock.steps_per_period));
+}
+
 std::int64_t FieldTimes::number_of(std::int64_t step) const {
-    return std::llround((static_cast<double>(step) - first) / every);
+    return std::llround((static_cast<double>(tick_of(step)) - first) / every);
+}
+
+std::int64_t FieldTimes::moment(std::int64_t number) const {
+    return step_of(std::llround(first + static_cast<double>(number) * every));
 }
 
 bool FieldTimes::is_moment(std::int64_t step) const {
     const std::int64_t number = number_of(step);
-    return step < end && number >= 0 && std::llround(first + static_cast<double>(number) * every) == step;
+    return step < end && number >= 0 && moment(number) == step;
 }
 
 std::int64_t FieldTimes::phase_of(std::int64_t moment) const {
@@ -30,25 +43,31 @@ std::int64_t FieldTimes::phase_of(std::int64_t moment) const {
 }
 
 bool FieldTimes::ends_record(std::int64_t step) const {
-    return step > 0 && step <= end && (step == end || step % record == 0);
+    return step > 0 && next_end(step) == step;
 }
 
 std::int64_t FieldTimes::next_end(std::int64_t step) const {
     if (step > end || end == 0) return kNever;
-    const std::int64_t whole = (std::max<std::int64_t>(step, 1) + record - 1) / record * record;
-    return std::min(whole, end);
+    const std::int64_t from = std::max<std::int64_t>(step, 1);
+    std::int64_t count = std::max<std::int64_t>(1, tick_of(from) / record);
+    while (step_of(count * record) < from) ++count;
+    return std::min(step_of(count * record), end);
+}
+
+std::int64_t FieldTimes::begin_of_record(std::int64_t end_of_it) const {
+    return step_of((tick_of(end_of_it) - 1) / record * record);
 }
 
 std::int64_t FieldTimes::next(std::int64_t step) const {
     if (step >= end) return kNever;
     std::int64_t number = std::max<std::int64_t>(0, number_of(step));
-    while (std::llround(first + static_cast<double>(number) * every) <= step) ++number;
-    const std::int64_t moment = std::llround(first + static_cast<double>(number) * every);
-    return std::min(moment, next_end(step + 1));
+    while (moment(number) <= step) ++number;
+    return std::min(moment(number), next_end(step + 1));
 }
 
 FieldTimes field_times(const FieldOutput& fields, const Clock& clock, std::int64_t steps) {
     FieldTimes times;
+    times.clock = clock;
     const std::int64_t period = clock.steps_per_period;
     if (period == 0) {
         times.record = std::max<std::int64_t>(1, std::llround(fields.interval / clock.step));
@@ -58,7 +77,8 @@ FieldTimes field_times(const FieldOutput& fields, const Clock& clock, std::int64
         return times;
     }
     times.record = fields.periods * period;
-    times.end = steps / period * period;
+    times.end =
+        clock.changes.empty() ? steps / period * period : clock.step_at(std::floor(clock.cycles(steps)));
     times.phases = fields.phase ? 1 : std::min<std::int64_t>(fields.samples, period);
     times.every = static_cast<double>(period) / static_cast<double>(times.phases);
     if (!fields.phase) return times;

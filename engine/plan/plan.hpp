@@ -80,6 +80,9 @@ struct Plan {
     std::int64_t capacity = 0;
     bool traffic = false;
     std::optional<std::int64_t> opens;  // the step in which the container's outlet opens
+    // Of a drive that changes, where the scene has no interval: so many periods of the stage that is on,
+    // which are those steps on average. 0: every so many steps.
+    double trajectory_periods = 0, measures_periods = 0;
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
     std::vector<std::string> warnings;  // each one line, with place and remedy
 

@@ -130,6 +130,18 @@ struct FreeWall {
     bool operator==(const FreeWall&) const = default;
 };
 
+// From a time of the run on the drive does something else.
+struct DriveStage {
+    enum class Kind { vibrate, taps, rest };
+    Kind kind = Kind::vibrate;
+    double from = 0;       // s; the change begins with the first period that starts then or later
+    int over = 3;          // periods that the change takes, at least 3
+    double frequency = 0;  // Hz; of a tap: 1 / its duration; of no meaning at rest
+    double amplitude = 0;  // m; a tap goes up by twice as much and comes back; 0 at rest
+    double interval = 0;   // s, from the start of a tap to that of the next; else 0
+    bool operator==(const DriveStage&) const = default;
+};
+
 struct Drive {
     enum class Moves { container, floor };
     bool present = false;
@@ -139,8 +151,15 @@ struct Drive {
     double phase = 0;         // turns, of the sine at t = 0
     double ramp = 3;          // periods over which the amplitude grows; >= 3, or 0 for none
     Moves moves = Moves::container;
+    std::vector<DriveStage> stages = {};   // by rising time; those above hold until the first
     double g_level(double gravity) const;  // Gamma = a (2 pi f)^2 / g; infinite without gravity
     double speed() const;                  // m/s, a 2 pi f
+    bool changes() const { return !stages.empty(); }
+    // The largest of all stages, that of the drive before them included.
+    double highest_frequency() const;                // Hz
+    double largest_amplitude() const;                // m
+    double top_speed() const;                        // m/s
+    double strongest_g_level(double gravity) const;  // infinite without gravity
     bool operator==(const Drive&) const = default;
 };
 
@@ -232,6 +251,19 @@ struct FilmSegment {
     bool operator==(const FilmSegment&) const = default;
 };
 
+// Words that the film shows for a while.
+struct FilmCaption {
+    double from = 0, to = 0;  // s of simulated time
+    std::string text;
+    double hold = 0;  // s of film that the picture stands still at the caption's beginning
+    bool operator==(const FilmCaption&) const = default;
+};
+// Whether it is there at that simulated time, s; a frame that is early by rounding counts as there.
+inline bool shows_caption(const FilmCaption& caption, double time) {
+    constexpr double rounding = 1e-9;
+    return time >= caption.from - rounding && time < caption.to - rounding;
+}
+
 // Where the camera is at one moment of the film; what is left empty follows from the other keys.
 struct CameraKey {
     double time = 0;  // s of film
@@ -274,6 +306,7 @@ struct Film {
     double rate = 30;   // frames a second of film
     std::string title;  // shown on the frame
     std::vector<FilmSegment> segments;
+    std::vector<FilmCaption> captions;  // by rising time; none over another
     int periods = 0;  // of the drive, that locked frames, displacements and means go by; 0: as the bed does
     Camera camera;
     Colour background{1, 1, 1};

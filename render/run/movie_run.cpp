@@ -67,7 +67,8 @@ void MovieRun::describe() {
     std::vector<std::string> warnings = run_.plan().warnings;
     if (wants_pictures()) {
         for (const std::vector<std::string>& found :
-             {pace_warnings(scene, run_.plan().clock), strobe_warnings(scene.film, scene.drive),
+             {pace_warnings(scene, run_.plan().clock),
+              strobe_warnings(scene.film, scene.drive, scene.run.duration),
               film_warnings(scene, static_cast<std::int64_t>(pictures_.instants.size()))})
             warnings.insert(warnings.end(), found.begin(), found.end());
     }
@@ -126,7 +127,7 @@ void MovieRun::show_progress() {
     progress.end = plan.clock.time(plan.steps);
     progress.particle_steps_per_second = run_.recent_speed();
     progress.frames = film_ ? film_->frames_done() : 0;
-    progress.frames_planned = pictures_planned_;
+    progress.frames_planned = frames_planned_;
     progress.elapsed = watch_.seconds();
     const double vibrating = vibrating_->seconds();
     if (progress.done > 0 && vibrating > 1)

@@ -91,8 +91,10 @@ void SceneRun::start(const Pictures& pictures) {
     bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
     files_.emplace(folder_->folder(), scene_, plan_, simulation_, program_version_);
     want_moments(shots);
-    agenda_.emplace(shots, plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
-                    kept_.steps(), bed_periods_->every(), files_->has_fields() ? &plan_.fields : nullptr);
+    agenda_.emplace(shots, Rhythm(plan_.trajectory_every, plan_.trajectory_periods),
+                    Rhythm(plan_.measures_every, plan_.measures_periods), first_step_, plan_.steps,
+                    kept_.steps(), bed_periods_->rhythm(), plan_.clock,
+                    files_->has_fields() ? &plan_.fields : nullptr);
     // As far as one knows: what a bed of several periods leaves out is found later.
     shots_ = std::count_if(shots.begin(), shots.end(), [&](const Shot& shot) {
         const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));

@@ -173,6 +173,7 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
                  "law = \"spring-dashpot\"\nnormal_damping = 100\ntangential_damping = 50"));
     take(walton + "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n");
     take(walton + "[[feed]]\nrate = 5\ncount = 3\nuntil = 1\n");
+    take(walton + "[[drive.stage]]\nfrom = 0\nkind = \"taps\"\ninterval = 0.1\n");
 
     const auto compared = deciding_differences("", all);
     const auto is_compared = [&](const std::string& key) {
@@ -181,8 +182,8 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
         });
     };
     // What the plan or the reader turns into other keys.
-    const std::vector<std::string> turned = {"drive.g_level", "species[].mass", "run.steps_per_contact",
-                                             "container.floor_width"};
+    const std::vector<std::string> turned = {"drive.g_level", "drive.stage[].g_level", "species[].mass",
+                                             "run.steps_per_contact", "container.floor_width"};
     for (const Key& key : scene_keys()) {
         if (!decides_future(key.path)) continue;
         if (find_key(key.path.substr(0, key.path.rfind('.'))) != nullptr) continue;  // a part of a value

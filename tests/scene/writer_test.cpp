@@ -20,9 +20,11 @@ Scene filled_in(Scene scene, const Plan& plan) {
     for (std::size_t i = 0; i < count; ++i) scene.contact.wall[i].stiffness = stiffness(plan.wall[i]);
     scene.run.step = plan.clock.step;
     scene.run.steps_per_contact.reset();
-    if (scene.output.trajectory)
+    // A drive that changes has its records by periods, which no interval can say.
+    if (scene.output.trajectory && plan.trajectory_periods == 0)
         scene.output.trajectory_interval = static_cast<double>(plan.trajectory_every) * plan.clock.step;
-    scene.output.measures_interval = static_cast<double>(plan.measures_every) * plan.clock.step;
+    if (plan.measures_periods == 0)
+        scene.output.measures_interval = static_cast<double>(plan.measures_every) * plan.clock.step;
     return scene;
 }
 

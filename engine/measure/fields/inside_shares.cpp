@@ -42,7 +42,7 @@ std::vector<Face> upright_faces(const Scene& scene) {
     std::erase_if(faces, [](const Face& f) { return f.kind != Face::Kind::plane || f.normal.x() != 0; });
     if (scene.drive.present && scene.drive.moves == Drive::Moves::floor)
         for (Face& face : faces)
-            if (face.name == "floor") face.point -= scene.drive.amplitude * Vec3(0, 0, 1);
+            if (face.name == "floor") face.point -= scene.drive.largest_amplitude() * Vec3(0, 0, 1);
     return faces;
 }
 

@@ -13,6 +13,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/outlet_keys.hpp"
+#include "engine/scene/drive/stage_keys.hpp"
 #include "engine/scene/film/measure_columns.hpp"
 #include "engine/scene/keys/key_path.hpp"
 
@@ -173,8 +174,10 @@ void check_gravity(const Scene& scene) {
 
 void check_drive(const Scene& scene) {
     const Drive& drive = scene.drive;
-    if (!drive.present || drive.moves == Drive::Moves::container) return;
-    const double stroke = 2 * drive.amplitude * std::abs(drive.direction.z());
+    if (!drive.present) return;
+    check_stages(scene);
+    if (drive.moves == Drive::Moves::container) return;
+    const double stroke = 2 * drive.largest_amplitude() * std::abs(drive.direction.z());
     if (stroke >= scene.container.height)
         fail(scene, "drive.moves",
              fmt::format(

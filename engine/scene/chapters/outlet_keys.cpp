@@ -112,7 +112,7 @@ void check_outlet(const Scene& scene) {
              fmt::format(
                  "of {:.6g} m lets no grain of \"{}\" pass, which is up to {:.6g} m wide; widen the outlet",
                  wide, big.name, largest));
-    const double stroke = 2 * scene.drive.amplitude * std::abs(scene.drive.direction.z());
+    const double stroke = 2 * scene.drive.largest_amplitude() * std::abs(scene.drive.direction.z());
     const double least = stroke + 0.5 * largest;
     if (c.outlet->exit_depth < least)
         fail(scene, "exit_depth",

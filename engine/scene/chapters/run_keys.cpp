@@ -145,8 +145,8 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     run_table().write(out, scene, run);
 
     Output output = scene.output;
-    output.trajectory_interval = static_cast<double>(plan.trajectory_every) * plan.clock.step;
-    output.measures_interval = static_cast<double>(plan.measures_every) * plan.clock.step;
+    if (plan.trajectory_periods == 0) output.trajectory_interval = plan.trajectory_every * plan.clock.step;
+    if (plan.measures_periods == 0) output.measures_interval = plan.measures_every * plan.clock.step;
     out.table("output");
     output_table().write(out, scene, output);
     write_fields(out, scene);

@@ -53,9 +53,9 @@ const KeyTable<FilmPlot>& plot_table() {
 
 // A grain's diameter in five periods is a fast circulation.
 void usual_speed(FilmArrows& arrows, const Scene& scene) {
-    arrows.speed = arrows.period
-                       ? 0.1 * usual_range(GrainValue::displacement, scene)[1] * 2 * scene.drive.frequency
-                       : usual_range(GrainValue::speed, scene)[1];
+    arrows.speed = arrows.period ? 0.1 * usual_range(GrainValue::displacement, scene)[1] * 2 *
+                                       scene.drive.highest_frequency()
+                                 : usual_range(GrainValue::speed, scene)[1];
 }
 
 const KeyTable<FilmArrows>& arrow_table() {

@@ -9,9 +9,17 @@
 #include "render/cli/estimate/cost_estimate.hpp"
 #include "render/cli/estimate/disk_estimate.hpp"
 #include "render/film/codec/codec.hpp"
+#include "render/film/files/film_limits.hpp"
+#include "render/film/production/caption_holds.hpp"
 
 namespace grainreel {
 namespace {
+
+// Of records: how often they come.
+std::string interval_text(double periods, double steps, const Plan& plan) {
+    if (periods > 0) return periods == 1 ? "period" : fmt::format("{:.3g} periods", periods);
+    return span_text(steps * plan.clock.step);
+}
 
 constexpr double engine_bytes_a_grain = 600;
 constexpr double bytes_a_pixel = 122;  // from the renderer to the encoder, and what those keep themselves
@@ -34,11 +42,14 @@ std::int64_t frames_of(const std::vector<SegmentCount>& film) {
 }
 
 void print_files(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {
-    const std::int64_t pictures = frames_of(film);
-    const DiskEstimate disk = estimate_disk(scene, plan, pictures);
+    const std::int64_t pictures = frames_of(film), held = held_frames(scene.film);
+    const DiskEstimate disk = estimate_disk(scene, plan, pictures + held);
     list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {} frames, plays for {}", scene.film.width,
-                                  scene.film.height, scene.film.rate, pictures,
-                                  span_text(static_cast<double>(pictures) / scene.film.rate)));
+                                  scene.film.height, scene.film.rate, pictures + held,
+                                  span_text(static_cast<double>(pictures + held) / scene.film.rate)));
+    if (held > 0)
+        list.line("", fmt::format("{} of that it stands still for captions",
+                                  span_text(static_cast<double>(held) / scene.film.rate)));
     for (const FilmSegment& segment : scene.film.segments)
         list.line("", fmt::format("{}: {}", segment.duration ? span_text(*segment.duration) : "the rest",
                                   playback_caption(played(segment, scene.film.rate, plan.clock), scene.drive,
@@ -52,9 +63,10 @@ void print_files(const Scene& scene, const Plan& plan, const std::vector<Segment
     if (disk.trajectory_frames > 0)
         list.line("", fmt::format("trajectory {}, {} frames, one every {}", data_size_text(disk.trajectory),
                                   grouped(disk.trajectory_frames),
-                                  span_text(plan.trajectory_every * plan.clock.step)));
+                                  interval_text(plan.trajectory_periods, plan.trajectory_every, plan)));
     list.line("", fmt::format("measures {}, {} rows, one every {}", data_size_text(disk.measures),
-                              grouped(disk.measures_rows), span_text(plan.measures_every * plan.clock.step)));
+                              grouped(disk.measures_rows),
+                              interval_text(plan.measures_periods, plan.measures_every, plan)));
 }
 
 void print_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {

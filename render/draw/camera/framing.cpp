@@ -5,6 +5,7 @@
 
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 #include "render/draw/container/drawing_kit.hpp"
 #include "render/draw/container/lab_marks.hpp"
 
@@ -25,7 +26,7 @@ double room_above(const Scene& scene) {
     const double gravity = scene.gravity.norm();
     if (container.shape == Container::Shape::none || container.lid || !scene.drive.present || gravity <= 0)
         return 0;
-    const double thrown = 2 * scene.drive.speed() * upward(scene);
+    const double thrown = 2 * drive_peaks(scene.drive).speed * upward(scene);
     const double highest = fill_height(scene, 0.55) + thrown * thrown / (2 * gravity);
     return std::clamp(highest - container.height, 0.0, 0.5 * container.height);
 }
@@ -40,7 +41,7 @@ bool looks_steeply(const Camera& camera) {
 // m above the floor's rest position, as drawn.
 std::optional<double> wanted_top(const Scene& scene) {
     const Camera& camera = scene.film.camera;
-    const double stroke = scene.drive.present ? scene.drive.amplitude * upward(scene) : 0;
+    const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset * upward(scene) : 0;
     if (camera.frame == CameraFrame::bed) {
         const std::optional<double> rest = resting_top(scene);
         return rest ? std::optional(*rest + scene.film.exaggerate * stroke) : std::nullopt;

@@ -71,7 +71,7 @@ constexpr double least_frames_a_period = 8;
 double apparent_frequency(double frequency, double frames);
 
 // One line for each segment that shows fewer frames a period than that without being locked, with the
-// apparent frequency.
-std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive);
+// apparent frequency. duration: s, of the run.
+std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive, double duration);
 
 }  // namespace grainreel

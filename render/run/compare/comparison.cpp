@@ -169,7 +169,7 @@ void take_moments_of_schedule(Comparison& all) {
     std::set<double> frequencies;
     for (const Scene& scene : scenes) {
         if (!scene.drive.present || !frequencies.insert(scene.drive.frequency).second) continue;
-        for (std::string& strobe : strobe_warnings(all.film.film, scene.drive))
+        for (std::string& strobe : strobe_warnings(all.film.film, scene.drive, scene.run.duration))
             all.warnings.push_back(std::move(strobe));
     }
     if (frequencies.size() > 1)

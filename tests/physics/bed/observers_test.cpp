@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -61,6 +63,9 @@ struct Bed {
         scene.container.depth = 8;
         scene.container.height = 20;
         scene.drive.direction = {0, 0, 1};
+        scene.drive.present = true;
+        scene.drive.frequency = 100;
+        scene.drive.amplitude = 1e-4;
         grains.add(0, 0, {0, -1, 2}, 1, 1);
         grains.add(2, 1, {0, 0, 5}, 2, 1);
         grains.add(1, 0, {0, 1, 2}, 1, 1);
@@ -273,6 +278,8 @@ TEST(Observers, GiveEveryColumnOfThreeGrains) {
         {"largest_overlap", 0.03},
         {"floor_position_m", 0.5},
         {"bed_periods", 1},
+        {"drive_frequency_Hz", 100},
+        {"drive_g_level", 1e-4 * std::pow(2 * std::numbers::pi * 100, 2) / 10},
         {"bed_top_m", 1.5},
         // The lower halves of the small grains reach up to there.
         {"bed_solid_fraction", small / (12 * 8 * 1.5)}};

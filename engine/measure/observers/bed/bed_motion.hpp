@@ -52,7 +52,7 @@ class BedMotion final : public Observer {
         const std::optional<Flight::Times> last = flight_.last();
         if (!last) return add_no_values(row, 3);
         row.insert(row.end(), {m.clock.phase(last->from), m.clock.phase(last->to),
-                               m.clock.cycles(last->to - last->from)});
+                               m.clock.cycles(last->to) - m.clock.cycles(last->from)});
     }
     void save(std::ostream& out) const override {
         const Writing each{out};

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "engine/measure/bed/intruder.hpp"
-#include "engine/measure/first_multiple.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
+#include "engine/measure/rows.hpp"
 
 namespace grainreel::observers {
 
@@ -25,9 +25,9 @@ class Intruder final : public Observer {
              "s",
              "when `intruder_level` first reached 1; NaN until then"}};
     }
-    Intruder(const Scene&, const Plan& plan) : every_(plan.measures_every) {}
+    Intruder(const Scene&, const Plan& plan) : rows_(plan) {}
 
-    std::int64_t gathers_after(std::int64_t step) const override { return first_multiple(every_, step + 1); }
+    std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
     void start(const Moment& m) override { gather(m); }
     void gather(const Moment& m) override {
         if (std::isnan(rise_time_) && height_at(m) >= 1) rise_time_ = m.clock.time(m.step);
@@ -47,7 +47,7 @@ class Intruder final : public Observer {
         return intruder ? intruder_height(m.scene, m.grains, *intruder, m.floor_height()) : kNoValue;
     }
 
-    const double every_;           // steps
+    const Rows rows_;
     double rise_time_ = kNoValue;  // s
 };
 

@@ -1,11 +1,13 @@
 // Convection: how the bed drifts at its walls and in its middle, and how it turns.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "engine/measure/flow/drift.hpp"
 #include "engine/measure/observer.hpp"
+#include "engine/measure/rows.hpp"
 
 namespace grainreel::observers {
 
@@ -48,17 +50,18 @@ class Convection final : public Observer {
         }
         return {rise, roll, centre};
     }
-    Convection(const Scene& scene, const Plan& plan) : period_(plan.clock.steps_per_period), drift_(scene) {}
+    Convection(const Scene& scene, const Plan& plan)
+        : shaken_(plan.clock.steps_per_period > 0), clock_(plan.clock), drift_(scene) {}
 
     std::int64_t gathers_after(std::int64_t step) const override {
-        if (period_ == 0) return kNever;
-        const std::int64_t window = Drift::kPeriods * period_;
-        return (step + window) / window * window;
+        return shaken_ ? windows_.next(step + 1, clock_) : kNever;
     }
     void start(const Moment& m) override {
-        if (m.step % (Drift::kPeriods * period_) == 0) gather(m);
+        if (windows_.next(m.step, clock_) == m.step) gather(m);
     }
-    void gather(const Moment& m) override { drift_.note(m.step / period_, m.grains, m.pose); }
+    void gather(const Moment& m) override {
+        drift_.note(std::llround(clock_.cycles(m.step)), m.grains, m.pose);
+    }
     void look(const Moment&, std::vector<double>& row) override {
         for (const auto zone : {Drift::at_left_wall, Drift::in_middle, Drift::at_right_wall})
             add(row, drift_.rise(zone));
@@ -77,7 +80,9 @@ class Convection final : public Observer {
         row.insert(row.end(), {estimate.mean, estimate.error});
     }
 
-    const std::int64_t period_;  // steps; 0 without a drive
+    const Rhythm windows_{0, Drift::kPeriods};  // of periods of the drive
+    const bool shaken_;
+    const Clock clock_;
     Drift drift_;
 };
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/measure/first_multiple.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
+#include "engine/measure/rows.hpp"
 
 namespace grainreel::observers {
 
@@ -32,9 +32,9 @@ class Outflow final : public Observer {
         return groups;
     }
 
-    Outflow(const Scene&, const Plan& plan) : every_(plan.measures_every) {}
+    Outflow(const Scene&, const Plan& plan) : rows_(plan) {}
 
-    std::int64_t gathers_after(std::int64_t step) const override { return first_multiple(every_, step + 1); }
+    std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
     void start(const Moment& m) override {
         at_start_ = masses(m);
         before_ = last_ = {m.step, 0};
@@ -89,7 +89,7 @@ class Outflow final : public Observer {
     }
     double left(const Moment& m) const { return total(at_start_) - total(masses(m)); }
 
-    const double every_;            // steps
+    const Rows rows_;
     std::vector<double> at_start_;  // kg, by species
     Noted before_, last_;           // at the last two rows
     double emptied_ = kNoValue;     // s

@@ -6,9 +6,9 @@
 #include <deque>
 #include <optional>
 
-#include "engine/measure/first_multiple.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
+#include "engine/measure/rows.hpp"
 #include "engine/measure/surface/mound.hpp"
 #include "engine/measure/surface/spectrum.hpp"
 #include "engine/measure/surface/subharmonics.hpp"
@@ -45,17 +45,15 @@ class BedSurface final : public Observer {
              "tangent of the mean rise from both walls to the middle"},
             {{{"surface_tilt", "tilt of the surface"}}, "1", "tangent of the rise from left to right"}};
     }
-    BedSurface(const Scene& scene, const Plan& plan)
-        : every_(plan.measures_every), frame_(surface_frame(scene)) {}
+    BedSurface(const Scene& scene, const Plan& plan) : rows_(plan), frame_(surface_frame(scene)) {}
 
-    std::int64_t gathers_after(std::int64_t step) const override { return first_multiple(every_, step + 1); }
+    std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
     void start(const Moment& m) override { gather(m); }
     // The surfaces of all rows of the last periods.
     void gather(const Moment& m) override {
-        const std::int64_t period = m.clock.steps_per_period;
-        if (period == 0 || !has_surface(m)) return;
+        if (m.clock.steps_per_period == 0 || !has_surface(m)) return;
         earlier_.push_back({m.step, surface_at(m).height});
-        while (earlier_.front().step <= m.step - kComparedPeriods * period) earlier_.pop_front();
+        while (periods_since(m, earlier_.front()) >= kComparedPeriods - kHair) earlier_.pop_front();
     }
     void look(const Moment& m, std::vector<double>& row) override {
         if (!has_surface(m)) return add_no_values(row, 8);
@@ -97,6 +95,11 @@ class BedSurface final : public Observer {
         std::vector<double> height;  // m
     };
 
+    static constexpr double kHair = 1e-3;  // of a period: rows are whole steps
+
+    static double periods_since(const Moment& m, const Earlier& earlier) {
+        return m.clock.cycles(m.step) - m.clock.cycles(earlier.step);
+    }
     bool has_surface(const Moment& m) const { return frame_.right > frame_.left && m.grains.size() > 0; }
     Surface surface_at(const Moment& m) const {
         SurfaceFrame frame = frame_;
@@ -106,19 +109,20 @@ class BedSurface final : public Observer {
     }
     // NaN until as many periods have been seen at this phase, and where rows do not come whole periods apart.
     Subharmonics compare_with_earlier(const Moment& m, const std::vector<double>& height) const {
-        const std::int64_t period = m.clock.steps_per_period;
-        if (period == 0) return {kNoValue, kNoValue};
+        if (m.clock.steps_per_period == 0) return {kNoValue, kNoValue};
         std::vector<const std::vector<double>*> same_phase;
-        for (const Earlier& earlier : earlier_)
-            if (earlier.step < m.step && earlier.step > m.step - kComparedPeriods * period &&
-                (m.step - earlier.step) % period == 0)
+        for (const Earlier& earlier : earlier_) {
+            const double periods = periods_since(m, earlier);
+            if (earlier.step < m.step && periods < kComparedPeriods - kHair &&
+                std::abs(periods - std::round(periods)) < kHair)
                 same_phase.push_back(&earlier.height);
+        }
         same_phase.push_back(&height);
         if (same_phase.size() != kComparedPeriods) return {kNoValue, kNoValue};
         return subharmonics_of(same_phase);
     }
 
-    const double every_;  // steps
+    const Rows rows_;
     const SurfaceFrame frame_;
     std::optional<Spectrum> spectrum_;
     std::deque<Earlier> earlier_;  // by rising step

@@ -10,8 +10,8 @@
 
 #include <limits>
 
-#include "engine/measure/first_multiple.hpp"
 #include "engine/measure/observer.hpp"
+#include "engine/measure/rows.hpp"
 #include "engine/measure/wall_faces.hpp"
 
 namespace grainreel::observers {
@@ -36,11 +36,11 @@ class WallForces final : public Observer {
         return groups;
     }
 
-    WallForces(const Scene& scene, const Plan& plan) : every_(plan.measures_every), profile_(scene) {}
+    WallForces(const Scene& scene, const Plan& plan) : rows_(plan), profile_(scene) {}
 
     bool needs_wall_sums() const override { return true; }
     const FieldSet* fields() const override { return &profile_.fields(); }
-    std::int64_t gathers_after(std::int64_t step) const override { return first_multiple(every_, step + 1); }
+    std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
 
     void start(const Moment& m) override {
         last_ = before_ = {m.step, m.wall_sums->faces};
@@ -122,7 +122,7 @@ class WallForces final : public Observer {
         return counts;
     }
 
-    double every_;  // steps
+    const Rows rows_;
     PressureProfile profile_;
     std::int64_t begin_ = 0;       // step
     std::vector<WideInt> slices_;  // at that step
