@@ -124,7 +124,8 @@ class Inspect final : public Verb {
         if (at_) return near_kept(record, *at_, "--at");
         if (!cycle_) return record.moments().size() - 1;
         if (!record.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
-        return near_kept(record, (*cycle_ + phase_) / record.scene().drive.frequency, "--cycle");
+        const Clock& clock = record.clock();
+        return near_kept(record, clock.time(clock.step_at(*cycle_ + phase_)), "--cycle");
     }
 
     static std::size_t near_kept(const RecordedRun& record, double time, const char* option) {
