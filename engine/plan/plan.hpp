@@ -74,7 +74,7 @@ struct Plan {
 
     // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.
     double trajectory_every = 0, measures_every = 0;
-    FieldTimes fields;                  // when fields are looked at, if there are any
+    FieldTimes fields;  // when fields are looked at, if there are any
     // The greatest number of grains that there will ever be, those that have left counted; and whether any
     // may leave or come.
     std::int64_t capacity = 0;

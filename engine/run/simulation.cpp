@@ -17,8 +17,8 @@
 #include "engine/measure/health.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
-#include "engine/run/feeder.hpp"
 #include "engine/measure/wall_faces.hpp"
+#include "engine/run/feeder.hpp"
 #include "engine/run/surroundings.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
@@ -423,7 +423,8 @@ void Simulation::save_checkpoint(const std::filesystem::path& path) const {
         header.wall_offset = m.around.motion.at(m.step).offset;
         header.wall_velocity = m.around.motion.at(m.step).velocity;
     }
-    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.gathered(), m.feeder.given());
+    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.gathered(),
+                               m.feeder.given());
 }
 
 }  // namespace grainreel

@@ -22,8 +22,8 @@ struct CheckpointHeader {
 };
 
 // Everything that decides the future, the scene among it, to a temporary name, then renamed. gathered: what
-// observers have gathered (Observers::save), which decides nothing. given: how many grains each feed has given.
-// Throws RunError when it cannot be written.
+// observers have gathered (Observers::save), which decides nothing. given: how many grains each feed has
+// given. Throws RunError when it cannot be written.
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
                      const std::string& gathered, const std::vector<std::int64_t>& given = {});
