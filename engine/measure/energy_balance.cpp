@@ -68,7 +68,8 @@ void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
 }
 
 // What a tangential spring still held when its contact parted goes to friction. Where a grain has left, or
-// an outlet has opened below it, it went out with that. Rising keys make the sum the same whatever the map has been through.
+// an outlet has opened below it, it went out with that. Rising keys make the sum the same whatever the map
+// has been through.
 void EnergyBalance::end_contacts(std::int64_t step) {
     ended_.clear();
     for (const auto& [key, kept] : contacts_)
