@@ -11,7 +11,7 @@ namespace grainreel::observers {
 // f, and Gamma = a (2 pi f)^2 / g; in a change those of the moment.
 class DriveNow final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"drive_frequency_Hz", "drive frequency", Dimension::frequency}},
                  "Hz",
                  "of the stage that is on, of a tap 1 over how long it lasts; 0 at rest and without a drive"},

@@ -17,10 +17,6 @@ constexpr std::int64_t means_a_period = 16;
 constexpr double rounding_of_cycles = 1e-9;
 constexpr double longest_exposure = 9e15;  // steps; up to there a double counts exactly
 
-std::vector<FilmSegment> segments_of(const Film& film) {
-    return film.segments.empty() ? std::vector<FilmSegment>(1) : film.segments;
-}
-
 // Ends of the segments in simulated time, s; none beyond `total`.
 std::vector<double> segment_ends(const std::vector<FilmSegment>& segments, double total) {
     double given = 0;
@@ -204,6 +200,10 @@ std::string span_words(const FilmSegment& segment) {
 }
 
 }  // namespace
+
+std::vector<FilmSegment> segments_of(const Film& film) {
+    return film.segments.empty() ? std::vector<FilmSegment>(1) : film.segments;
+}
 
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate) {
     return pace_words(segment, drive, film_rate) + span_words(segment);
