@@ -16,10 +16,11 @@ struct Shot {
     int segment = 0;
 };
 
-// What a frame's caption says of time: "real time", "slow motion, 1/10 speed" or
-// "1 frame a period at phase 0.25 (plays 1.5×)". UTF-8.
 // The segments of a film; the usual one where the scene has none.
 std::vector<FilmSegment> segments_of(const Film& film);
+
+// What a frame's caption says of time: "real time", "slow motion, 1/10 speed" or
+// "1 frame a period at phase 0.25 (plays 1.5×)". UTF-8.
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate);
 
 // How a segment plays where it asks for frames closer than the steps: with one frame a step.
