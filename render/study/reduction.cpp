@@ -44,13 +44,13 @@ Rows finite_rows(const Rows& all) {
 
 }  // namespace
 
-double mean_of(const std::vector<double>& values) {
+double mean_of_values(const std::vector<double>& values) {
     if (values.empty()) return nan;
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 double slope_of(const std::vector<double>& times, const std::vector<double>& values) {
-    const double mean_time = mean_of(times), mean_value = mean_of(values);
+    const double mean_time = mean_of_values(times), mean_value = mean_of_values(values);
     double products = 0, squares = 0;
     for (std::size_t i = 0; i < times.size(); ++i) {
         products += (times[i] - mean_time) * (values[i] - mean_value);
@@ -82,7 +82,7 @@ double reduce(const Reduction& how, const std::vector<double>& times, const std:
     const Rows rows = finite_rows(all);
     switch (how.kind) {
         case Reduction::Kind::mean:
-            return mean_of(rows.values);
+            return mean_of_values(rows.values);
         case Reduction::Kind::slope:
             return slope_of(rows.times, rows.values);
         case Reduction::Kind::crossing:

@@ -103,7 +103,7 @@ TEST_F(StudyVerb, RunsReducesAndCharts) {
         const auto measures = read_measures(member / "measures.csv");
         const auto at = std::find(measures->columns().begin(), measures->columns().end(), "kinetic_J");
         const auto column = static_cast<std::size_t>(at - measures->columns().begin());
-        EXPECT_EQ(std::stod(rows[i][3]), mean_of(measures->values(column, 0, measures->rows())));
+        EXPECT_EQ(std::stod(rows[i][3]), mean_of_values(measures->values(column, 0, measures->rows())));
     }
     EXPECT_NE(rows[1][3], rows[2][3]) << "seeds";
     for (const char* file :

@@ -43,7 +43,7 @@ Spectrum& Spectrum::operator=(Spectrum&&) noexcept = default;
 DominantWave Spectrum::dominant(const std::vector<double>& heights, double width) {
     const std::size_t bins = plan_->bins;
     GRAINREEL_CHECK(heights.size() == bins);
-    const double mean = mean_of(heights), variance = variance_of(heights);
+    const double mean = mean_height_of(heights), variance = variance_of(heights);
     for (std::size_t j = 0; j < bins; ++j) plan_->in[j] = heights[j] - mean;
     fftw_execute(plan_->plan);
     std::size_t dominant = 0;
@@ -57,12 +57,12 @@ DominantWave Spectrum::dominant(const std::vector<double>& heights, double width
     return {2 * width / static_cast<double>(dominant), 2 * largest / (count * count * variance)};
 }
 
-double mean_of(const std::vector<double>& heights) {
+double mean_height_of(const std::vector<double>& heights) {
     return std::accumulate(heights.begin(), heights.end(), 0.0) / static_cast<double>(heights.size());
 }
 
 double variance_of(const std::vector<double>& heights) {
-    const double mean = mean_of(heights);
+    const double mean = mean_height_of(heights);
     double sum = 0;
     for (const double h : heights) sum += (h - mean) * (h - mean);
     return sum / static_cast<double>(heights.size());

@@ -32,7 +32,7 @@ class Spectrum {
     std::unique_ptr<Plan> plan_;
 };
 
-double mean_of(const std::vector<double>& heights);
+double mean_height_of(const std::vector<double>& heights);
 double variance_of(const std::vector<double>& heights);  // about their mean
 
 }  // namespace grainreel

@@ -14,7 +14,7 @@ Subharmonics subharmonics_of(const std::vector<const std::vector<double>*>& surf
     std::vector<double> mean;
     for (const std::vector<double>* const h : surfaces) {
         GRAINREEL_CHECK(h->size() == bins);
-        mean.push_back(mean_of(*h));
+        mean.push_back(mean_height_of(*h));
     }
     double power = 0, half = 0, quarter = 0;
     for (std::size_t j = 0; j < bins; ++j) {

@@ -113,7 +113,7 @@ void fill_gaps(std::vector<double>& height) {
 }  // namespace
 
 double Surface::mean() const {
-    return mean_of(height);
+    return mean_height_of(height);
 }
 
 std::size_t bins_across(const SurfaceFrame& frame) {
