@@ -95,7 +95,7 @@ SeedMean over_seeds(const std::vector<BedRow>& rows, const std::string& setting,
     std::vector<double> values;
     for (const BedRow& row : rows)
         if (row.setting == setting) values.push_back(row.result.*quantity);
-    return mean_of(values);
+    return seed_mean_of(values);
 }
 
 }  // namespace
