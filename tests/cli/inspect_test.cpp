@@ -176,7 +176,9 @@ TEST(Questions, ThePairDistributionOfALatticeHasItsShells) {
         if (std::holds_alternative<std::monostate>(row[2]) || to > 1.9 * d) break;
         const double here =
             number(row[2]) * density * 4.0 / 3.0 * 3.141592653589793 * (std::pow(to, 3) - std::pow(from, 3));
-        if (to < 0.99 * d) EXPECT_EQ(here, 0);
+        if (to < 0.99 * d) {
+            EXPECT_EQ(here, 0);
+        }
         partners += here;
     }
     EXPECT_NEAR(partners, 6 + 12 + 8, 1e-9);

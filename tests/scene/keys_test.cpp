@@ -64,8 +64,6 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string outlet =
         with(wedge_text, "height = \"180 mm\"\n", "height = \"180 mm\"\noutlet = { width = \"20 mm\" }\n");
     const std::string fed = wedge_text + "[[feed]]\nrate = 10\n";
-    const std::string cases[] = {wedge_text, box,    locked, motion, from_file,
-                                 exact,      layers, fields, outlet, fed};
     const std::string staged = wedge_text + "[[drive.stage]]\nfrom = 1\n";
     const std::string captioned = wedge_text + "[[film.caption]]\nfrom = 1\ntext = \"a\"\n";
     const std::string cases[] = {wedge_text, box,    locked, motion, from_file, exact,
