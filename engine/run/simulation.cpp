@@ -179,6 +179,11 @@ void Simulation::Impl::set_orientations() {
 bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgress& progress) {
     grains = place_in_layers(scene);
     set_orientations();
+    if (grains.size() == 0) {  // all that there will be are fed
+        make_loop();
+        loop->restart();
+        return true;
+    }
     const GrowthReport growth =
         grow_radii(scene, plan, around, grains, team, [&](double done, std::int64_t steps) {
             progress.done = done;

@@ -34,7 +34,7 @@ depth = "18 mm"
 height = "40 mm"
 [start]
 method = "rain"
-settle_limit = "0.3 s"
+settle_limit = "1 s"
 [run]
 duration = "0.1 s"
 )";
@@ -87,7 +87,7 @@ TEST(Rain, HasTheSameBitsOnAnyNumberOfThreads) {
 
 TEST(Rain, EndsWithWhatToDoWhereThereIsNoRoom) {
     const Scene scene =
-        scene_of({"container.height=15.1 mm", "species.small.count=340", "start.rain_rate=20000"});
+        scene_of({"container.height=15.1 mm", "species.small.count=410", "start.rain_rate=20000"});
     Simulation run(scene, make_plan(scene), 1);
     try {
         run.pack();

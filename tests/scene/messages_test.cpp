@@ -408,7 +408,7 @@ TEST(Messages, CommandLine) {
     EXPECT_EQ(complaint(wedge_text, {"foo.bar=3"}),
               "--set foo.bar: unknown key 'foo' at the top level; the keys there are title, gravity, "
               "species, contact, "
-              "container, wall, grain, drive, start, run, output, film");
+              "container, wall, grain, drive, start, run, output, film, feed");
     EXPECT_EQ(complaint(wedge_text, {"drive.frequency"}),
               "--set drive.frequency: no assignment; write --set drive.frequency=\"30 Hz\"");
     EXPECT_EQ(complaint(wedge_text, {"species[2].count=3"}),
