@@ -316,8 +316,15 @@ void ExpressionParser::want_truth(std::size_t node, std::size_t start) const {
 void ExpressionParser::want_alike(std::size_t left, std::size_t right, std::size_t start) const {
     const ValueType &a = type(left), &b = type(right);
     if (a.kind == b.kind && same_powers(a.powers, b.powers)) return;
+    // 0 needs no unit.
+    if (a.kind == Kind::number && b.kind == Kind::number && (is_zero(left) || is_zero(right))) return;
     fail(start, fmt::format("{} and {} do not go together{}", noun_of(a), noun_of(b),
                             is_plain(b.powers) && a.kind == b.kind ? "; write a unit after the number" : ""));
+}
+
+bool ExpressionParser::is_zero(std::size_t node) const {
+    const auto& it = into_.nodes_[node];
+    return it.op == Op::constant && it.value == 0 && is_plain(it.type.powers);
 }
 
 void ExpressionParser::skip_spaces() {

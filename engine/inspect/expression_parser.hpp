@@ -44,6 +44,7 @@ class ExpressionParser {
     const ValueType& type(std::size_t node) const { return into_.nodes_[node].type; }
     void want_number(std::size_t node, std::size_t start) const;
     void want_truth(std::size_t node, std::size_t start) const;
+    bool is_zero(std::size_t node) const;  // a plain 0
     void want_alike(std::size_t left, std::size_t right, std::size_t start) const;
 
     void skip_spaces();

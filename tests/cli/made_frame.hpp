@@ -41,9 +41,13 @@ inline Measures made_measures(int number, const std::vector<std::string>& specie
     std::vector<double> values;
     Scene scene;
     for (const std::string& name : species) scene.species.emplace_back().name = name;
-    for (const MeasureColumn& column : measure_columns(scene)) {
-        values.push_back(std::sin(number + static_cast<double>(names.size())) * 1e-7);
-        names.push_back(column.name);
+    for (const ObserverEntry& observer : all_observers()) {
+        if (observer.instrument != nullptr || observer.wanted != nullptr) continue;
+        for (const ColumnGroup& group : observer.columns(scene))
+            for (const MeasureColumn& column : group.columns) {
+                values.push_back(std::sin(number + static_cast<double>(names.size())) * 1e-7);
+                names.push_back(column.name);
+            }
     }
     Measures measures(std::make_shared<const std::vector<std::string>>(names), values);
     measures.set("step", number);
