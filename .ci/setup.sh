@@ -19,6 +19,7 @@ libudunits2-dev      udunits2, with its XML database
 libxxhash-dev        libxxhash
 libhwy-dev           libhwy (Highway)
 libnetcdf-dev        netcdf
+libfftw3-dev         fftw3
 libpng-dev           libpng
 libdeflate-dev       libdeflate
 libpango1.0-dev      pangocairo, pangoft2, cairo
@@ -35,6 +36,8 @@ gnuplot-nox          gnuplot, for ./movie chart
 test_packages="
 libgtest-dev         gtest
 libgmock-dev         gmock
+python3-xarray       xarray for Python, which reads fields.nc in a test
+python3-netcdf4      netCDF4 for Python
 "
 
 say() { printf '%s\n' "$*" >&2; }

@@ -1,6 +1,7 @@
 #include "engine/measure/energy_balance.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/measure/energy.hpp"
 
@@ -53,6 +54,7 @@ void EnergyBalance::note_traffic() {
         std::sort(present_.begin(), present_.end());
     }
     some_left_ = now.left != traffic_.left;
+    opened_ = now.openings != traffic_.openings;
     traffic_ = now;
     terms_.came = now.energy_in - came_at_start_;
     terms_.left = now.energy_out - left_at_start_;
@@ -65,18 +67,61 @@ void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
     kept = {step, c.latched_energy, c.sideways_energy, c.rubbing_power};
 }
 
-// What a tangential spring still held when its contact parted goes to friction. Where a grain has left, it
-// went with that.
+// What a tangential spring still held when its contact parted goes to friction. Where a grain has left, or
+// an outlet has opened below it, it went out with that. Rising keys make the sum the same whatever the map
+// has been through.
 void EnergyBalance::end_contacts(std::int64_t step) {
-    for (auto at = contacts_.begin(); at != contacts_.end();) {
-        const Kept& kept = at->second;
-        if (kept.step == step) {
-            ++at;
-            continue;
-        }
-        if (!some_left_ || are_there(at->first)) add_friction(half_step_ * kept.rubbing + kept.sideways);
-        at = contacts_.erase(at);
+    ended_.clear();
+    for (const auto& [key, kept] : contacts_)
+        if (kept.step != step) ended_.push_back(key);
+    std::sort(ended_.begin(), ended_.end());
+    for (const std::uint64_t key : ended_) {
+        const Kept& kept = contacts_.at(key);
+        const bool went_out = (some_left_ && !are_there(key)) || (opened_ && is_at_wall(key));
+        if (!went_out) add_friction(half_step_ * kept.rubbing + kept.sideways);
+        contacts_.erase(key);
     }
+}
+
+// Everything saved but the contacts, in its order.
+template <class Balance, class Each>
+void EnergyBalance::transfer(Balance& balance, const Each& each) {
+    each(balance.powers_.walls), each(balance.powers_.damping);
+    EnergyTerms::each(balance.terms_, each);
+    each(balance.held_at_start_), each(balance.work_at_start_);
+    each(balance.came_at_start_), each(balance.left_at_start_);
+    each(balance.traffic_);
+}
+
+void EnergyBalance::save(std::ostream& out) const {
+    std::vector<std::uint64_t> keys;
+    for (const auto& one : contacts_) keys.push_back(one.first);
+    std::sort(keys.begin(), keys.end());
+    std::vector<Kept> kept;
+    for (const std::uint64_t key : keys) kept.push_back(contacts_.at(key));
+    const Writing each{out};
+    each(keys), each(kept);
+    transfer(*this, each);
+}
+
+void EnergyBalance::load(Bytes& in) {
+    std::vector<std::uint64_t> keys;
+    std::vector<Kept> kept;
+    const Reading each{in};
+    each(keys), each(kept);
+    transfer(*this, each);
+    const auto finite = [](const Kept& one) {
+        return one.step >= 0 && std::isfinite(one.latched) && std::isfinite(one.sideways) &&
+               std::isfinite(one.rubbing);
+    };
+    bool sound = keys.size() == kept.size() && std::is_sorted(keys.begin(), keys.end()) &&
+                 std::adjacent_find(keys.begin(), keys.end()) == keys.end() &&
+                 std::all_of(kept.begin(), kept.end(), finite) && std::isfinite(residual()) &&
+                 std::isfinite(powers_.walls + powers_.damping + work_at_start_ + came_at_start_ +
+                               left_at_start_ + terms_.given_back);
+    if (in.failed() || !sound) return in.fail();
+    contacts_.clear();
+    for (std::size_t k = 0; k < keys.size(); ++k) contacts_.emplace(keys[k], kept[k]);
 }
 
 void EnergyBalance::add_friction(double spent) {
@@ -89,7 +134,7 @@ bool EnergyBalance::are_there(std::uint64_t key) const {
         return std::binary_search(present_.begin(), present_.end(), static_cast<std::int32_t>(id));
     };
     const std::uint64_t second = key & 0xffffffff;
-    return there(key >> 32) && (second >> 31 != 0 || there(second));
+    return there(key >> 32) && (is_at_wall(key) || there(second));
 }
 
 // Grains by id, for their indices change; walls behind all grains.

@@ -9,9 +9,11 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <unordered_map>
 #include <vector>
 
+#include "engine/base/binary.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
@@ -29,6 +31,13 @@ struct EnergyTerms {
 
     double held() const { return kinetic + rotational + gravitational + stored; }
     double lost() const { return latching + friction + damping; }
+
+    // Names every number once, for saving and loading.
+    template <class Terms, class Each>
+    static void each(Terms& t, const Each& of) {
+        of(t.kinetic), of(t.rotational), of(t.gravitational), of(t.stored), of(t.wall_work), of(t.latching);
+        of(t.friction), of(t.damping), of(t.came), of(t.left), of(t.given_back);
+    }
 };
 
 class EnergyBalance {
@@ -39,6 +48,11 @@ class EnergyBalance {
 
     // Call after every step, with its number.
     void note(std::int64_t step);
+
+    // All of it, bit by bit, to go on with the same grains and loop. The reading fails where save() could not
+    // have written what is read.
+    void save(std::ostream& out) const;
+    void load(Bytes& in);
 
     const EnergyTerms& terms() const { return terms_; }
     // J: what the grains hold more than the balance says.
@@ -59,11 +73,14 @@ class EnergyBalance {
         double walls = 0, damping = 0;
     };
 
+    template <class Balance, class Each>
+    static void transfer(Balance& balance, const Each& each);
     void look(std::int64_t step);
     void add_contact(std::int64_t step, const ContactView& contact);
     void end_contacts(std::int64_t step);
     void note_traffic();
     bool are_there(std::uint64_t key) const;
+    static bool is_at_wall(std::uint64_t key) { return (key >> 31 & 1) != 0; }
     void add_friction(double spent);
     std::uint64_t key(const ContactView& contact) const;
 
@@ -77,8 +94,9 @@ class EnergyBalance {
     double held_at_start_ = 0, work_at_start_ = 0;  // J
     Traffic traffic_;                               // until the last step noted
     double came_at_start_ = 0, left_at_start_ = 0;  // J
-    bool some_left_ = false;                        // in the last step
+    bool some_left_ = false, opened_ = false;       // in the last step
     std::vector<std::int32_t> present_;             // ids, rising, when that was so
+    std::vector<std::uint64_t> ended_;              // in the last step, rising
 };
 
 }  // namespace grainreel

@@ -2,24 +2,40 @@
 //
 // An observer is a class in a file of engine/measure/observers, and a name in observer_list.hpp. Besides what
 // is virtual here it has
-//     static std::vector<ColumnGroup> columns(const std::vector<std::string>& species);
-// which says what it gives, without a state: the scene's reader knows columns from it. `species` are names.
+//     static std::vector<ColumnGroup> columns(const Scene& scene);
+// which says what it gives, without a state: the scene's reader knows columns from it. An observer that is
+// made only where the scene asks for it (output.instruments, or a plot or live word of its columns) also has
+//     static constexpr const char* instrument = "walls";
+// and one that a key of its own asks for
+//     static bool wanted(const Scene& scene);
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
+#include <limits>
 #include <memory>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "engine/base/binary.hpp"
 #include "engine/base/clock.hpp"
+#include "engine/measure/field.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/scene/film/measure_columns.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/container_faces.hpp"
 #include "engine/state/drive_pose.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/contact_view.hpp"
+#include "engine/step/forces/wall_sums.hpp"
 #include "engine/step/traffic.hpp"
 
 namespace grainreel {
+
+struct Surroundings;
+class StepLoop;
 
 // The state that an observer may look at.
 struct Moment {
@@ -32,6 +48,11 @@ struct Moment {
     Pose pose;               // of what the drive moves
     double start_energy;     // J, of all grains and contacts when the drive started
     const Traffic& traffic;  // what came and left since then
+    std::span<const Face> faces = {};
+    const WallSums* wall_sums = nullptr;  // since the drive started; null unless somebody needs them
+    // Of a run; null for a state that was put together by hand.
+    const Surroundings* around = nullptr;
+    const StepLoop* loop = nullptr;
 
     double floor_height() const { return pose.offset.z(); }  // m
     // Whether there is anything to segregate.
@@ -49,17 +70,49 @@ class Observer {
     virtual void contact(const Moment&, const ContactView&) {}
     // After the last contact: adds a value for each of its columns to `row`.
     virtual void look(const Moment& moment, std::vector<double>& row) = 0;
+
+    // On grids: what it gives, which stays the same for the whole run, and the values of a moment, which are
+    // asked for in place of look() and after the same calls.
+    virtual const FieldSet* fields() const { return nullptr; }
+    virtual FieldValues look_at_fields(const Moment&) { return {}; }
+
+    // An observer that gathers says here the first step after `step` at which gather() is called: every step,
+    // every row, some phases. It depends on nothing that was gathered, so that it does not matter where a run
+    // was broken off and taken up again. gather() comes after the same calls as look(), and before it.
+    static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+    virtual std::int64_t gathers_after(std::int64_t) const { return kNever; }
+    // Whether Moment::wall_sums is there.
+    virtual bool needs_wall_sums() const { return false; }
+    // Once, before all gathering: when the drive starts, or where a run goes on from a checkpoint that has
+    // nothing of this observer.
+    virtual void start(const Moment&) {}
+    virtual void gather(const Moment&) {}
+    // Everything it has gathered, bit by bit, for the checkpoint. load() takes the place of start() and makes
+    // the reading fail where save() could not have written what is read.
+    virtual void save(std::ostream&) const {}
+    virtual void load(const Moment&, Bytes&) {}
 };
 
 // What is known of an observer before one is made.
 struct ObserverEntry {
-    std::vector<ColumnGroup> (*columns)(const std::vector<std::string>& species);
-    std::unique_ptr<Observer> (*make)();
+    const char* instrument;              // null: it is always made, unless `wanted` says otherwise
+    bool (*wanted)(const Scene& scene);  // null: as `instrument` says
+    std::vector<ColumnGroup> (*columns)(const Scene& scene);
+    std::unique_ptr<Observer> (*make)(const Scene& scene, const Plan& plan);
 };
 
 template <class T>
 ObserverEntry entry_of() {
-    return {&T::columns, []() -> std::unique_ptr<Observer> { return std::make_unique<T>(); }};
+    ObserverEntry entry{nullptr, nullptr, &T::columns, nullptr};
+    if constexpr (requires { T::instrument; }) entry.instrument = T::instrument;
+    if constexpr (requires { &T::wanted; }) entry.wanted = &T::wanted;
+    entry.make = [](const Scene& scene, const Plan& plan) -> std::unique_ptr<Observer> {
+        if constexpr (std::is_constructible_v<T, const Scene&, const Plan&>)
+            return std::make_unique<T>(scene, plan);
+        else
+            return std::make_unique<T>();
+    };
+    return entry;
 }
 
 }  // namespace grainreel

@@ -4,19 +4,31 @@
 // columns() from it, and grainreel_core makes the observers.
 #pragma once
 
-#include "engine/measure/observers/bed_periods.hpp"
-#include "engine/measure/observers/big_above_small.hpp"
-#include "engine/measure/observers/big_in_top_quarter.hpp"
+#include "engine/measure/observers/bed/bed_motion.hpp"
+#include "engine/measure/observers/bed/bed_periods.hpp"
+#include "engine/measure/observers/bed/bed_shape.hpp"
+#include "engine/measure/observers/bed/fabric.hpp"
+#include "engine/measure/observers/bed/intruder.hpp"
 #include "engine/measure/observers/centre_of_mass.hpp"
+#include "engine/measure/observers/coarse_grained_fields.hpp"
 #include "engine/measure/observers/contact_number.hpp"
+#include "engine/measure/observers/drive_now.hpp"
 #include "engine/measure/observers/energies.hpp"
+#include "engine/measure/observers/energy_shares.hpp"
 #include "engine/measure/observers/floor_position.hpp"
-#include "engine/measure/observers/height_difference.hpp"
-#include "engine/measure/observers/lacey.hpp"
+#include "engine/measure/observers/flow/convection.hpp"
+#include "engine/measure/observers/flow/outflow.hpp"
 #include "engine/measure/observers/largest_overlap.hpp"
+#include "engine/measure/observers/segregation/big_above_small.hpp"
+#include "engine/measure/observers/segregation/big_at_walls.hpp"
+#include "engine/measure/observers/segregation/big_in_quarters.hpp"
+#include "engine/measure/observers/segregation/height_difference.hpp"
+#include "engine/measure/observers/segregation/mixing.hpp"
+#include "engine/measure/observers/segregation/unlike.hpp"
 #include "engine/measure/observers/species_places.hpp"
+#include "engine/measure/observers/surface/bed_surface.hpp"
 #include "engine/measure/observers/times.hpp"
-#include "engine/measure/observers/unlike.hpp"
+#include "engine/measure/observers/walls/wall_forces.hpp"
 
 namespace grainreel {
 
@@ -29,12 +41,24 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::SpeciesPlaces,     //
                                   observers::HeightDifference,  //
                                   observers::BigAboveSmall,     //
-                                  observers::BigInTopQuarter,   //
+                                  observers::BigInQuarters,     //
+                                  observers::BigAtWalls,        //
                                   observers::Unlike,            //
-                                  observers::Lacey,             //
+                                  observers::Mixing,            //
                                   observers::ContactNumber,     //
+                                  observers::ContactFabric,     //
                                   observers::LargestOverlap,    //
                                   observers::FloorPosition,     //
-                                  observers::BedPeriods>;
+                                  observers::BedPeriods,        //
+                                  observers::DriveNow,          //
+                                  observers::EnergyShares,      //
+                                  observers::BedShape,          //
+                                  observers::BedMotion,         //
+                                  observers::BedSurface,        //
+                                  observers::Convection,        //
+                                  observers::Intruder,          //
+                                  observers::Outflow,           //
+                                  observers::WallForces,        //
+                                  observers::CoarseGrainedFields>;
 
 }  // namespace grainreel

@@ -1,7 +1,8 @@
-// The observers that somebody wants, and their row of numbers.
+// The observers that somebody wants: their row of numbers, and what they gather.
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,23 +15,48 @@ namespace grainreel {
 // Shows all contacts of a moment to `see`.
 using ShowContacts = std::function<void(const std::function<void(const ContactView&)>& see)>;
 
-// Those of measures.csv (observer_list.hpp), in the order of its columns.
-const std::vector<ObserverEntry>& all_observers();
-
 class Observers {
   public:
-    // Makes those of `table` that give one of the columns `wanted`, and no others. species: names.
-    Observers(const std::vector<ObserverEntry>& table, const std::vector<std::string>& species,
-              const std::function<bool(const std::string&)>& wanted);
+    // Makes those of `table` that are always made, and those of the instruments that scene.output names.
+    Observers(const std::vector<ObserverEntry>& table, const Scene& scene, const Plan& plan);
 
-    // All columns of the observers that were made. Calls show_contacts once where an observer needs contacts,
-    // else not at all.
+    const std::vector<std::string>& names() const { return *names_; }
+    // A value for each name. Calls show_contacts once where an observer needs contacts, else not at all.
     Measures look(const Moment& moment, const ShowContacts& show_contacts);
+    // One of them. Asks the observer alone that gives it. The column must be there.
+    double look(const Moment& moment, const ShowContacts& show_contacts, const std::string& column);
+
+    // On grids, observer by observer: what they give, and the values of a moment in the same order.
+    std::vector<const FieldSet*> fields() const;
+    std::vector<FieldValues> look_at_fields(const Moment& moment, const ShowContacts& show_contacts);
+
+    // Whether somebody needs Moment::wall_sums.
+    bool need_wall_sums() const;
+    // When the drive starts, or for those that load() has found nothing of.
+    void start(const Moment& moment, const ShowContacts& show_contacts);
+    // The first step after `step` at which somebody gathers; Observer::kNever.
+    std::int64_t gathers_after(std::int64_t step) const;
+    // Calls those that gather at this step.
+    void gather(const Moment& moment, const ShowContacts& show_contacts);
+
+    // What they have gathered, for the checkpoint. The reading fails where save() could not have written what
+    // is read. What is there of observers that are not is passed over.
+    void save(std::ostream& out) const;
+    void load(const Moment& moment, Bytes& in);
 
   private:
+    struct Entry {
+        std::string name;  // in the checkpoint
+        std::unique_ptr<Observer> observer;
+        std::vector<std::string> columns;
+        bool started = false;
+    };
+    template <class Wanted, class Call>
+    void visit(const Moment& moment, const ShowContacts& show_contacts, const Wanted& wanted,
+               const Call& call);
+
     Measures::Names names_;
-    std::vector<std::unique_ptr<Observer>> observers_;
-    std::vector<Observer*> of_contacts_;
+    std::vector<Entry> entries_;
 };
 
 }  // namespace grainreel

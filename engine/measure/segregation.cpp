@@ -1,9 +1,10 @@
 #include "engine/measure/segregation.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <span>
+
+#include "engine/measure/no_value.hpp"
 
 namespace grainreel {
 
@@ -46,22 +47,32 @@ double summed_variance(Indices grains, int samples, const std::vector<Vec3>& pos
 
 }  // namespace
 
-double lacey_index(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked) {
+Samples take_samples(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked) {
     const double count = static_cast<double>(position.size());
-    const double p = std::accumulate(marked.begin(), marked.end(), 0.0) / count;
     const int samples = std::max(2, static_cast<int>(position.size()) / kLaceySample);
-    if (std::min(p, 1 - p) * count < kLeastOfRareKind * samples)
-        return std::numeric_limits<double>::quiet_NaN();
+    Samples taken;
+    taken.share = std::accumulate(marked.begin(), marked.end(), 0.0) / count;
+    taken.grains = count / samples;
+    if (count < samples) return taken;
     std::vector<std::int32_t> grains(position.size());
     std::iota(grains.begin(), grains.end(), 0);
-    const double variance = summed_variance(grains, samples, position, marked, p) / samples;
-    const double segregated = p * (1 - p);
-    const double random = segregated / (count / samples);
-    return (segregated - variance) / (segregated - random);
+    taken.variance = summed_variance(grains, samples, position, marked, taken.share) / samples;
+    return taken;
+}
+
+double lacey_index(const Samples& samples) {
+    if (samples.rare_grains() < kLeastOfRareKind) return kNoValue;
+    const double segregated = samples.segregated_variance(), random = segregated / samples.grains;
+    return (segregated - samples.variance) / (segregated - random);
+}
+
+double intensity_of_segregation(const Samples& samples) {
+    const double segregated = samples.segregated_variance();
+    return segregated > 0 ? samples.variance / segregated : kNoValue;
 }
 
 double share_above(std::vector<double>& these, std::vector<double>& those) {
-    if (these.empty() || those.empty()) return std::numeric_limits<double>::quiet_NaN();
+    if (these.empty() || those.empty()) return kNoValue;
     std::sort(these.begin(), these.end());
     std::sort(those.begin(), those.end());
     std::size_t lower = 0, not_higher = 0;  // of those, than the present one

@@ -1,6 +1,7 @@
 // How far apart two kinds of grain are.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -15,12 +16,28 @@ inline constexpr int kLaceySample = 32;
 // then has none of them (Poisson), and what the samples hold no longer tells a layer from a mixture.
 inline constexpr double kLeastOfRareKind = 3;
 
-// Lacey's mixing index M = (s0^2 - s^2) / (s0^2 - sr^2) with s0^2 = p (1 - p), sr^2 = s0^2 / n (Lacey 1954,
-// J. Appl. Chem. 4, 257): 0 for full segregation, 1 for a random mixture. p is the number share of the marked
-// grains, s^2 the variance of their share over samples of equal count n = kLaceySample (at least two
-// samples), cut by halving the bed along its longest edge again and again. NaN when the samples hold fewer
-// than kLeastOfRareKind of the marked or of the others on average.
-double lacey_index(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked);
+// What samples of the bed show of one kind of grain among all. The samples have equal counts of grains,
+// kLaceySample or slightly more on average (at least two samples), cut by halving the bed along its longest
+// edge again and again.
+struct Samples {
+    double share = 0;     // p, number share of the marked grains among all
+    double variance = 0;  // s^2, of their share over the samples
+    double grains = 0;    // n, a sample on average
+
+    double segregated_variance() const { return share * (1 - share); }  // s0^2, were each sample of one kind
+    double rare_grains() const { return std::min(share, 1 - share) * grains; }  // a sample on average
+};
+Samples take_samples(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked);
+
+// Lacey's mixing index M = (s0^2 - s^2) / (s0^2 - sr^2), sr^2 = s0^2 / n (Lacey 1954, J. Appl. Chem. 4, 257):
+// 0 for full segregation, 1 for a random mixture. NaN when the samples hold fewer than kLeastOfRareKind of
+// the marked or of the others on average.
+double lacey_index(const Samples& samples);
+
+// Danckwerts' intensity of segregation I = s^2 / s0^2 (1952, Appl. Sci. Res. A 3, 279): 1 where each sample
+// is of one kind, 1 / n on average in a random mixture, with a scatter of sqrt(2 / (samples - 1)) / n. NaN
+// where all grains are of one kind.
+double intensity_of_segregation(const Samples& samples);
 
 // Probability that one of `these` lies above one of `those`, equal heights counting half: Mann and Whitney's
 // U over the number of pairs (1947, Ann. Math. Stat. 18, 50). 0 all below, 1/2 mixed, 1 all above; right for

@@ -3,12 +3,12 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/scene/film/measure_columns.hpp"
 
 namespace grainreel {
 namespace {
@@ -36,9 +36,8 @@ std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& p
     return table;
 }
 
-MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, const std::vector<std::string>& species)
-    : file_(path) {
-    for (const MeasureColumn& column : measure_columns(species)) columns_.push_back(column.name);
+MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns)
+    : file_(path), columns_(std::move(columns)) {
     file_.write(fmt::format("{}\n", fmt::join(columns_, ",")));
 }
 

@@ -17,8 +17,7 @@ std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& p
 
 class MeasuresWriter {
   public:
-    // species: their names, in the scene's order; each has its own columns.
-    MeasuresWriter(const std::filesystem::path& path, const std::vector<std::string>& species);
+    MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns);
 
     // The row is on disk when this returns. Throws RunError when it could not be written.
     void write(const Measures& measures);

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/drive_clock.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/rain_plan.hpp"
 
@@ -55,11 +56,10 @@ Clock plan_clock(const Scene& scene, double step) {
     clock.step = step;
     if (!scene.drive.present) return clock;
     // A step that was so rounded before comes back as it was, hence the hair of tolerance.
-    const double eighths = std::max(1.0, std::ceil(1 / (8 * scene.drive.frequency * step) * (1 - 1e-12)));
-    clock.steps_per_period = count_steps(scene, 8 * eighths, 1, "drive.frequency");
-    clock.step = 1 / (scene.drive.frequency * static_cast<double>(clock.steps_per_period));
-    clock.initial_phase = scene.drive.phase;
-    return clock;
+    double eighths = std::max(1.0, std::ceil(1 / (8 * scene.drive.frequency * step) * (1 - 1e-12)));
+    if (scene.drive.changes()) eighths = common_eighths(scene.drive, eighths);
+    const std::int64_t period = count_steps(scene, 8 * eighths, 1, "drive.frequency");
+    return drive_clock(scene.drive, 1 / (scene.drive.frequency * static_cast<double>(period)), period);
 }
 
 // What a file would hold one of every so many steps.
@@ -70,6 +70,19 @@ void check_records(const Scene& scene, const Plan& plan, double every, const cha
         "{}: the run's {} steps make {:.4g} {}, and the most are {:.2g}; lengthen '{}' or shorten "
         "'run.duration'",
         scene.where(key), plan.steps, records, what, most_records, key));
+}
+
+// Where the scene has no interval, records go with the periods of the stage that is on.
+void go_by_periods(const Output& output, Plan& plan) {
+    const double mean = static_cast<double>(plan.steps) / plan.clock.cycles(plan.steps);  // steps a period
+    if (output.trajectory && !output.trajectory_interval) {
+        plan.trajectory_periods = 1;
+        plan.trajectory_every = mean;
+    }
+    if (!output.measures_interval) {
+        plan.measures_periods = 1.0 / 8;
+        plan.measures_every = mean / 8;
+    }
 }
 
 void plan_output(const Scene& scene, Plan& plan) {
@@ -87,10 +100,25 @@ void plan_output(const Scene& scene, Plan& plan) {
             every(output.trajectory_interval, period, frames_without_drive, "output.trajectory_interval");
     plan.measures_every =
         every(output.measures_interval, period / 8, rows_without_drive, "output.measures_interval");
+    if (scene.drive.changes()) go_by_periods(output, plan);
     if (output.trajectory)
         check_records(scene, plan, plan.trajectory_every, "frames of the trajectory",
                       "output.trajectory_interval");
     check_records(scene, plan, plan.measures_every, "rows of measures", "output.measures_interval");
+    check_field_size(scene);
+    plan.fields = field_times(output.fields, plan.clock, plan.steps);
+}
+
+void plan_outlet(const Scene& scene, Plan& plan) {
+    if (!scene.container.outlet) return;
+    const double opens = scene.container.outlet->opens;
+    plan.opens = count_steps(scene, opens, plan.clock.step, "container.outlet.opens");
+    plan.traffic = true;
+    if (*plan.opens >= plan.steps)
+        throw UserError(
+            fmt::format("{}: the outlet opens at {:.4g} s, but the run ends at {:.4g} s; open it "
+                        "earlier or lengthen run.duration",
+                        scene.where("container.outlet.opens"), opens, scene.run.duration));
 }
 
 // Here and not in the reader: a finished run is drawn again though its start file may be gone.
@@ -122,9 +150,11 @@ Plan make_plan(const Scene& scene) {
     Plan plan;
     plan.arms = scene.contact.arms;
     plan.integrator = scene.run.integrator;
-    plan.moving_walls = (scene.drive.present && scene.drive.amplitude > 0) ||
+    plan.moving_walls = (scene.drive.present && scene.drive.largest_amplitude() > 0) ||
                         std::any_of(scene.walls.begin(), scene.walls.end(),
                                     [](const FreeWall& wall) { return !wall.velocity.isZero(0); });
+
+    plan.capacity = scene.grains();
 
     const BedPlan bed = plan_bed(scene);
     plan.bed_height = bed.height;
@@ -139,6 +169,8 @@ Plan make_plan(const Scene& scene) {
         throw UserError(
             fmt::format("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
                         scene.where("run.duration"), scene.run.duration, plan.clock.step));
+    plan_outlet(scene, plan);
+    plan.traffic = plan.traffic || !scene.feeds.empty();
     if (scene.start.packs())
         plan.settle_steps_limit =
             count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");

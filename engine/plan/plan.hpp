@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/clock.hpp"
+#include "engine/plan/field_times.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -72,6 +74,15 @@ struct Plan {
 
     // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.
     double trajectory_every = 0, measures_every = 0;
+    FieldTimes fields;  // when fields are looked at, if there are any
+    // The greatest number of grains that there will ever be, those that have left counted; and whether any
+    // may leave or come.
+    std::int64_t capacity = 0;
+    bool traffic = false;
+    std::optional<std::int64_t> opens;  // the step in which the container's outlet opens
+    // Of a drive that changes, where the scene has no interval: so many periods of the stage that is on,
+    // which are those steps on average. 0: every so many steps.
+    double trajectory_periods = 0, measures_periods = 0;
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
     std::vector<std::string> warnings;  // each one line, with place and remedy
 

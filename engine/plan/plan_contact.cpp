@@ -13,6 +13,7 @@
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 
 namespace grainreel {
 namespace {
@@ -256,8 +257,9 @@ BedPlan plan_bed(const Scene& scene) {
     BedPlan bed;
     const Drive& drive = scene.drive;
     bed.gravity = scene.gravity.norm();
-    if (drive.present) bed.frequency = drive.frequency;
-    if (drive.present && bed.gravity > 0) bed.g_level = drive.g_level(bed.gravity);
+    const DrivePeaks peaks = drive.present ? drive_peaks(drive) : DrivePeaks{};
+    bed.frequency = peaks.frequency;
+    if (bed.gravity > 0) bed.g_level = peaks.acceleration / bed.gravity;
     bed.height = fill_height(scene, settled_solid_fraction);
     bed.carried_height = std::min(bed.height, 2 * bed_width(scene));
     double diameters = 0;
@@ -270,7 +272,7 @@ BedPlan plan_bed(const Scene& scene) {
 
     double restitution = 0;
     for (const PairContact& pair : scene.contact.grain) restitution = std::max(restitution, pair.restitution);
-    if (drive.present) bed.impact_speed = speed_over_drive(restitution, bed.layers) * drive.speed();
+    if (drive.present) bed.impact_speed = speed_over_drive(restitution, bed.layers) * peaks.speed;
     const double fall = std::sqrt(2 * bed.gravity * (scene.container.height - bed.height));
     if (scene.start.method == Start::Method::grains) {
         bed.impact_speed += fall + closing_speed(scene);
@@ -284,7 +286,7 @@ BedPlan plan_bed(const Scene& scene) {
         bed.impact_speed = fall;  // all that one can know of a bed that starts from a file
     }
     if (!scene.feeds.empty())
-        bed.impact_speed = std::max(bed.impact_speed, fastest_fed(scene) + drive.speed());
+        bed.impact_speed = std::max(bed.impact_speed, fastest_fed(scene) + drive.top_speed());
     return bed;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/warnings.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 
 namespace grainreel {
 namespace {
@@ -44,6 +45,25 @@ void warn_of_drive(const Scene& scene, const BedPlan& bed, Warnings& warnings) {
     if (elastic)
         warnings.add("contact",
                      "restitution 1 loses no energy, so the drive heats the grains without limit; lower it");
+}
+
+// A quick change from one frequency to another shakes harder than either of them.
+void warn_of_changes(const Scene& scene, Warnings& warnings) {
+    constexpr double alarming = 1.2;  // over the larger of the two accelerations
+    const Drive& drive = scene.drive;
+    if (!drive.present || !drive.changes()) return;
+    const DriveSchedule schedule(drive);
+    for (std::size_t i = 0; i < schedule.pieces().size(); ++i) {
+        const DriveSchedule::Piece& piece = schedule.pieces()[i];
+        const double larger = std::max(piece.acceleration_before, piece.acceleration);
+        const double peak = peak_acceleration_of_change(schedule, piece.stage);
+        if (!schedule.times().stretches()[i].changes() || peak <= alarming * larger) continue;
+        warnings.add(
+            fmt::format("drive.stage[{}].over", piece.stage - 1),
+            fmt::format("the change to this stage shakes with up to {:.3g} m/s2, {:.3g} times as hard "
+                        "as what is before or after it; raise 'over'",
+                        peak, peak / larger));
+    }
 }
 
 void warn_of_softness(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
@@ -215,6 +235,19 @@ void warn_of_colours(const Scene& scene, Warnings& warnings) {
     }
 }
 
+void warn_of_outlet(const Scene& scene, Warnings& warnings) {
+    constexpr double kFewest = 5;  // grains side by side, below which they arch (Zuriguel 2014)
+    if (!scene.container.outlet) return;
+    double largest = 0;
+    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
+    const double wide = 2 * scene.container.outlet->half_width;
+    if (wide >= kFewest * largest) return;
+    warnings.add("container.outlet",
+                 fmt::format("the outlet is {:.2g} grains wide, and one narrower than {} may clog; widen it "
+                             "unless you mean to see that",
+                             wide / largest, kFewest));
+}
+
 void warn_of_short_period(const Scene& scene, Warnings& warnings) {
     constexpr double kWide = 6;  // diameters, above which a bed hardly knows its images
     const Container& c = scene.container;
@@ -249,6 +282,7 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
                                        const StepChoice& step) {
     Warnings warnings(scene);
     warn_of_drive(scene, bed, warnings);
+    warn_of_changes(scene, warnings);
     warn_of_softness(scene, plan, bed, warnings);
     warn_of_kick(scene, warnings);
     warn_of_long_contacts(scene, plan, bed, warnings);
@@ -256,6 +290,7 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
     warn_of_arms(plan, warnings);
     warn_of_step(scene, plan, bed, step, warnings);
     warn_of_colours(scene, warnings);
+    warn_of_outlet(scene, warnings);
     warn_of_short_period(scene, warnings);
     warn_of_film(scene, warnings);
     return warnings.take();

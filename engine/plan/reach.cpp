@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 
 namespace grainreel {
 namespace {
@@ -22,9 +23,10 @@ bool has_a_bed(const Scene& scene) {
 double throw_height(const Scene& scene) {
     const Drive& drive = scene.drive;
     if (!drive.present) return 0;
-    const double gravity = scene.gravity.norm(), stroke = drive.amplitude * std::abs(drive.direction.z());
-    if (drive.g_level(gravity) <= 1) return stroke;
-    const double speed = thrown_faster * drive.speed();
+    const DrivePeaks peaks = drive_peaks(drive);
+    const double gravity = scene.gravity.norm(), stroke = peaks.offset * std::abs(drive.direction.z());
+    if (peaks.acceleration <= gravity) return stroke;
+    const double speed = thrown_faster * peaks.speed;
     return stroke + speed * speed / (2 * gravity);
 }
 

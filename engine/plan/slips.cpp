@@ -104,40 +104,51 @@ void look_at_gravity(const Scene& scene, Warnings& warnings) {
                                             : "what is not held above leaves the container"));
 }
 
+// table: "drive", or that of a stage.
+void look_at_motion(const Scene& scene, const std::string& table, const Drive& motion, Warnings& warnings) {
+    if (motion.frequency > highest_frequency)
+        warnings.add(
+            table + ".frequency",
+            fmt::format("{:.4g} Hz is faster than any bed is shaken (5 to 500 Hz), with an amplitude "
+                        "of {:.3g} m; did you mean \"{:.4g} Hz\"?",
+                        motion.frequency, motion.amplitude, motion.frequency / 1000));
+    const bool given = scene.written.count(table + ".amplitude") > 0;
+    const std::string key = table + (given ? ".amplitude" : ".g_level");
+    const double height = scene.container.height;
+    if (scene.container.shape != Container::Shape::none && motion.amplitude > height) {
+        const std::string slip =
+            given ? fmt::format("a number without a unit is in m: did you mean \"{:.4g} mm\"?",
+                                motion.amplitude)
+                  : "it follows from frequency and g_level: raise the one or lower the other";
+        warnings.add(
+            key,
+            fmt::format("an amplitude of {:.4g} m is more than the height of the container, {:.4g} m; {}",
+                        motion.amplitude, height, slip));
+    } else if (const double gamma = motion.g_level(scene.gravity.norm());
+               std::isfinite(gamma) && gamma > hardest) {
+        warnings.add(key,
+                     fmt::format("gamma is {:.4g}, with {:.4g} Hz and an amplitude of {:.4g} m; beds are "
+                                 "shaken with 1 to 50: are the units those you mean?",
+                                 gamma, motion.frequency, motion.amplitude));
+    }
+}
+
 void look_at_drive(const Scene& scene, Warnings& warnings) {
     const Drive& drive = scene.drive;
     if (!drive.present) return;
-    if (drive.frequency > highest_frequency)
-        warnings.add(
-            "drive.frequency",
-            fmt::format("{:.4g} Hz is faster than any bed is shaken (5 to 500 Hz), with an amplitude "
-                        "of {:.3g} m; did you mean \"{:.4g} Hz\"?",
-                        drive.frequency, drive.amplitude, drive.frequency / 1000));
+    look_at_motion(scene, "drive", drive, warnings);
+    for (std::size_t k = 0; k < drive.stages.size(); ++k) {
+        const DriveStage& stage = drive.stages[k];
+        if (stage.kind == DriveStage::Kind::rest) continue;
+        look_at_motion(scene, fmt::format("drive.stage[{}]", k), {true, stage.frequency, stage.amplitude},
+                       warnings);
+    }
     if (drive.frequency * scene.run.duration < 1)
         warnings.add(
             "drive.frequency",
             fmt::format("one period of {:.4g} s is longer than the run of {:.4g} s; raise the frequency "
                         "or run.duration",
                         1 / drive.frequency, scene.run.duration));
-    const bool given = scene.written.count("drive.amplitude") > 0;
-    const double height = scene.container.height;
-    if (scene.container.shape != Container::Shape::none && drive.amplitude > height) {
-        const std::string slip =
-            given
-                ? fmt::format("a number without a unit is in m: did you mean \"{:.4g} mm\"?", drive.amplitude)
-                : "it follows from frequency and g_level: raise the one or lower the other";
-        warnings.add(
-            given ? "drive.amplitude" : "drive.g_level",
-            fmt::format("an amplitude of {:.4g} m is more than the height of the container, {:.4g} m; {}",
-                        drive.amplitude, height, slip));
-    } else if (const double gamma = drive.g_level(scene.gravity.norm());
-               std::isfinite(gamma) && gamma > hardest) {
-        warnings.add(
-            given ? "drive.amplitude" : "drive.g_level",
-            fmt::format("gamma is {:.4g}, with {:.4g} Hz and an amplitude of {:.4g} m; beds are shaken "
-                        "with 1 to 50: are the units those you mean?",
-                        gamma, drive.frequency, drive.amplitude));
-    }
 }
 
 // The one place in [contact] where this key is written, or else the table.

@@ -12,10 +12,12 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation.hpp"
+#include "engine/measure/wall_faces.hpp"
 #include "engine/run/feeder.hpp"
 #include "engine/run/surroundings.hpp"
 #include "engine/start/layers.hpp"
@@ -53,11 +55,8 @@ struct Simulation::Impl {
           team(threads > 0 ? threads : usable_processors()),
           around(make_surroundings(s, p)),
           bodies(bodies_of(s.drive, s.walls)),
-          limits(health_limits(s, p)) {
-        for (const Species& one : scene.species) {
-            species_names.push_back(one.name);
-            expected.comes += static_cast<std::size_t>(one.fed);
-        }
+          limits(health_limits(s, p)),
+          observers(all_observers(), scene, plan) {
         if (!scene.start.packs()) take_grains();
     }
 
@@ -74,12 +73,12 @@ struct Simulation::Impl {
     HealthLimits limits;
     EnergyWatch energy_watch;
     std::int64_t next_look = 0;  // step
-    ExpectedTraffic expected;
 
     bool continued = false;  // goes on where the file stopped
+    bool opened = false;     // the container's outlet
 
-    std::vector<std::string> species_names;
-    std::unique_ptr<Observers> observers;  // of all columns; made when they are first wanted
+    Observers observers;
+    std::optional<WallSums> wall_sums;  // of the last moment, where an observer needs them
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     void take_grains();
@@ -89,8 +88,12 @@ struct Simulation::Impl {
     std::int32_t insert(const std::vector<NewGrain>& more);
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
+    void open_when_due();
     void look_at_health();
-    Measures look(Observers& by) const;
+    Moment moment();
+    void take_gathered(const std::string& bytes);
+    std::string gathered() const;
+    ShowContacts contacts() const;
 };
 
 void check_start(const Scene& scene, const Plan& plan) {
@@ -121,17 +124,48 @@ void Simulation::Impl::take_grains() {
 
 void Simulation::Impl::go_on() {
     make_loop();
+    std::string gathered;
     std::vector<std::int64_t> given;
-    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop, given);
+    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop, gathered, given);
     feeder.set_given(std::move(given));
     set_orientations();
     step = header.step;
     start_energy = header.start_energy;
     continued = true;
+    opened = plan.opens && step >= *plan.opens;
+    if (opened) open_outlet(scene, around);
+    take_gathered(gathered);
+    observers.start(moment(), contacts());
     if (step >= plan.steps)
         throw UserError(
             fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
                         scene.where("run.duration"), step, plan.steps));
+}
+
+// What was gathered of walls stands before what the observers have gathered. Without it, it begins here.
+void Simulation::Impl::take_gathered(const std::string& bytes) {
+    Bytes in(bytes);
+    WallSums sums;
+    read_vector(in, sums.faces);
+    read_vector(in, sums.slices);
+    if (observers.need_wall_sums()) {
+        const WallScale scale = wall_scale(scene, plan);
+        const bool there = !sums.faces.empty();
+        if (there && !is_sound(sums, around.faces.size(), scale)) in.fail();
+        if (in.failed()) throw damaged_checkpoint(scene);
+        there ? loop->go_on_tallying(sums, scale) : loop->tally_walls(scale, step);
+    }
+    observers.load(moment(), in);
+    if (in.failed()) throw damaged_checkpoint(scene);
+}
+
+std::string Simulation::Impl::gathered() const {
+    std::ostringstream out;
+    const WallSums sums = observers.need_wall_sums() ? loop->wall_sums() : WallSums();
+    write_vector(out, sums.faces);
+    write_vector(out, sums.slices);
+    observers.save(out);
+    return out.str();
 }
 
 // They decide nothing: a run may begin or cease to keep them when it goes on.
@@ -181,6 +215,15 @@ void Simulation::Impl::begin_drive() {
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
     step = 0;
+    if (observers.need_wall_sums()) loop->tally_walls(wall_scale(scene, plan), step);
+    open_when_due();
+    observers.start(moment(), contacts());
+}
+
+void Simulation::Impl::open_when_due() {
+    if (opened || !plan.opens || step < *plan.opens) return;
+    loop->open_faces([&] { open_outlet(scene, around); }, step);
+    opened = true;
 }
 
 std::int32_t Simulation::Impl::insert(const std::vector<NewGrain>& more) {
@@ -239,29 +282,16 @@ void Simulation::advance(std::int64_t target) {
     Impl& m = *impl_;
     while (m.step < target) {
         if (m.next_look <= m.step) m.look_at_health();  // the first: where all begins
-        const std::int64_t feed = m.feeder.next_look(m.step);
-        const std::int64_t count = std::min({target, m.next_look, feed}) - m.step;
-        m.loop->run(m.step, count, m.plan.clock.step, 0);
-        m.step += count;
+        const std::int64_t gathering = m.observers.gathers_after(m.step), feed = m.feeder.next_look(m.step);
+        std::int64_t until = std::min({target, m.next_look, gathering, feed});
+        if (!m.opened && m.plan.opens) until = std::min(until, *m.plan.opens);
+        m.loop->run(m.step, until - m.step, m.plan.clock.step, 0);
+        m.step = until;
+        m.open_when_due();
         if (m.step == feed) m.insert(m.feeder.take(m.step, m.grains));
+        if (m.step == gathering) m.observers.gather(m.moment(), m.contacts());
         if (m.step == m.next_look || m.step == m.plan.steps) m.look_at_health();
     }
-}
-
-void Simulation::expect(const ExpectedTraffic& traffic) {
-    impl_->expected = traffic;
-}
-
-const ExpectedTraffic& Simulation::expected() const {
-    return impl_->expected;
-}
-
-std::size_t Simulation::capacity() const {
-    return impl_->grains.size() + impl_->expected.comes;
-}
-
-void Simulation::set_exits(std::vector<Exit> exits) {
-    impl_->around.exits = std::move(exits);
 }
 
 void Simulation::remove(const std::vector<std::int32_t>& ids) {
@@ -327,25 +357,45 @@ double Simulation::centre_height() const {
     return moment / mass - m.around.motion.at(m.step).offset.z();
 }
 
-Measures Simulation::Impl::look(Observers& by) const {
-    const Moment moment{
-        scene,        plan.clock,     grains, step, around.gravity, around.period, around.motion.at(step),
-        start_energy, loop->traffic()};
-    return by.look(moment, [&](const auto& see) { loop->visit_contacts(step, see); });
+Moment Simulation::Impl::moment() {
+    if (observers.need_wall_sums()) wall_sums = loop->wall_sums();
+    return {scene,
+            plan.clock,
+            grains,
+            step,
+            around.gravity,
+            around.period,
+            around.motion.at(step),
+            start_energy,
+            loop->traffic(),
+            around.faces,
+            wall_sums ? &*wall_sums : nullptr,
+            &around,
+            loop.get()};
+}
+
+ShowContacts Simulation::Impl::contacts() const {
+    return [this](const auto& see) { loop->visit_contacts(step, see); };
 }
 
 Measures Simulation::measures() const {
-    Impl& m = *impl_;
-    if (!m.observers)
-        m.observers = std::make_unique<Observers>(all_observers(), m.species_names,
-                                                  [](const std::string&) { return true; });
-    return m.look(*m.observers);
+    return impl_->observers.look(impl_->moment(), impl_->contacts());
 }
 
 double Simulation::measure(const std::string& column) const {
-    Observers of_column(all_observers(), impl_->species_names,
-                        [&](const std::string& name) { return name == column; });
-    return impl_->look(of_column).at(column);
+    return impl_->observers.look(impl_->moment(), impl_->contacts(), column);
+}
+
+const std::vector<std::string>& Simulation::measured() const {
+    return impl_->observers.names();
+}
+
+std::vector<const FieldSet*> Simulation::field_sets() const {
+    return impl_->observers.fields();
+}
+
+std::vector<FieldValues> Simulation::fields() const {
+    return impl_->observers.look_at_fields(impl_->moment(), impl_->contacts());
 }
 
 std::uint64_t Simulation::state_hash() const {
@@ -378,7 +428,8 @@ void Simulation::save_checkpoint(const std::filesystem::path& path) const {
         header.wall_offset = m.around.motion.at(m.step).offset;
         header.wall_velocity = m.around.motion.at(m.step).velocity;
     }
-    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.feeder.given());
+    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.gathered(),
+                               m.feeder.given());
 }
 
 }  // namespace grainreel

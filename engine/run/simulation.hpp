@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "engine/measure/field.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
@@ -54,14 +55,6 @@ class Simulation {
     // Runs up to step `target`. Throws RunError when the run stopped being healthy.
     void advance(std::int64_t target);
 
-    // What is to be expected, before files are made; a run of a scene expects none.
-    void expect(const ExpectedTraffic& traffic);
-    const ExpectedTraffic& expected() const;
-    // The most grains there can be in all: those there are, and those that may come.
-    std::size_t capacity() const;
-
-    // Where grains leave, from now on. Not part of the checkpoint: whoever opens an exit opens it again.
-    void set_exits(std::vector<Exit> exits);
     // At the step that has been reached. New grains must touch nothing; returns the id of the first of them.
     // Both once the run is packed.
     void remove(const std::vector<std::int32_t>& ids);
@@ -77,8 +70,12 @@ class Simulation {
     Frame frame() const;
     double centre_height() const;  // m, of the centre of mass above the floor where that is now
     Measures measures() const;     // all columns of measures.csv
+    const std::vector<std::string>& measured() const;  // their names
     // One of them. Looks at no more than that needs.
     double measure(const std::string& column) const;
+    // On grids: what the observers give, which stays the same, and the values now in the same order.
+    std::vector<const FieldSet*> field_sets() const;
+    std::vector<FieldValues> fields() const;
     std::uint64_t state_hash() const;  // of every bit that decides the future
 
     // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/state/outlet_faces.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -24,6 +26,11 @@ Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
     around.period = period_of_depth(scene.container);
     around.skin = kSkinShare * smallest_radius(scene);
     return around;
+}
+
+void open_outlet(const Scene& scene, Surroundings& around) {
+    open_outlet(scene.container, around.faces);
+    around.exits = {exit_below(-scene.container.outlet->exit_depth)};
 }
 
 }  // namespace grainreel

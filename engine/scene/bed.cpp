@@ -35,6 +35,13 @@ double solid_volume(const Scene& scene) {
     return volume;
 }
 
+double mean_diameter(const Scene& scene) {
+    double sum = 0;
+    for (const Species& species : scene.species)
+        sum += static_cast<double>(species.count) * species.diameter.mean;
+    return sum / static_cast<double>(scene.grains());
+}
+
 double total_mass(const Scene& scene) {
     double mass = 0;
     for (const Species& s : scene.species)
@@ -61,7 +68,8 @@ Extent extent_of(const Scene& scene) {
     const Container& c = scene.container;
     if (c.shape != Container::Shape::none) {
         const double x = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
-        return {Vec3(-x, -c.half_width, 0), Vec3(x, c.half_width, c.height)};
+        const double low = c.outlet ? -c.outlet->exit_depth : 0.0;
+        return {Vec3(-x, -c.half_width, low), Vec3(x, c.half_width, c.height)};
     }
     const Vec3 margin = largest_diameter(scene) * Vec3::Ones();
     if (scene.start.grains.empty()) {

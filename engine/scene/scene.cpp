@@ -45,13 +45,52 @@ std::int64_t Feed::due(double time) const {
     return std::min(grains, count.value_or(grains));
 }
 
-double Drive::speed() const {
+namespace {
+
+double speed_of(double amplitude, double frequency) {
     return amplitude * 2 * std::numbers::pi * frequency;
 }
 
-double Drive::g_level(double gravity) const {
+double level_of(double amplitude, double frequency, double gravity) {
     const double omega = 2 * std::numbers::pi * frequency;
     return gravity > 0 ? amplitude * omega * omega / gravity : std::numeric_limits<double>::infinity();
+}
+
+// The largest of what the drive has at first, unless a stage takes its place at once, and of what each stage
+// has.
+template <class Of>
+double largest(const Drive& drive, const Of& of) {
+    const bool replaced = drive.changes() && drive.stages.front().from <= 0;
+    double value = replaced ? 0 : of(drive.amplitude, drive.frequency);
+    for (const DriveStage& stage : drive.stages)
+        value = std::max(value, of(stage.amplitude, stage.frequency));
+    return value;
+}
+
+}  // namespace
+
+double Drive::speed() const {
+    return speed_of(amplitude, frequency);
+}
+
+double Drive::g_level(double gravity) const {
+    return level_of(amplitude, frequency, gravity);
+}
+
+double Drive::highest_frequency() const {
+    return largest(*this, [](double, double f) { return f; });
+}
+
+double Drive::largest_amplitude() const {
+    return largest(*this, [](double a, double) { return a; });
+}
+
+double Drive::top_speed() const {
+    return largest(*this, speed_of);
+}
+
+double Drive::strongest_g_level(double gravity) const {
+    return largest(*this, [&](double a, double f) { return level_of(a, f, gravity); });
 }
 
 std::int64_t Scene::grains() const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/field_output.hpp"
 #include "engine/scene/film/film_look.hpp"
 #include "engine/scene/film/film_shows.hpp"
 
@@ -90,6 +91,16 @@ struct Contact {
     bool operator==(const Contact&) const = default;
 };
 
+// An opening in the floor through which grains leave. It must be wider than the largest grain.
+struct Outlet {
+    enum class Shape { slot, hole };
+    Shape shape = Shape::slot;  // a slot over the whole depth, or a round hole; both in the floor's middle
+    double half_width = 0;      // m, along y; the radius of a hole
+    double opens = 0;           // s, since the drive started
+    double exit_depth = 0;      // m below the floor's rest position, where grains leave the run
+    bool operator==(const Outlet&) const = default;
+};
+
 struct Container {
     enum class Shape { wedge, box, cylinder, none };
     Shape shape = Shape::wedge;  // none: empty space; the sizes then are those of what is looked at
@@ -99,6 +110,7 @@ struct Container {
     double half_angle = 0;       // rad, slanted walls against the vertical; wedge only
     double slant_height = 0;     // m, H: height of the slanted part; wedge only
     bool lid = true;
+    std::optional<Outlet> outlet;         // empty: a closed floor
     bool periodic_depth = false;          // no front and back walls: what leaves at one enters at the other
     double floor_half_width() const;      // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
     double volume() const;                // m3, floor to height
@@ -118,6 +130,18 @@ struct FreeWall {
     bool operator==(const FreeWall&) const = default;
 };
 
+// From a time of the run on the drive does something else.
+struct DriveStage {
+    enum class Kind { vibrate, taps, rest };
+    Kind kind = Kind::vibrate;
+    double from = 0;       // s; the change begins with the first period that starts then or later
+    int over = 3;          // periods that the change takes, at least 3
+    double frequency = 0;  // Hz; of a tap: 1 / its duration; of no meaning at rest
+    double amplitude = 0;  // m; a tap goes up by twice as much and comes back; 0 at rest
+    double interval = 0;   // s, from the start of a tap to that of the next; else 0
+    bool operator==(const DriveStage&) const = default;
+};
+
 struct Drive {
     enum class Moves { container, floor };
     bool present = false;
@@ -127,8 +151,15 @@ struct Drive {
     double phase = 0;         // turns, of the sine at t = 0
     double ramp = 3;          // periods over which the amplitude grows; >= 3, or 0 for none
     Moves moves = Moves::container;
+    std::vector<DriveStage> stages = {};   // by rising time; those above hold until the first
     double g_level(double gravity) const;  // Gamma = a (2 pi f)^2 / g; infinite without gravity
     double speed() const;                  // m/s, a 2 pi f
+    bool changes() const { return !stages.empty(); }
+    // The largest of all stages, that of the drive before them included.
+    double highest_frequency() const;                // Hz
+    double largest_amplitude() const;                // m
+    double top_speed() const;                        // m/s
+    double strongest_g_level(double gravity) const;  // infinite without gravity
     bool operator==(const Drive&) const = default;
 };
 
@@ -200,6 +231,8 @@ struct Output {
     bool orientation = false;                 // keep orientations in the trajectory
     bool contacts = false;                    // write contacts.nc beside it
     bool trajectory = true;
+    std::vector<std::string> instruments;  // what is measured beside the usual columns
+    FieldOutput fields;
     bool operator==(const Output&) const = default;
 };
 
@@ -217,6 +250,19 @@ struct FilmSegment {
     int exposures = 16;   // moments in that time; locked: at most one a period
     bool operator==(const FilmSegment&) const = default;
 };
+
+// Words that the film shows for a while.
+struct FilmCaption {
+    double from = 0, to = 0;  // s of simulated time
+    std::string text;
+    double hold = 0;  // s of film that the picture stands still at the caption's beginning
+    bool operator==(const FilmCaption&) const = default;
+};
+// Whether it is there at that simulated time, s; a frame that is early by rounding counts as there.
+inline bool shows_caption(const FilmCaption& caption, double time) {
+    constexpr double rounding = 1e-9;
+    return time >= caption.from - rounding && time < caption.to - rounding;
+}
 
 // Where the camera is at one moment of the film; what is left empty follows from the other keys.
 struct CameraKey {
@@ -260,6 +306,7 @@ struct Film {
     double rate = 30;   // frames a second of film
     std::string title;  // shown on the frame
     std::vector<FilmSegment> segments;
+    std::vector<FilmCaption> captions;  // by rising time; none over another
     int periods = 0;  // of the drive, that locked frames, displacements and means go by; 0: as the bed does
     Camera camera;
     Colour background{1, 1, 1};
@@ -293,6 +340,9 @@ struct Scene {
     Run run;
     Output output;
     Film film;
+
+    // As far as the reader was told.
+    Measurable measurable;
 
     // What the reader took in place of what was written, for the user to know.
     std::vector<std::string> notes;

@@ -21,7 +21,7 @@ namespace grainreel {
 namespace {
 
 constexpr std::string_view kName = "grainrs";  // of every version, whose digit follows
-constexpr char kVersion = '9';
+constexpr char kVersion = 'a';
 
 template <class Grain, class Each>
 void transfer_grains(Grain& g, const Each& each) {
@@ -31,10 +31,6 @@ void transfer_grains(Grain& g, const Each& each) {
 
 UserError cannot_start(const Scene& scene, const std::string& what) {
     return UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
-}
-
-UserError damaged(const Scene& scene) {
-    return cannot_start(scene, "is damaged; take another checkpoint");
 }
 
 std::string read_whole(const Scene& scene) {
@@ -54,10 +50,10 @@ std::string_view body_of(const Scene& scene, std::string_view bytes) {
                            "is a checkpoint of another version of grainreel; give the final.csv beside it");
     std::uint64_t sum = 0;
     constexpr std::size_t prologue = kName.size() + sizeof kVersion + sizeof sum;
-    if (bytes.size() <= prologue) throw damaged(scene);
+    if (bytes.size() <= prologue) throw damaged_checkpoint(scene);
     std::memcpy(&sum, bytes.data() + prologue - sizeof sum, sizeof sum);
     bytes.remove_prefix(prologue);
-    if (sum != XXH64(bytes.data(), bytes.size(), 0)) throw damaged(scene);
+    if (sum != XXH64(bytes.data(), bytes.size(), 0)) throw damaged_checkpoint(scene);
     return bytes;
 }
 
@@ -68,39 +64,32 @@ bool has_all_values(const Grains& g) {
            (g.orientation.empty() || all(g.orientation)) && (g.derivatives.empty() || all(g.derivatives));
 }
 
-// From 0 without gaps, in the order of the ids: those of a run that grains have left have some.
-std::vector<std::int32_t> numbers_of(const std::vector<std::int32_t>& ids) {
-    std::vector<std::int32_t> rising = ids, numbers;
-    std::sort(rising.begin(), rising.end());
-    for (const std::int32_t id : ids)
-        numbers.push_back(
-            static_cast<std::int32_t>(std::lower_bound(rising.begin(), rising.end(), id) - rising.begin()));
-    return numbers;
-}
-
 struct Saved {
     std::string scene;
     CheckpointHeader header;
     bool fresh = false;
+    std::string gathered;
     Grains grains;
 };
 
 Saved read_saved(const Scene& scene, Bytes& in) {
     Saved saved;
-    std::vector<char> text;
+    std::vector<char> text, gathered;
     std::int64_t step = 0;
     std::uint8_t fresh = 0;
     read_vector(in, text);
     read_value(in, saved.header);
     read_value(in, fresh);
+    read_vector(in, gathered);
     read_value(in, step);
     transfer_grains(saved.grains, Reading{in});
     const CheckpointHeader& h = saved.header;
     if (in.failed() || h.step != step || step < 0 || fresh > 1 || !std::isfinite(h.start_energy) ||
         !h.wall_offset.allFinite() || !h.wall_velocity.allFinite() || !has_all_values(saved.grains))
-        throw damaged(scene);
+        throw damaged_checkpoint(scene);
     saved.scene.assign(text.begin(), text.end());
     saved.fresh = fresh == 1;
+    saved.gathered.assign(gathered.begin(), gathered.end());
     return saved;
 }
 
@@ -117,6 +106,10 @@ bool could_be_given(const Scene& scene, const std::vector<std::int64_t>& given, 
 
 }  // namespace
 
+UserError damaged_checkpoint(const Scene& scene) {
+    return cannot_start(scene, "is damaged; take another checkpoint");
+}
+
 // What feeds have given stands there once they have given anything: the loop's account stands before it then.
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
                  const std::vector<std::int64_t>& given) {
@@ -128,12 +121,13 @@ void write_state(std::ostream& out, std::int64_t step, const Grains& grains, con
 
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
-                     const std::vector<std::int64_t>& given) {
+                     const std::string& gathered, const std::vector<std::int64_t>& given) {
     std::ostringstream body;
     const std::string kept = scene_to_keep(scene, plan);
     write_vector(body, std::vector<char>(kept.begin(), kept.end()));
     write_value(body, header);
     write_value(body, static_cast<std::uint8_t>(loop.is_fresh() ? 1 : 0));
+    write_vector(body, std::vector<char>(gathered.begin(), gathered.end()));
     write_state(body, header.step, grains, loop, given);
     const std::string bytes = body.str();
     const std::uint64_t sum = XXH64(bytes.data(), bytes.size(), 0);
@@ -162,7 +156,8 @@ bool is_checkpoint(const std::filesystem::path& path) {
 }
 
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
-                                          StepLoop& loop, std::vector<std::int64_t>& given) {
+                                          StepLoop& loop, std::string& gathered,
+                                          std::vector<std::int64_t>& given) {
     const std::string bytes = read_whole(scene);
     Bytes in(body_of(scene, bytes));
     Saved saved = read_saved(scene, in);
@@ -173,7 +168,7 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
     loop.load(in);
     given.assign(scene.feeds.size(), 0);
     if (in.left() > 0) read_vector(in, given);
-    if (!could_be_given(scene, given, loop.traffic())) throw damaged(scene);
+    if (!could_be_given(scene, given, loop.traffic())) throw damaged_checkpoint(scene);
     if (!loop.traffic().any()) {
         check_grains_numbered(scene, grains);
         check_grains_match(scene, grains);
@@ -181,8 +176,9 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
         check_sizes_match(scene, grains);
     }
     loop.set_fresh(saved.fresh);
+    gathered = std::move(saved.gathered);
     if (in.failed() || in.left() > 0 || grains.derivatives.empty() == loop.carries_derivatives())
-        throw damaged(scene);
+        throw damaged_checkpoint(scene);
     return saved.header;
 }
 
@@ -193,7 +189,7 @@ Grains grains_from_checkpoint(const Scene& scene) {
     check_grains_possible(scene, saved.grains);
     Grains grains;
     grains.reserve(saved.grains.size());
-    const std::vector<std::int32_t> number = numbers_of(saved.grains.id);
+    const std::vector<std::int32_t> number = numbers_without_gaps(saved.grains.id);
     for (std::size_t i = 0; i < saved.grains.size(); ++i) {
         const Place& place = saved.grains.place[i];
         const Motion& motion = saved.grains.motion[i];

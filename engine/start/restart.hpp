@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
+#include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
@@ -19,11 +21,12 @@ struct CheckpointHeader {
     Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
 };
 
-// Everything that decides the future, the scene among it, to a temporary name, then renamed. Throws RunError
-// when it cannot be written. given: how many grains each feed has given.
+// Everything that decides the future, the scene among it, to a temporary name, then renamed. gathered: what
+// observers have gathered (Observers::save), which decides nothing. given: how many grains each feed has
+// given. Throws RunError when it cannot be written.
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
-                     const std::vector<std::int64_t>& given = {});
+                     const std::string& gathered, const std::vector<std::int64_t>& given = {});
 
 // The bytes behind save_checkpoint, for hashes.
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
@@ -36,10 +39,14 @@ bool is_checkpoint(const std::filesystem::path& path);
 // damaged, of another version, or does not fit the scene; nothing in it is believed.
 //
 // To go on bit by bit: grains, the loop's lists and histories, and what each feed has given. The loop is that
-// of these grains.
+// of these grains. `gathered` becomes what observers had gathered, which the caller has still to check.
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
-                                          StepLoop& loop, std::vector<std::int64_t>& given);
+                                          StepLoop& loop, std::string& gathered,
+                                          std::vector<std::int64_t>& given);
 // To start anew: where the grains are in the container at rest, and how fast; their masses are the scene's.
 Grains grains_from_checkpoint(const Scene& scene);
+
+// At the scene's `start.file`, which holds what this program does not write.
+UserError damaged_checkpoint(const Scene& scene);
 
 }  // namespace grainreel

@@ -28,6 +28,15 @@ constexpr const char* kOtherContainer =
 
 }  // namespace
 
+std::vector<std::int32_t> numbers_without_gaps(const std::vector<std::int32_t>& ids) {
+    std::vector<std::int32_t> rising = ids, numbers;
+    std::sort(rising.begin(), rising.end());
+    for (const std::int32_t id : ids)
+        numbers.push_back(
+            static_cast<std::int32_t>(std::lower_bound(rising.begin(), rising.end(), id) - rising.begin()));
+    return numbers;
+}
+
 Grains grains_from_table(const Scene& scene) {
     if (scene.start.keep_clock)
         fail(scene,
@@ -35,11 +44,11 @@ Grains grains_from_table(const Scene& scene) {
     const Frame frame = read_grain_table(scene.start.file);
     Grains grains;
     grains.reserve(frame.id.size());
+    const std::vector<std::int32_t> number = numbers_without_gaps(frame.id);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         // A species that the scene does not have is refused later; its density does not matter.
         const std::size_t s = std::min<std::size_t>(frame.species[i], scene.species.size() - 1);
-        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
-                   scene.species[s].density);
+        grains.add(number[i], frame.species[i], frame.position[i], frame.radius[i], scene.species[s].density);
         grains.motion.back().velocity = frame.velocity[i];
         grains.motion.back().spin = frame.spin[i];
     }

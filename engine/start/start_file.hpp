@@ -2,6 +2,7 @@
 // those that the scene speaks of. All throw UserError with the place of `start.file`, or of the list.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/scene/scene.hpp"
@@ -11,7 +12,10 @@
 
 namespace grainreel {
 
-// The grains of a final.csv, in its order.
+// Numbers from 0 without gaps, in the order of the ids. The ids of a run that grains have left have gaps.
+std::vector<std::int32_t> numbers_without_gaps(const std::vector<std::int32_t>& ids);
+
+// The grains of a final.csv, in its order, numbered without gaps.
 Grains grains_from_table(const Scene& scene);
 
 // Those of [[grain]], numbered as listed.

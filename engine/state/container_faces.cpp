@@ -1,5 +1,6 @@
 #include "engine/state/container_faces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainreel {
@@ -37,6 +38,21 @@ void add_side_walls(const Container& c, std::vector<Face>& faces) {
 }
 
 }  // namespace
+
+FaceDistance distance_to_plate(const Face& face, const Vec3& offset, const Vec3& centre) {
+    const Vec3 from = centre - face.point - offset;
+    const bool round = face.kind == Face::Kind::cylinder;
+    Vec3 out(round || face.round_gap ? from.x() : 0, from.y(), 0);
+    const double rho = out.norm();
+    out = rho > 0 ? Vec3(out / rho) : Vec3(0, 1, 0);
+    const Vec3 apart = round ? Vec3((rho - face.radius) * out) : Vec3(face.normal.dot(from) * face.normal);
+    const Vec3 back = face.gap > 0
+                          ? Vec3(std::min(0.0, rho - face.gap) * out)
+                          : Vec3(std::min(0.0, face.along.dot(centre - face.edge - offset)) * face.along);
+    const Vec3 v = apart + back;
+    const double distance = v.norm();
+    return {distance, distance > 0 ? Vec3(v / distance) : face.normal};
+}
 
 std::vector<Face> container_faces(const Container& container, const Drive& drive) {
     std::vector<Face> faces;

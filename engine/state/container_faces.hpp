@@ -1,5 +1,6 @@
-// The container as faces that grains can touch. Every container here is convex, so whole planes serve:
-// a grain in a corner touches two of them, and both contacts are real.
+// The container as faces that grains can touch. A closed container is convex, so whole planes serve: a grain
+// in a corner touches two of them, and both contacts are real. With an open outlet the faces are thin plates
+// that end at edges (outlet_faces.hpp).
 #pragma once
 
 #include <string>
@@ -20,17 +21,30 @@ struct Face {
     double radius = 0;     // m, of a cylinder
     Body body;             // that it belongs to
 
+    // A plate that ends: a grain touches it at its nearest point, which may lie on an edge, from either side.
+    bool ends = false;
+    Vec3 along{0, 0, 0};  // unit, in the face and across its lower edge; zero for no such edge
+    Vec3 edge{0, 0, 0};   // m, a point of the lower edge
+    double gap = 0;       // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
+    bool round_gap = false;
+
     Vec3 displacement(const Pose& drive) const { return body.place_at(drive); }
     Vec3 velocity_at(const Pose& drive) const { return body.velocity_at(drive); }
 };
 
 struct FaceDistance {
     double distance;  // m, from the grain's centre, negative outside
-    Vec3 normal;      // unit, into the container
+    Vec3 normal;      // unit, into the container; from the nearest point of a plate to the centre
 };
 
 // Vertical wall d = y_max - |y|; slant d = [y_max - |y| - (H - z) tan theta] cos theta.
+//
+// Of a face that ends: the vector from its nearest point is v = A u + B s. u is the distance from the endless
+// face and A its direction. s <= 0 is how far the centre lies beyond the edge and B the direction back onto
+// the face.
+FaceDistance distance_to_plate(const Face& face, const Vec3& offset, const Vec3& centre);
 inline FaceDistance distance_to(const Face& face, const Vec3& offset, const Vec3& centre) {
+    if (face.ends) return distance_to_plate(face, offset, centre);
     const Vec3 from = centre - face.point - offset;
     if (face.kind == Face::Kind::plane) return {face.normal.dot(from), face.normal};
     const double out = std::sqrt(from.x() * from.x() + from.y() * from.y());

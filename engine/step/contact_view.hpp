@@ -15,6 +15,8 @@ struct ContactView {
     double smaller_radius;   // m
     double normal_force;     // N
     Vec3 tangential;         // N, on second
+    Vec3 torque_on_first;    // N m
+    Vec3 torque_on_second;   // N m; unset for a wall
     double stored_energy;    // J, that unloading would give back
     double sideways_energy;  // J, the part of it in tangential and rolling springs
     double latched_energy;   // J, that latching has taken since the bodies met, if they were unloaded now

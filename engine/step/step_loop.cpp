@@ -56,10 +56,11 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
     copy_foreign(member);
     for (bool first = true; evaluations.step_number() < to; first = false) {
         move(member, first, kicks);  // half a kick and the drift
-        const bool leaves = evaluations.ends_step() && may_leave(member);
+        const bool leaves = evaluations.ends_step() && may_leave(member, step);
         mine.clock.lap(Cost::integrate);
 
         mine.walls.set(around_.faces, at.before, at.now, at.since);
+        if (mine.walls.tally) mine.tally.begin_evaluation(at.acts / step);
         const Told all = exchange(member, leaves);
         mine.clock.lap(Cost::other);
         lists_.renew(member, all.fastest, all.parted, at, step, kicks.frame);

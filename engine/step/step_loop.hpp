@@ -48,11 +48,22 @@ class StepLoop {
     // Likewise, after a restart(). New grains must touch nothing. They get rising ids, none of which any
     // grain has had; returns the first of them.
     std::int32_t insert(const std::vector<NewGrain>& grains);
+    // Between two runs: `change` opens an outlet, so that faces of the surroundings end or have a gap. Faces
+    // keep their numbers, and no face grows.
+    void open_faces(const std::function<void()>& change, std::int64_t step);
     const Traffic& traffic() const { return traffic_; }
     // Who has left since the last call, by step, then by id.
     std::vector<Departure> take_departures();
     // From now on: nobody has come or left.
     void begin_account() { traffic_ = {.next_id = traffic_.next_id}; }
+
+    // From now on: sums up what grains do to the walls. The first forces are those at `step`, the present
+    // one. It changes nothing of the run, and costs it some percent of what its walls cost.
+    void tally_walls(const WallScale& scale, std::int64_t step);
+    // Likewise, and goes on where `before` stopped. Its vectors must be as long as there are faces and
+    // slices.
+    void go_on_tallying(const WallSums& before, const WallScale& scale);
+    WallSums wall_sums() const;
 
     // Shows all touching contacts, in the same order on any number of threads.
     void visit_contacts(std::int64_t at_step, const std::function<void(const ContactView&)>& visit) const;
@@ -89,6 +100,7 @@ class StepLoop {
     // What a thread writes. It shares no cache line with what another thread writes.
     struct alignas(64) Member {
         WallState walls;
+        WallTally tally;
         ChunkMemory memory;
         Vanguard ahead;  // its grains that begin the next step early
         CostClock clock;
@@ -98,6 +110,7 @@ class StepLoop {
         std::int64_t reached = 0;  // the step that a run ended at
     };
 
+    double last_share() const;
     void run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks);
     void set_kicks(const Evaluations& evaluations, const Evaluation& at, double step, KickInput& kicks) const;
     void move(int member, bool first, const KickInput& kicks);
@@ -107,10 +120,11 @@ class StepLoop {
     void copy_foreign(int member);
 
     bool in_exit(std::int32_t grain) const;
-    bool may_leave(int member) const;
+    bool may_leave(int member, double step) const;
     void let_leave(std::int64_t step);
     void take_out(const std::vector<std::int32_t>& leavers, std::int64_t step);
-    void note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step);
+    std::vector<bool> note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step);
+    void sum_loads_anew(const std::vector<bool>& of, std::int64_t step);
     void add(const NewGrain& grain);
     bool is_traffic_sound() const;
 

@@ -43,7 +43,7 @@ bool StepLoop::is_traffic_sound() const {
     constexpr std::int64_t kMostIds = std::int64_t{1} << 31;
     const Traffic& t = traffic_;
     const auto known = [&](std::int32_t id) { return id < t.next_id; };
-    return !t.any() || (t.came >= 0 && t.left >= 0 && std::isfinite(t.energy_in) &&
+    return !t.any() || (t.came >= 0 && t.left >= 0 && t.openings >= 0 && std::isfinite(t.energy_in) &&
                         std::isfinite(t.energy_out) && std::isfinite(t.work_out) && t.next_id <= kMostIds &&
                         (t.came == 0 || std::all_of(grains_.id.begin(), grains_.id.end(), known)));
 }

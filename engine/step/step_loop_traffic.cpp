@@ -1,6 +1,6 @@
 // Grains leave and enter between two steps. Those that stay keep their order, their forces and their
-// histories, so that nothing depends on the threads. (A force of the step's end acts for half a step more,
-// also one by a grain that has left: an error of the order of the step, once for each such contact.)
+// histories, so that nothing depends on the threads. A grain that has lost a contact in this way begins its
+// next step with the forces of those contacts that it keeps.
 #include <algorithm>
 #include <utility>
 
@@ -51,18 +51,25 @@ bool StepLoop::in_exit(std::int32_t i) const {
                        [&](const Exit& exit) { return exit.holds(grains_.place[i].position); });
 }
 
-// Whether the run must stop at the end of this step, for a grain of this member's may leave then. Where the
-// scheme moves grains once more after the forces, nobody knows yet, and the run stops at every step.
-bool StepLoop::may_leave(int member) const {
+// Whether the run must stop at the end of this step, for a grain of this member's may leave then.
+//
+// Where the scheme still moves grains after the forces, the run stops if a grain comes near an exit. How near
+// depends on the grain alone, and not on the threads, because these schemes round differently where a run
+// stops. A grain moves by at most a step's way and what the forces of a step add. That is far less than a
+// hundredth of its radius, since a contact lasts many steps.
+bool StepLoop::may_leave(int member, double step) const {
+    constexpr double kPushed = 0.01;  // of a radius
     if (around_.exits.empty()) return false;
-    if (scheme_.corrects || scheme_.closing_drift > 0) return true;
+    const bool moves = scheme_.moves_after_forces();
     // Of most exits the first half-space tells that a grain is not in them.
     for (const Exit& exit : around_.exits) {
         if (exit.sides.empty()) continue;
         const Exit::HalfSpace first = exit.sides.front();
         for (std::int32_t i = lists_.begin(member); i < lists_.end(member); ++i) {
             const Vec3& centre = grains_.place[i].position;
-            if (first.normal.dot(centre) < first.distance && exit.holds(centre)) return true;
+            double reach = 0;
+            if (moves) reach = kPushed * grains_.place[i].radius + step * grains_.motion[i].velocity.norm();
+            if (first.normal.dot(centre) < first.distance + reach && exit.holds(centre, reach)) return true;
         }
     }
     return false;
@@ -85,20 +92,25 @@ void StepLoop::remove(const std::vector<std::int32_t>& ids, std::int64_t step) {
 // Grains by index, rising; at the end of the step before `step`.
 void StepLoop::take_out(const std::vector<std::int32_t>& leavers, std::int64_t step) {
     if (leavers.empty()) return;
-    note_departures(leavers, step);
-    leave_out(grains_, lists_.leave_out(leavers));
+    std::vector<bool> lose_a_contact = note_departures(leavers, step);
+    const std::vector<std::int32_t>& index = lists_.leave_out(leavers);
+    leave_out(grains_, index);
+    leave_out(lose_a_contact, index);
     lists_.renew_shares();
+    sum_loads_anew(lose_a_contact, step);
 }
 
-// In order of their ids.
-void StepLoop::note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step) {
+// Notes who leaves, in order of their ids. Returns which grains lose a contact by that.
+std::vector<bool> StepLoop::note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step) {
     std::vector<double> stored(grains_.size(), 0.0);
-    std::vector<bool> leaves(grains_.size(), false);
+    std::vector<bool> leaves(grains_.size(), false), lose(grains_.size(), false);
     for (const std::int32_t i : leavers) leaves[i] = true;
     visit_contacts(step, [&](const ContactView& c) {
         const bool first = leaves[c.first];
-        if (first || (c.second >= 0 && leaves[c.second]))
-            stored[first ? c.first : c.second] += c.stored_energy;
+        if (!first && (c.second < 0 || !leaves[c.second])) return;
+        stored[first ? c.first : c.second] += c.stored_energy;
+        lose[c.first] = true;
+        if (c.second >= 0) lose[c.second] = true;
     });
     std::vector<Departure> gone;
     for (const std::int32_t i : leavers) {
@@ -111,6 +123,46 @@ void StepLoop::note_departures(const std::vector<std::int32_t>& leavers, std::in
     for (const Departure& one : gone) traffic_.energy_out += one.energy;
     traffic_.left += std::ssize(gone);
     departures_.insert(departures_.end(), gone.begin(), gone.end());
+    return lose;
+}
+
+// Sums the loads of some grains from their contacts as they are now. Where no kick follows by the forces of
+// the step before, there are no loads.
+void StepLoop::sum_loads_anew(const std::vector<bool>& of, std::int64_t step) {
+    if (std::find(of.begin(), of.end(), true) == of.end()) return;
+    for (std::size_t i = 0; i < of.size(); ++i)
+        if (of[i]) grains_.load[i] = {};
+    if (scheme_.moves_after_forces()) return;
+    visit_contacts(step, [&](const ContactView& c) {
+        const Vec3 on_second = c.normal_force * c.normal + c.tangential;
+        if (of[c.first]) {
+            grains_.load[c.first].force -= on_second;
+            grains_.load[c.first].torque += c.torque_on_first;
+        }
+        if (c.second >= 0 && of[c.second]) {
+            grains_.load[c.second].force += on_second;
+            grains_.load[c.second].torque += c.torque_on_second;
+        }
+    });
+}
+
+// What contacts with the parts of the faces that are gone had stored, goes with these.
+void StepLoop::open_faces(const std::function<void()>& change, std::int64_t step) {
+    std::vector<bool> at_a_wall(grains_.size(), false);
+    const auto stored = [&] {
+        double sum = 0;
+        visit_contacts(step, [&](const ContactView& c) {
+            if (c.second >= 0) return;
+            at_a_wall[c.first] = true;
+            sum += c.stored_energy;
+        });
+        return sum;
+    };
+    const double before = stored();
+    change();
+    traffic_.energy_out += before - stored();
+    ++traffic_.openings;
+    sum_loads_anew(at_a_wall, step);
 }
 
 std::vector<Departure> StepLoop::take_departures() {

@@ -20,9 +20,10 @@ struct Exit {
     };
     std::vector<HalfSpace> sides;  // all of them hold; none: no exit
 
-    bool holds(const Vec3& centre) const {
+    // reach: m, by which every side is moved outwards.
+    bool holds(const Vec3& centre, double reach = 0) const {
         return !sides.empty() && std::all_of(sides.begin(), sides.end(), [&](const HalfSpace& side) {
-            return side.normal.dot(centre) < side.distance;
+            return side.normal.dot(centre) < side.distance + reach;
         });
     }
 };
@@ -47,21 +48,15 @@ struct NewGrain {
     Vec3 position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};  // m, m/s, rad/s
 };
 
-// What a run may do, for those who make room for it: whether grains leave, and how many may come.
-struct ExpectedTraffic {
-    bool leaves = false;
-    std::size_t comes = 0;
-    bool any() const { return leaves || comes > 0; }
-};
-
 // The account: what a run had at its start, plus what came, less what left, is what it has.
 struct Traffic {
     std::int64_t came = 0, left = 0;
-    double energy_in = 0, energy_out = 0;  // J, as of a Departure
+    double energy_in = 0, energy_out = 0;  // J, as of a Departure; what an outlet's gate held went out too
     double work_out = 0;                   // J, that moving walls had done on grains that have left
     std::int64_t next_id = 0;              // above all ids that there were, as far as grains came or left
+    std::int64_t openings = 0;             // of outlets
 
-    bool any() const { return came != 0 || left != 0 || next_id != 0; }
+    bool any() const { return came != 0 || left != 0 || next_id != 0 || openings != 0; }
 };
 
 }  // namespace grainreel

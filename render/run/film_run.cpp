@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/film/files/film_limits.hpp"
+#include "render/film/production/caption_holds.hpp"
 
 namespace grainreel {
 
@@ -119,6 +120,7 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     film.take_turns = threads_.take_turns;
     film.gl = request_.gl;
     film.pictures = pictures_planned_;
+    frames_planned_ = pictures_planned_ + held_frames(scene.film);
     film.check_folder = [this] { folder_->lock().check_there(); };
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
                  : std::make_unique<FilmMaker>(scene, film);
@@ -179,8 +181,8 @@ void FilmRun::show_drawing() {
     Progress progress;
     progress.stage = Progress::Stage::drawing;
     progress.frames = film_->frames_done();
-    progress.frames_planned = pictures_planned_;
-    progress.done = static_cast<double>(progress.frames) / static_cast<double>(pictures_planned_);
+    progress.frames_planned = frames_planned_;
+    progress.done = static_cast<double>(progress.frames) / static_cast<double>(frames_planned_);
     progress.elapsed = watch_.seconds();
     if (progress.frames > 0 && progress.elapsed > 1)
         progress.remaining = progress.elapsed * (1 - progress.done) / progress.done;

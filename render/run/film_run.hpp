@@ -74,6 +74,7 @@ class FilmRun {
     RunRecord record_;
     StageTimes times_;
     std::unique_ptr<FilmMaker> film_;
+    std::int64_t frames_planned_ = 0;  // of the film: its pictures, and those that are held for captions
     std::int64_t pictures_planned_ = 0;
     FilmReport film_report_;
     FirstFailure failure_;

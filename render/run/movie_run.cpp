@@ -67,7 +67,8 @@ void MovieRun::describe() {
     std::vector<std::string> warnings = run_.plan().warnings;
     if (wants_pictures()) {
         for (const std::vector<std::string>& found :
-             {pace_warnings(scene, run_.plan().clock), strobe_warnings(scene.film, scene.drive),
+             {pace_warnings(scene, run_.plan().clock),
+              strobe_warnings(scene.film, scene.drive, scene.run.duration),
               film_warnings(scene, static_cast<std::int64_t>(pictures_.instants.size()))})
             warnings.insert(warnings.end(), found.begin(), found.end());
     }
@@ -126,7 +127,7 @@ void MovieRun::show_progress() {
     progress.end = plan.clock.time(plan.steps);
     progress.particle_steps_per_second = run_.recent_speed();
     progress.frames = film_ ? film_->frames_done() : 0;
-    progress.frames_planned = pictures_planned_;
+    progress.frames_planned = frames_planned_;
     progress.elapsed = watch_.seconds();
     const double vibrating = vibrating_->seconds();
     if (progress.done > 0 && vibrating > 1)
@@ -152,9 +153,11 @@ void MovieRun::report_written() {
     listener_.info(fmt::format("wrote {}: {}{}, log.txt", folder_->path().string(), film_files_text(),
                                run_.files_text()));
     report_segregation();
-    listener_.info(fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s)",
-                               duration_text(watch_.seconds()), duration_text(run_.times().of("packing")),
-                               duration_text(run_.times().of("engine")), run_.speed() * 1e-6));
+    listener_.info(
+        fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s), film {}",
+                    duration_text(watch_.seconds()), duration_text(run_.times().of("packing")),
+                    duration_text(run_.times().of("engine")), run_.speed() * 1e-6,
+                    duration_text(times_.of("waiting for the film") + times_.of("finishing the film"))));
 }
 
 void MovieRun::report_segregation() {

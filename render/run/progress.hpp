@@ -7,10 +7,10 @@
 namespace grainreel {
 
 struct Progress {
-    enum class Stage { growing, raining, settling, vibrating, charting, timing, drawing };
+    enum class Stage { growing, raining, settling, vibrating, charting, timing, drawing, studying };
     Stage stage = Stage::growing;
     double done = 0;                              // of this stage, 0 to 1
-    std::string what;                             // while charting or timing
+    std::string what;                             // while charting, timing or studying
     double time = 0, end = 0;                     // s simulated, while vibrating
     double particle_steps_per_second = 0;         // 0: not known yet
     std::int64_t frames = 0, frames_planned = 0;  // of the film; planned 0: no film

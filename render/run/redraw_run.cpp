@@ -84,7 +84,7 @@ bool RedrawRun::work() {
 }
 
 std::string RedrawRun::stopped_text() const {
-    return fmt::format("stopped at frame {} of {}", film_report_.frames, pictures_planned_);
+    return fmt::format("stopped at frame {} of {}", film_report_.frames, frames_planned_);
 }
 
 void RedrawRun::report_written() {

@@ -12,13 +12,13 @@ std::vector<std::string> species_names(const Scene& scene) {
     return names;
 }
 
-TrajectoryInfo trajectory_info(const Scene& scene, const Simulation& simulation, const std::string& version) {
+TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::string& version) {
     TrajectoryInfo info;
     info.title = scene.title;
     info.program_version = version;
     info.species = species_names(scene);
-    info.capacity = simulation.capacity();
-    info.traffic = simulation.expected().any();
+    info.capacity = static_cast<std::size_t>(plan.capacity);
+    info.traffic = plan.traffic;
     for (const FreeWall& wall : scene.walls) info.planes.push_back(wall.name);
     info.orientation = scene.keeps_orientations();
     info.cell_origin = extent_of(scene).low;
@@ -30,10 +30,15 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Simulation& simulation,
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                    const Simulation& simulation, const std::string& program_version)
-    : measures_(folder / "measures.csv", species_names(scene)) {
+    : clock_(plan.clock),
+      field_times_(plan.fields),
+      measures_(folder / "measures.csv", simulation.measured()) {
+    if (plan.opens) outflow_.emplace(folder / "outflow.csv");
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
+    if (const auto sets = simulation.field_sets(); !sets.empty())
+        fields_.emplace(folder / "fields.nc", sets, scene.title, program_version);
     if (plan.trajectory_every == 0) return;
-    trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, simulation, program_version));
+    trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, plan, program_version));
     if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, program_version);
 }
 
@@ -41,6 +46,19 @@ void RunFiles::add_frame(const Frame& frame, const Simulation& simulation) {
     const std::int64_t index = trajectory_->frames();
     trajectory_->write(frame);
     if (contacts_) contacts_->write(index, simulation.contacts());
+}
+
+void RunFiles::add_fields(const Simulation& simulation) {
+    const std::int64_t end = simulation.step();
+    fields_->write(clock_.time(field_times_.begin_of_record(end)), clock_.time(end), simulation.fields());
+}
+
+void RunFiles::add_departures(Simulation& simulation) {
+    if (outflow_) outflow_->write(simulation.take_departures(), clock_);
+}
+
+std::optional<std::int64_t> RunFiles::outflow_rows() const {
+    return outflow_ ? std::optional(outflow_->rows()) : std::nullopt;
 }
 
 void RunFiles::add_measures(const Measures& measures) {

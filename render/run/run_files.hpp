@@ -1,4 +1,4 @@
-// The files of one run that grow while it goes on: trajectory, contacts, measures.
+// The files of one run that grow while it goes on: trajectory, contacts, measures, outflow.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,9 @@
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/output/contacts_file.hpp"
+#include "engine/output/fields_file.hpp"
 #include "engine/output/measures_csv.hpp"
+#include "engine/output/outflow_csv.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
@@ -18,19 +20,25 @@ namespace grainreel {
 
 class RunFiles {
   public:
-    // With room for all grains of the simulation, and for those that may come. Throws RunError when a file
-    // cannot be made.
+    // With room for all grains that the plan expects. Throws RunError when a file cannot be made.
     RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version);
 
     // The frame, and the contacts of the same moment when the scene asks for them.
     void add_frame(const Frame& frame, const Simulation& simulation);
     void add_measures(const Measures& measures);
+    // What observers give on grids, at the end of a record.
+    bool has_fields() const { return fields_.has_value(); }
+    void add_fields(const Simulation& simulation);
+    // Who has left since the last call.
+    void add_departures(Simulation& simulation);
 
     std::int64_t trajectory_frames() const { return trajectory_ ? trajectory_->frames() : 0; }
+    std::int64_t field_records() const { return fields_ ? fields_->records() : 0; }
     std::int64_t measures_rows() const { return measures_.rows(); }
     // The rows again, for those who draw them; null unless the film has plots.
     std::shared_ptr<const MeasureTable> measures() const { return table_; }
+    std::optional<std::int64_t> outflow_rows() const;
     bool has_contacts() const { return contacts_.has_value(); }
     const std::optional<Measures>& first_measures() const { return first_; }
     const std::optional<Measures>& last_measures() const { return last_; }
@@ -38,7 +46,11 @@ class RunFiles {
   private:
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<ContactsWriter> contacts_;
+    Clock clock_;
+    FieldTimes field_times_;
+    std::optional<FieldsWriter> fields_;
     MeasuresWriter measures_;
+    std::optional<OutflowWriter> outflow_;  // where grains may leave
     std::shared_ptr<MeasureTable> table_;
     std::optional<Measures> first_, last_;
 };

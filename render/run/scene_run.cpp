@@ -91,8 +91,10 @@ void SceneRun::start(const Pictures& pictures) {
     bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
     files_.emplace(folder_->folder(), scene_, plan_, simulation_, program_version_);
     want_moments(shots);
-    agenda_.emplace(shots, plan_.trajectory_every, plan_.measures_every, first_step_, plan_.steps,
-                    kept_.steps(), bed_periods_->every());
+    agenda_.emplace(shots, Rhythm(plan_.trajectory_every, plan_.trajectory_periods),
+                    Rhythm(plan_.measures_every, plan_.measures_periods), first_step_, plan_.steps,
+                    kept_.steps(), bed_periods_->rhythm(), plan_.clock,
+                    files_->has_fields() ? &plan_.fields : nullptr);
     // As far as one knows: what a bed of several periods leaves out is found later.
     shots_ = std::count_if(shots.begin(), shots.end(), [&](const Shot& shot) {
         const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));
@@ -154,6 +156,7 @@ bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
             const auto timer = times_.during("engine");
             simulation_.advance(to);
         }
+        files_->add_departures(simulation_);
         const double seconds = stretch.seconds();
         pace_.took(to - from, seconds);
         const double work = static_cast<double>(to - from) * static_cast<double>(simulation_.grains());
@@ -168,6 +171,10 @@ FramePtr SceneRun::serve(const Stop& stop) {
     if (stop.measures) {
         const auto timer = times_.during("measuring");
         add_measures();
+    }
+    if (stop.fields) {
+        const auto timer = times_.during("writing");
+        files_->add_fields(simulation_);
     }
     if (!stop.trajectory && !stop.moment && stop.segments.empty()) return nullptr;
     const auto frame = std::make_shared<Frame>(simulation_.frame());
@@ -223,6 +230,8 @@ std::string SceneRun::files_text() const {
     if (plan_.trajectory_every > 0)
         text += fmt::format("trajectory.nc ({} frames), ", files_->trajectory_frames());
     if (files_->has_contacts()) text += "contacts.nc, ";
+    if (files_->has_fields()) text += fmt::format("fields.nc ({} records), ", files_->field_records());
+    if (const auto rows = files_->outflow_rows()) text += fmt::format("outflow.csv ({} grains), ", *rows);
     return text + fmt::format("measures.csv ({} rows), final.csv, checkpoint.grs, scene.toml, run.json",
                               files_->measures_rows());
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/frame.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/scene/film/measure_columns.hpp"
 
 namespace grainreel::test {
 
@@ -39,9 +39,15 @@ inline Frame made_frame(int grains, int number, bool orientation = false) {
 inline Measures made_measures(int number, const std::vector<std::string>& species) {
     std::vector<std::string> names;
     std::vector<double> values;
-    for (const MeasureColumn& column : measure_columns(species)) {
-        values.push_back(std::sin(number + static_cast<double>(names.size())) * 1e-7);
-        names.push_back(column.name);
+    Scene scene;
+    for (const std::string& name : species) scene.species.emplace_back().name = name;
+    for (const ObserverEntry& observer : all_observers()) {
+        if (observer.instrument != nullptr || observer.wanted != nullptr) continue;
+        for (const ColumnGroup& group : observer.columns(scene))
+            for (const MeasureColumn& column : group.columns) {
+                values.push_back(std::sin(number + static_cast<double>(names.size())) * 1e-7);
+                names.push_back(column.name);
+            }
     }
     Measures measures(std::make_shared<const std::vector<std::string>>(names), values);
     measures.set("step", number);

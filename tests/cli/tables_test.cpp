@@ -103,7 +103,7 @@ TEST(MeasuresCsv, HasAColumnForEveryNumber) {
     const TemporaryFolder here;
     const std::vector<std::string> species{"small", "big, \"round\""};
     {
-        MeasuresWriter writer(here / "m.csv", species);
+        MeasuresWriter writer(here / "m.csv", made_measures(1, species).names());
         writer.write(made_measures(1, species));
         writer.write(made_measures(2, species));
         EXPECT_EQ(writer.rows(), 2);
@@ -135,12 +135,21 @@ TEST(MeasuresCsv, HasAColumnForEveryNumber) {
                                            "height_difference",
                                            "big_above_small",
                                            "big_in_top_quarter",
+                                           "big_in_bottom_quarter",
+                                           "big_at_walls",
                                            "unlike_neighbours",
                                            "lacey",
+                                           "intensity",
                                            "contact_number",
+                                           "fabric_anisotropy",
+                                           "fabric_vertical",
                                            "largest_overlap",
                                            "floor_position_m",
-                                           "bed_periods"};
+                                           "bed_periods",
+                                           "drive_frequency_Hz",
+                                           "drive_g_level",
+                                           "bed_top_m",
+                                           "bed_solid_fraction"};
     const std::vector<std::string> names = split(lines[0], ','), values = split(lines[2], ',');
     EXPECT_EQ(names, columns);
     ASSERT_EQ(values.size(), expected.size());

@@ -40,7 +40,19 @@ TEST(Verbs, AreNamedToWhoTypesAnother) {
     EXPECT_EQ(ended.status, 2);
     std::string names;
     for (const auto& verb : all_verbs()) names += (names.empty() ? "" : ", ") + verb->name();
-    EXPECT_EQ(ended.err, "error: unknown command 'moovie'; there are " + names + "; see grainreel --help\n");
+    EXPECT_EQ(ended.err, "error: unknown command 'moovie'; did you mean 'movie'? there are " + names +
+                             "; see grainreel --help\n");
+    EXPECT_THAT(run_program({"xylophone"}, {}).err,
+                HasSubstr("unknown command 'xylophone'; there are movie"));
+}
+
+TEST(Verbs, NameTheOptionThatWasMeant) {
+    const Ended ended = run_program({"movie", "a.toml", "--duratoin", "3s", "--nofilm"}, {});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_EQ(ended.err,
+              "error: unknown option '--duratoin'; did you mean '--duration'? see grainreel movie --help\n");
+    EXPECT_EQ(run_program({"check", "a.toml", "--xylophone=1"}, {}).err,
+              "error: unknown option '--xylophone'; see grainreel check --help\n");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/measure/columns.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "support.hpp"
@@ -100,10 +101,32 @@ TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
     EXPECT_NEAR(view.port.height - lowest, type_scale(scene.film).margin, 1);
 }
 
+// A wedge is wider above what the grains reach. No wall that is in the picture's height is outside its width.
+TEST(FramedPart, SlantedWallsStayInThePicture) {
+    for (const auto& [width, height] : {std::pair{1280, 720}, {1000, 900}, {640, 360}, {720, 1280}})
+        for (const double field : {0.0, 25.0})
+            for (const double reach_height : {0.05, 0.1, 0.2, 0.4}) {
+                Scene scene = framed(reach, Container::Shape::wedge, width, height);
+                scene.film.camera.reach = reach_height;
+                scene.film.camera.field_of_view = field;
+                const View view = view_of(scene);
+                for (double top = 0.01; top <= 0.5; top += 0.01)
+                    for (const Vec3& point : framing_points(scene, scene.film.camera.azimuth, {top, true})) {
+                        const Pixel seen = view.project(point);
+                        if (seen.y() < 0) continue;
+                        // The camera looks at some heights only, so that a wall may be half a pixel off.
+                        ASSERT_GE(seen.x(), -0.5) << width << " x " << height << ", " << top << " m";
+                        ASSERT_LE(seen.x(), view.port.width + 0.5)
+                            << width << " x " << height << ", " << top << " m";
+                    }
+            }
+}
+
 TEST(FramedPart, GrainsOfTheShippedBedsCoverTwiceTheArea) {
     for (const char* name : {"wedge_segregation", "wedge_mixing", "teaching_brazil_nut"}) {
         const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";
-        const Scene scene = read_scene(file, {}), whole = read_scene(file, {"film.camera.frame=container"});
+        const Scene scene = read_scene(file, {}, measurable_in),
+                    whole = read_scene(file, {"film.camera.frame=container"}, measurable_in);
         // Grains cover the square of the scale.
         EXPECT_GE(std::pow(scale_of(scene) / scale_of(whole), 2), 2) << name;
     }

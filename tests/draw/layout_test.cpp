@@ -32,6 +32,8 @@ Scene scene_of(int width, int height, const Content& content) {
     if (content.text) {
         scene.film.shows.text = "mixing {lacey}";
         scene.film.shows.live_words = {{"mixing ", "lacey", "", 1}, {"", "", "", 1}};
+        scene.film.captions = {{1, 2, "a few words that take more than one line", 0}};
+        scene.drive.stages = {{DriveStage::Kind::taps, 1, 3, 50, 0.001, 0.25}};
     }
     return scene;
 }
@@ -64,8 +66,11 @@ std::vector<Named> blocks_of(const Scene& scene, const PictureLayout& layout) {
     part("clock", plan.clock_part), part("caption", plan.caption_part), part("note", plan.note_part);
     if (plan.has_dial) part("dial", plan.dial_part);
     for (const Rectangle& plot : plan.plots) part("plot", plot);
-    const TextSize drive = drive_block(measure, scene, 0, 0);
-    add("drive", layout.second, plan.drive.x, plan.drive.y, drive.width, drive.height);
+    const TextSize drive = drive_block(measure, scene, nullptr, 0, 0);
+    if (scene.drive.changes())
+        part("drive", plan.drive_part);
+    else
+        add("drive", layout.second, plan.drive.x, plan.drive.y, drive.width, drive.height);
     if (layout.stacked && plan.has_arrows) {
         const TextSize arrows = arrows_block(measure, scene, nullptr, 0, 0);
         add("arrows", layout.second, plan.arrows.x, plan.arrows.y, arrows.width, arrows.height);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/measure_table.hpp"
+#include "engine/plan/reach.hpp"
+#include "render/draw/camera/framing.hpp"
 #include "render/draw/plots/panel_plots.hpp"
 #include "tests/draw/support.hpp"
 
@@ -337,6 +339,23 @@ TEST(SideBySide, OneRangeOfColoursHoldsInAllPanels) {
     share_colours(panels);
     EXPECT_EQ(panels[1].scene.film.shows.colour.range[1], 0.1 + 0.2);
     EXPECT_EQ(panels[0].scene.film.shows.colour.range[1], 0.1);
+}
+
+// Grains fly higher at the stronger drive; the containers are alike.
+TEST(SideBySide, PanelsFrameOneHeight) {
+    std::vector<Scene> scenes = {scene_with(0.06, 2), scene_with(0.06, 5)};
+    for (Scene& scene : scenes) {
+        scene.film.camera.frame = CameraFrame::reach;
+        scene.container.height = 0.5;
+    }
+    std::vector<Panel> panels = panels_of(scenes);
+    ASSERT_LT(*estimated_reach(scenes[0]), *estimated_reach(scenes[1]));
+    share_reach(panels);
+    for (const Panel& panel : panels) EXPECT_EQ(framed_part(panel.scene).top, framed_part(scenes[1]).top);
+    panels[0].scene.film.camera.frame = CameraFrame::container;  // its own scene asks for it
+    panels[1].scene.film.camera.reach.reset();
+    share_reach(panels);
+    EXPECT_FALSE(panels[1].scene.film.camera.reach);
 }
 
 }  // namespace

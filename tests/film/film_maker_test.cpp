@@ -66,6 +66,24 @@ TEST_F(FilmMakerTest, EveryFrameIsInTheFilmInOrderFirstAndLastAsDrawn) {
     EXPECT_EQ(played.metadata.at("comment"), "grainreel, scene teaching, seed 1");
 }
 
+// The first picture with a caption is held for 0.2 s of film: at 30 frames a second 6 more.
+TEST_F(FilmMakerTest, StandsStillWhereACaptionBegins) {
+    Scene scene = small_scene(96, 64);
+    const double early = 0.5 * (frame_at(2)->time + frame_at(3)->time), late = frame_at(6)->time;
+    scene.film.captions = {{early, late, "look", 0.2}, {late, 1e9, "again", 0}};
+    FilmMaker maker(scene, options(), greys());
+    for (int i = 0; i < 8; ++i) maker.take(frame_at(i), "");
+    EXPECT_EQ(maker.finish().frames, 8 + 6);
+    const FilmFile played = film();
+    ASSERT_THAT(played.frames, SizeIs(14));
+    for (std::size_t i = 0; i < played.frames.size(); ++i) {
+        const std::int64_t step = i <= 3 ? static_cast<std::int64_t>(i)
+                                         : std::max<std::int64_t>(3, static_cast<std::int64_t>(i) - 6);
+        const int grey = grey_of(step);
+        EXPECT_NEAR(played.frames[i].y[32 * 96 + 48], bt709_code(grey, grey, grey)[0], 2) << i;
+    }
+}
+
 TEST_F(FilmMakerTest, AFilmThatFlashesSaysSo) {
     for (const int every : {3, 8}) {  // frames, at 25 a second: 4.2 and 1.6 flashes
         FilmMaker maker(small_scene(96, 64), options(), painting([every](const Frame& frame) {

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/drive_clock.hpp"
+#include "render/film/sampling/timeline.hpp"
 
 namespace grainreel {
 namespace {
@@ -73,6 +75,45 @@ TEST(FilmSchedule, MotionTakesTheStepNearestToEachFramesTime) {
         EXPECT_LE(std::abs(clock.time(shots[k].step) - wanted), 0.5 * clock.step * (1 + 1e-9)) << k;
     }
     EXPECT_LE(shots.back().step, steps);
+}
+
+// 20 Hz, from 1 s over 3 periods to a frequency that has no whole number of steps.
+Clock changing_clock(const Drive& drive) {
+    return drive_clock(drive, 1 / (drive.frequency * 2000), 2000);
+}
+Drive changing_drive() {
+    Drive drive = drive_of(20);
+    drive.amplitude = 0.001;
+    drive.stages = {{DriveStage::Kind::vibrate, 1, 3, 33, 0.001}};
+    return drive;
+}
+
+TEST(FilmSchedule, LockedFollowsTheStageThatIsOn) {
+    const Clock clock = changing_clock(changing_drive());
+    const Film film = film_of({locked(0.5, 1, 0.25), locked({}, 2, 0.75)});
+    const std::vector<Shot> shots = schedule_of(film, clock, 80'000);  // 2 s
+    ASSERT_GT(shots.size(), 10u);
+    for (std::size_t k = 0; k < shots.size(); ++k) {
+        const bool first = shots[k].segment == 0;
+        // A step is 1/2000 of a period at first, and 1/1212 at last.
+        EXPECT_NEAR(clock.phase(shots[k].step), first ? 0.25 : 0.75, 0.5 / 1212) << k;
+        if (k == 0 || shots[k].segment != shots[k - 1].segment) continue;
+        EXPECT_NEAR(clock.cycles(shots[k].step) - clock.cycles(shots[k - 1].step), first ? 1 : 2, 1.0 / 1212);
+    }
+    const std::vector<SegmentCount> counts = count_film(scene_with(film), clock, 80'000);
+    EXPECT_EQ(static_cast<std::size_t>(counts[0].shots + counts[1].shots), shots.size());
+    EXPECT_EQ(counts[0].shots, 10);
+}
+
+TEST(AveragedSteps, GoBackByPeriodsOfTheStagesThatWereOn) {
+    const Clock clock = changing_clock(changing_drive());
+    FilmSegment mean = locked({}, 1, 0);
+    mean.average = 4;
+    const std::int64_t shot = clock.step_at(24);  // one period after the change
+    const std::vector<std::int64_t> steps = averaged_steps({shot, 0}, mean, clock);
+    ASSERT_EQ(steps.size(), 65u);
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        EXPECT_NEAR(clock.cycles(steps[k]), 20 + static_cast<double>(k) / 16, 1.0 / 1212);
 }
 
 TEST(FilmSchedule, WithoutSegmentsTheFilmIsInRealTime) {
@@ -263,28 +304,42 @@ TEST(PlaybackCaption, SaysWhatIsPlayedWhereStepsAreCoarser) {
     EXPECT_EQ(playback_caption(motion({}, 1 / 20'000.33), drive_of(20), 30), "slow motion, 1/20000 speed");
 }
 
+TEST(Timeline, LockedInstantsFindThePhaseOfTheStageThatIsOn) {
+    const Clock clock = changing_clock(changing_drive());
+    const std::vector<Shot> shots = shots_at({{0.41, 0}, {1.507, 0}}, {locked({}, 1, 0.25)}, clock, 80'000);
+    for (const Shot& shot : shots) EXPECT_NEAR(clock.phase(shot.step), 0.25, 0.5 / 1212);
+    EXPECT_LE(std::abs(clock.time(shots[1].step) - 1.507), 0.5 / 33 + clock.step);
+}
+
 TEST(StrobeWarnings, GiveTheApparentMotion) {
     // F = 30 frames per simulated second against f = 31 Hz: k = 1, a slow beat of 1 Hz.
     EXPECT_THAT(
-        strobe_warnings(film_of({motion({}, 1)}), drive_of(31)),
+        strobe_warnings(film_of({motion({}, 1)}), drive_of(31), 10),
         ElementsAre("film segment 1 shows 0.968 frames a period: the 31 Hz drive will seem to move at 1 Hz; "
                     "lock it to a phase, or set its playback to 0.121 or less"));
     // Just below F: still k = 1, not the whole number below.
-    EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), drive_of(28)),
+    EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), drive_of(28), 10),
                 ElementsAre(HasSubstr("the 28 Hz drive will seem to move at 2 Hz")));
     // F = 15: f = 20 lies nearest to 1 F; |20 - 15| = 5. And F = 60: nearest is 0 F, so 20 itself.
     EXPECT_THAT(
-        strobe_warnings(film_of({motion(1.0, 2), locked(1.0, 1, 0), motion({}, 0.5)}), drive_of(20)),
+        strobe_warnings(film_of({motion(1.0, 2), locked(1.0, 1, 0), motion({}, 0.5)}), drive_of(20), 10),
         ElementsAre(
             HasSubstr("film segment 1 shows 0.75 frames a period: the 20 Hz drive will seem to move at 5 Hz"),
             HasSubstr("film segment 3 shows 3 frames a period: the 20 Hz drive will seem to move at 20 Hz")));
 }
 
 TEST(StrobeWarnings, AreSilentFromEightFramesAPeriodAndWithoutADrive) {
-    EXPECT_THAT(strobe_warnings(film_of({motion({}, 30 / (8 * 20.0))}), drive_of(20)), IsEmpty());
-    EXPECT_THAT(strobe_warnings(film_of({motion({}, 30 / (7.9 * 20.0))}), drive_of(20)), SizeIs(1));
-    EXPECT_THAT(strobe_warnings(film_of({locked({}, 1, 0)}), drive_of(20)), IsEmpty());
-    EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), Drive{}), IsEmpty());
+    EXPECT_THAT(strobe_warnings(film_of({motion({}, 30 / (8 * 20.0))}), drive_of(20), 10), IsEmpty());
+    EXPECT_THAT(strobe_warnings(film_of({motion({}, 30 / (7.9 * 20.0))}), drive_of(20), 10), SizeIs(1));
+    EXPECT_THAT(strobe_warnings(film_of({locked({}, 1, 0)}), drive_of(20), 10), IsEmpty());
+    EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), Drive{}, 10), IsEmpty());
+}
+
+// 33 Hz comes in the second segment only: 8 frames a period of 20 Hz are 160 a second, and of 33 Hz 264.
+TEST(StrobeWarnings, GoByTheStagesOfEachSegment) {
+    const Film film = film_of({motion(1.0, 30.0 / 200), motion({}, 30.0 / 200)});
+    EXPECT_THAT(strobe_warnings(film, changing_drive(), 2),
+                ElementsAre(HasSubstr("film segment 2 shows 6.06 frames a period: the 33 Hz drive")));
 }
 
 TEST(ExposedSteps, AreEvenInMotionAndWholePeriodsApartWhenLocked) {

@@ -56,7 +56,8 @@ TEST(CameraKeys, AreWrittenBack) {
           wedge_text + "[film.camera]\norbit = -90\norbit_time = \"3 s\"\ntarget = [0, 0, 0.1]\n",
           wedge_text + "[film.camera]\nposition = [1, 0, 0.25]\norbit = 720\n"}) {
         const Scene scene = read_text(text);
-        const Scene back = read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml");
+        const Scene back =
+            read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in);
         EXPECT_EQ(back.film, scene.film);
     }
 }
@@ -66,7 +67,9 @@ TEST(CameraKeys, WhatIsFramedIsReadAndWrittenBack) {
     for (const char* words : {"frame = \"container\"\n", "frame = \"bed\"\n", "reach = \"90 mm\"\n"}) {
         const Scene scene = read_text(wedge_text + "[film.camera]\n" + words);
         EXPECT_NE(scene.film, read_text(wedge_text).film) << words;
-        EXPECT_EQ(read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml").film, scene.film);
+        EXPECT_EQ(
+            read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in).film,
+            scene.film);
     }
     EXPECT_EQ(about_camera("frame = \"bed\"\nreach = 0.1\n"),
               "test.toml:30:1: 'reach' is of no use here: 'frame' does not ask how high the grains get; "

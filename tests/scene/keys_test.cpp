@@ -60,8 +60,14 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
         exact = with(exact, line, "");
     exact += "[drive]\nfrequency = 20\namplitude = 0.001\n";
     const std::string layers = wedge_text + "[film.colour]\nby = \"start-height\"\n";
+    const std::string fields = wedge_text + "[output.fields]\ngrid = \"yz\"\n";
+    const std::string outlet =
+        with(wedge_text, "height = \"180 mm\"\n", "height = \"180 mm\"\noutlet = { width = \"20 mm\" }\n");
     const std::string fed = wedge_text + "[[feed]]\nrate = 10\n";
-    const std::string cases[] = {wedge_text, box, locked, motion, from_file, exact, layers, fed};
+    const std::string staged = wedge_text + "[[drive.stage]]\nfrom = 1\n";
+    const std::string captioned = wedge_text + "[[film.caption]]\nfrom = 1\ntext = \"a\"\n";
+    const std::string cases[] = {wedge_text, box,    locked, motion, from_file, exact,
+                                 layers,     fields, outlet, fed,    staged,    captioned};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

@@ -6,14 +6,18 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
 namespace {
 
-const std::vector<MeasureColumn> kColumns = measure_columns({"small", "big"});
+const std::vector<MeasureColumn>& columns() {
+    static const std::vector<MeasureColumn> all = measure_columns(read_text(wedge_text));
+    return all;
+}
 
 std::string shown(const std::string& text, std::optional<double> value) {
-    return live_text(parse_live_text(text, kColumns), [&](const std::string&) { return value; });
+    return live_text(parse_live_text(text, columns()), [&](const std::string&) { return value; });
 }
 
 TEST(LiveText, ShowsValuesInTheirUnits) {
@@ -30,7 +34,7 @@ TEST(LiveText, ShowsValuesInTheirUnits) {
 TEST(LiveText, SaysWhatIsWrong) {
     const auto complaint = [](const std::string& text) -> std::string {
         try {
-            parse_live_text(text, kColumns);
+            parse_live_text(text, columns());
             return "accepted";
         } catch (const UserError& error) {
             return error.what();

@@ -1,4 +1,4 @@
-#include "engine/scene/film/measure_columns.hpp"
+#include "engine/measure/columns.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,8 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+
+#include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
 namespace {
@@ -34,7 +36,7 @@ TEST(MeasureColumns, DocsTellWhatTheObserversSay) {
 // A column with a unit ends in it, so that live words and plots find it with and without.
 TEST(MeasureColumns, UnitsEndTheNames) {
     std::set<std::string> names;
-    for (const MeasureColumn& column : measure_columns({"small", "big"})) {
+    for (const MeasureColumn& column : measure_columns(read_text(wedge_text))) {
         EXPECT_TRUE(names.insert(column.name).second) << column.name;
         EXPECT_FALSE(column.label.empty()) << column.name;
         if (column.dimension == Dimension::number) continue;

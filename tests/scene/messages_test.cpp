@@ -22,7 +22,7 @@ std::string complaint(const std::string& text, const Assignments& sets = {}) {
 TEST(Messages, Files) {
     const auto of = [](const char* path) -> std::string {
         try {
-            read_scene(path);
+            read_scene(path, {}, measurable_in);
         } catch (const UserError& error) {
             return error.what();
         }
@@ -161,7 +161,31 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"gravity = 10.0", "gravity = 0",
              "25:1: 'g_level' means nothing without gravity; give 'amplitude' instead"},
         Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = \"open\"",
-             "23:1: 'outlet' is \"open\", but open outlets are not modelled yet; write \"closed\""}));
+             "23:1: 'outlet' is \"open\"; write { width = \"20 mm\" } for a slot, { diameter = \"20 mm\" } "
+             "for "
+             "a round hole, or \"closed\""},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { opens = 1 }",
+             "23:1: 'outlet' has no size; write width = \"20 mm\" for a slot, or diameter = \"20 mm\" for a "
+             "round "
+             "hole"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { width = 0.02, diameter = 0.02 }",
+             "23:26: 'diameter' is of no use here: 'width' says how wide the slot is; remove it"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { diameter = 0.02 }",
+             "23:12: 'diameter' is that of a round hole, but a wedge has a slot; write 'width'"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { width = 0.1 }",
+             "23:12: 'width' of 0.1 m is wider than the floor, 0.0590442 m; narrow the outlet"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { width = 0.009 }",
+             "23:12: 'width' of 0.009 m lets no grain of \"big\" pass, which is up to 0.01 m wide; widen the "
+             "outlet"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { width = 0.02, exit_depth = 0.001 }",
+             "23:26: 'exit_depth' is 0.001 m, where a grain of \"big\" may still touch the floor; make it at "
+             "least "
+             "0.00879954 m"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { width = 0.02, opens = \"1000 s\" }",
+             "23:26: the outlet opens at 1000 s, but the run ends at 2 s; open it earlier or lengthen "
+             "run.duration"},
+        Case{"slant_height =", "floor_width = \"20 mm\"\nslant_height =",
+             "19:1: 'floor_width' is of no use here: 'slant_height' is given; remove it"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Together, MessagesOfEdits,

@@ -201,7 +201,7 @@ TEST(Reader, StartFileCountsFromTheScenesFolder) {
     std::ofstream(folder / "final.csv") << "x";
     std::ofstream(folder / "scene.toml")
         << wedge_text << "[start]\nmethod = \"file\"\nfile = \"./final.csv\"\n";
-    const Scene scene = read_scene(folder / "scene.toml");
+    const Scene scene = read_scene(folder / "scene.toml", {}, measurable_in);
     EXPECT_EQ(scene.start.file, (folder / "final.csv").string());
     std::filesystem::remove_all(folder);
 }
@@ -242,9 +242,9 @@ TEST(Reader, ARunShortenedOnTheCommandLineShortensItsSegments) {
 TEST(Reader, ShippedScenesAreRight) {
     for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
-        EXPECT_NO_THROW(make_plan(read_scene(entry.path()))) << entry.path();
+        EXPECT_NO_THROW(make_plan(read_scene(entry.path(), {}, measurable_in))) << entry.path();
     }
-    const Scene scene = read_scene(GRAINREEL_SOURCE "/scenes/wedge_segregation.toml");
+    const Scene scene = read_scene(GRAINREEL_SOURCE "/scenes/wedge_segregation.toml", {}, measurable_in);
     EXPECT_GE(scene.species[0].count, 1500);
     EXPECT_GE(scene.species[1].count, 40);
     EXPECT_EQ(scene.name, "wedge_segregation");

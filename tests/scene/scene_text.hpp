@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/measure/columns.hpp"
 #include "engine/scene/text/reader.hpp"
 
 namespace grainreel {
@@ -71,7 +72,7 @@ inline std::string with(std::string text, const std::string& from, const std::st
 }
 
 inline Scene read_text(const std::string& text, const Assignments& sets = {}) {
-    return read_scene_text(text, "test.toml", sets);
+    return read_scene_text(text, "test.toml", sets, measurable_in);
 }
 
 // Two grains by hand in empty space, with a plane that comes nearer.

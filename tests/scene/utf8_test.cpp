@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 std::string complaint(const std::string& text, const Assignments& sets, const char* file = "test.toml") {
     try {
-        read_scene_text(text, file, sets);
+        read_scene_text(text, file, sets, measurable_in);
     } catch (const UserError& error) {
         return error.what();
     }
@@ -66,7 +66,8 @@ TEST(Utf8, AnyTextThatIsTakenCanBeReadAgain) {
     Scene scene =
         read_text(wedge_text, {Assignment("film.title=" + all), Assignment("species.big.name=x" + all)});
     scene.film.shows.text = all;
-    const Scene back = read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml");
+    const Scene back =
+        read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in);
     EXPECT_EQ(back.film.title, scene.film.title);
     EXPECT_EQ(back.species[1].name, scene.species[1].name);
     EXPECT_EQ(back.film.shows.text, all);

@@ -84,7 +84,7 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
     const Frame frame = simulation.frame();
     std::vector<std::uint8_t> lower;
     for (const std::int32_t s : frame.species) lower.push_back(s == 0);
-    result.mixing = lacey_index(frame.position, lower);
+    result.mixing = lacey_index(take_samples(frame.position, lower));
     return result;
 }
 
@@ -95,7 +95,7 @@ SeedMean over_seeds(const std::vector<BedRow>& rows, const std::string& setting,
     std::vector<double> values;
     for (const BedRow& row : rows)
         if (row.setting == setting) values.push_back(row.result.*quantity);
-    return mean_of(values);
+    return seed_mean_of(values);
 }
 
 }  // namespace

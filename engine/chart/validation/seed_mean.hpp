@@ -10,7 +10,7 @@ namespace grainreel {
 struct SeedMean {
     double mean = 0, error = 0;
 };
-inline SeedMean mean_of(const std::vector<double>& values) {
+inline SeedMean seed_mean_of(const std::vector<double>& values) {
     const double count = static_cast<double>(values.size());
     double mean = 0, squares = 0;
     for (const double v : values) mean += v / count;

@@ -27,7 +27,7 @@ void summarise(const ChartRequest& request, const ResultTable& table) {
             for (const auto& row : table.rows())
                 if (row.at(0) == number(stiffness) && row.at(2) == number(time))
                     values.push_back(std::stod(row.at(3)));
-            const SeedMean is = mean_of(values);
+            const SeedMean is = seed_mean_of(values);
             text += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{:+.1f}\n", number(stiffness), time, is.mean,
                                 is.error, haff(time), 100 * (is.mean / haff(time) - 1));
         }

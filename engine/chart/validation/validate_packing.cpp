@@ -49,7 +49,7 @@ void summarise(const ChartRequest& request, const ResultTable& table) {
             solid.push_back(point.solid_fraction), contacts.push_back(point.contacts);
             rise.push_back(point.rise);
         }
-        const SeedMean a = mean_of(solid), b = mean_of(contacts), c = mean_of(rise);
+        const SeedMean a = seed_mean_of(solid), b = seed_mean_of(contacts), c = seed_mean_of(rise);
         text += fmt::format("{},{},{:.4f},{:.4f},{:.3f},{:.3f},{:.2f},{:.2f}\n", friction, solid.size(),
                             a.mean, a.error, b.mean, b.error, c.mean, c.error);
     }

@@ -48,7 +48,7 @@ std::string fit_row(double friction, const std::vector<Loaded>& loaded) {
         product.push_back(l.load.stress_ratio * l.load.mobilised);
     }
     const JanssenFit fit = fit_janssen(loads);
-    const SeedMean a = mean_of(ratio), b = mean_of(mobilised), c = mean_of(product);
+    const SeedMean a = seed_mean_of(ratio), b = seed_mean_of(mobilised), c = seed_mean_of(product);
     return fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", friction,
                        fit.friction_times_ratio / friction, fit.residual, a.mean, a.error, b.mean, b.error,
                        c.mean, c.error);
@@ -67,10 +67,10 @@ std::string height_rows(double friction, const std::vector<Loaded>& loaded, bool
             filling.push_back(l.load.filling), ours.push_back(l.load.apparent);
             resting.push_back(l.load.resting);
         }
-        const double at = mean_of(filling).mean, should = janssen(at, product);
-        const SeedMean is = mean_of(ours);
+        const double at = seed_mean_of(filling).mean, should = janssen(at, product);
+        const SeedMean is = seed_mean_of(ours);
         rows += fmt::format("{},{:.3f},{:.4f},{:.4f},{:.4f},{:+.1f},{:.4f}\n", friction, at, is.mean,
-                            is.error, should, 100 * (is.mean / should - 1), mean_of(resting).mean);
+                            is.error, should, 100 * (is.mean / should - 1), seed_mean_of(resting).mean);
     }
     return rows;
 }

@@ -7,7 +7,7 @@ namespace grainreel::observers {
 
 class CentreOfMass final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"centre_x_m", "centre of mass, x", Dimension::length},
                   {"centre_y_m", "centre of mass, y", Dimension::length},
                   {"centre_z_m", "centre of mass, z", Dimension::length}},

@@ -7,7 +7,7 @@ namespace grainreel::observers {
 
 class ContactNumber final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"contact_number", "contacts per grain"}},
                  "1",
                  "force-carrying contacts a grain, walls included"}};

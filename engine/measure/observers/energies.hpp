@@ -8,7 +8,7 @@ namespace grainreel::observers {
 
 class Energies final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         constexpr Dimension energy = Dimension::energy;
         return {
             {{{"kinetic_J", "kinetic energy", energy}, {"rotational_J", "energy of rotation", energy}},

@@ -7,7 +7,7 @@ namespace grainreel::observers {
 
 class FloorPosition final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"floor_position_m", "floor position", Dimension::length}},
                  "m",
                  "displacement of what the drive moves, along `drive.direction`"}};

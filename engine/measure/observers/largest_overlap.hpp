@@ -9,7 +9,7 @@ namespace grainreel::observers {
 
 class LargestOverlap final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"largest_overlap", "largest overlap / radius"}},
                  "1",
                  "largest overlap of a contact over the smaller radius (the plan's `run.overlap` is over the "

@@ -8,9 +8,10 @@ namespace grainreel::observers {
 
 class SpeciesPlaces final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>& species) {
+    static std::vector<ColumnGroup> columns(const Scene& scene) {
         std::vector<ColumnGroup> groups;
-        for (const std::string& name : species) {
+        for (const Species& species : scene.species) {
+            const std::string& name = species.name;
             ColumnGroup centre{{}, "m", "mean position of a species, every grain counted alike"};
             for (const char* axis : {"x", "y", "z"})
                 centre.columns.push_back({column_part(name) + "_centre_" + axis + "_m",

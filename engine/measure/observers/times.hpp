@@ -7,7 +7,7 @@ namespace grainreel::observers {
 
 class Times final : public Observer {
   public:
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"step", "step"}, {"time_s", "time", Dimension::time}}, "1, s", "since the drive started"},
                 {{{"phase_turns", "phase (turns)"}},
                  "turns, 0 to 1",

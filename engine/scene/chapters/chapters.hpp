@@ -56,6 +56,11 @@ void list_run(keys::Keys& all);
 void read_run(Document& document, Scene& scene);  // after the contacts
 void write_run(SceneText& out, const Scene& scene, const Plan& plan);
 
+// [output.fields].
+void list_fields(keys::Keys& all);
+void read_fields(Document& document, Scene& scene);  // after drive and run
+void write_fields(SceneText& out, const Scene& scene);
+
 void read_film(Document& document, Scene& scene);  // after drive and run
 
 // Gives empty space the size of what happens in it, when all else is read.

@@ -12,6 +12,8 @@
 #include "engine/plan/free_space.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/outlet_keys.hpp"
+#include "engine/scene/drive/stage_keys.hpp"
 #include "engine/scene/film/measure_columns.hpp"
 #include "engine/scene/keys/key_path.hpp"
 
@@ -42,10 +44,8 @@ std::string trimmed(const std::string& name) {
 
 // Names that differ in commas or quotes alone would share their columns of measures.csv.
 void check_columns(const Scene& scene) {
-    std::vector<std::string> names;
-    for (const Species& species : scene.species) names.push_back(species.name);
     std::set<std::string> columns;
-    for (const MeasureColumn& column : measure_columns(names))
+    for (const MeasureColumn& column : scene.measurable.columns)
         if (!columns.insert(column.name).second)
             throw UserError(
                 fmt::format("{}: the names of the species give measures.csv the column \"{}\" twice; choose "
@@ -174,8 +174,10 @@ void check_gravity(const Scene& scene) {
 
 void check_drive(const Scene& scene) {
     const Drive& drive = scene.drive;
-    if (!drive.present || drive.moves == Drive::Moves::container) return;
-    const double stroke = 2 * drive.amplitude * std::abs(drive.direction.z());
+    if (!drive.present) return;
+    check_stages(scene);
+    if (drive.moves == Drive::Moves::container) return;
+    const double stroke = 2 * drive.largest_amplitude() * std::abs(drive.direction.z());
     if (stroke >= scene.container.height)
         fail(scene, "drive.moves",
              fmt::format(
@@ -218,6 +220,7 @@ void check_scene(const Scene& scene) {
     check_feeds(scene);
     check_gravity(scene);
     check_drive(scene);
+    check_outlet(scene);
     check_film(scene);
 }
 

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/outlet_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {
@@ -59,15 +61,29 @@ BoundKey<C> width(const char* name, Fallback fallback, const char* about) {
         .needed();
 }
 
-BoundKey<C> outlet_key() {
-    const auto read = [](Document& document, const Scene&, const std::string& path, C&) {
-        if (const auto outlet = document.text(path); outlet && *outlet != "closed")
-            document.fail(path, fmt::format("is {}, but open outlets are not modelled yet; write \"closed\"",
-                                            document.written_value(path)));
+// Another way to say the height of a wedge's slants, which is what is kept and written. The half-width and
+// the angle are known before.
+BoundKey<C> floor_width_key() {
+    const auto read = [](Document& document, const Scene&, const std::string& path, C& container) {
+        if (!document.has(path)) document.fail_missing("container.slant_height");
+        const double taken = container.half_width - document.required_quantity(path) / 2;
+        if (taken <= 0)
+            document.fail(path, fmt::format("must be less than the {:.6g} m between the walls; narrow it, or "
+                                            "raise half_width",
+                                            2 * container.half_width));
+        container.slant_height = taken / std::tan(container.half_angle);
     };
-    return bound_by<C>(entry("outlet", KeyKind::text, literal("\"closed\""),
-                             "Only \"closed\": open outlets are not modelled yet."),
-                       read, [](const C&, const Scene&) { return quoted("closed"); });
+    const auto useless = [](const C& container) -> const char* {
+        if (const char* reason = only_of({Shape::wedge}, "only a wedge has slanted walls")(container))
+            return reason;
+        return container.slant_height > 0 ? "'slant_height' is given" : nullptr;
+    };
+    return bound_by<C>(quantity("floor_width", Dimension::length, positive, note("from `slant_height`"),
+                                "Of the floor along y, in place of `slant_height`."),
+                       read, [](const C&, const Scene&) { return std::string(); })
+        .excludes({"slant_height"})
+        .useless_for(useless)
+        .never_written();
 }
 
 // In the order of reading and writing: slanted walls, width, depth, then what every shape has.
@@ -93,9 +109,11 @@ const KeyTable<C>& container_table() {
             .needed()
             .useless_for(only_of({Shape::wedge}, "only a wedge has slanted walls"))
             .placed_at(of_slant),
-        length("slant_height", &C::slant_height, note("required; wedge"), "Height of the slanted part.")
+        quantity("slant_height", &C::slant_height, Dimension::length, positive,
+                 note("required, or `floor_width`; wedge"), "Height of the slanted part.")
             .useless_for(only_of({Shape::wedge}, "only a wedge has slanted walls"))
             .placed_at(of_slant),
+        floor_width_key().placed_at(of_depth),
         width("width", note("required; box"), "Along y.").useless_for(not_of_box).placed_at(of_width),
         width("diameter", note("required; cylinder"), "Inside.")
             .useless_for(only_of({Shape::cylinder}, "only a cylinder has a diameter"))

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/drive/stage_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {
@@ -50,6 +51,7 @@ const KeyTable<Drive>& drive_table() {
 
 void list_drive(Keys& all) {
     drive_table().list(all, "drive");
+    list_stages(all);
 }
 
 void read_drive(Document& document, Scene& scene) {
@@ -61,6 +63,7 @@ void read_drive(Document& document, Scene& scene) {
     if (drive.ramp != 0 && drive.ramp < 3)
         document.fail("drive.ramp",
                       fmt::format("must be 0 or at least 3 periods, but is {:.6g}", drive.ramp));
+    read_stages(document, scene);
 }
 
 void write_drive(SceneText& out, const Scene& scene) {
@@ -68,6 +71,7 @@ void write_drive(SceneText& out, const Scene& scene) {
     out.table("drive");
     out.remark("amplitude", fmt::format("g level {:.6g}", scene.drive.g_level(scene.gravity.norm())));
     drive_table().write(out, scene, scene.drive);
+    write_stages(out, scene);
 }
 
 }  // namespace grainreel

@@ -81,6 +81,12 @@ const KeyTable<Run>& run_table() {
     return table;
 }
 
+std::string names_text(const std::vector<std::string>& names) {
+    std::vector<std::string> words;
+    for (const std::string& name : names) words.push_back(quoted(name));
+    return words.empty() ? "" : toml_list(words);
+}
+
 const char* without_trajectory(const Output& output) {
     return output.trajectory ? nullptr : "no trajectory is kept";
 }
@@ -98,6 +104,15 @@ const KeyTable<Output>& output_table() {
         flag("orientation", &O::orientation, initial(), "Orientations in the trajectory.")
             .useless_for(without_trajectory),
         flag("contacts", &O::contacts, initial(), "Contacts and forces in contacts.nc.").written_at(1),
+        bound_by<O>(
+            entry("instruments", KeyKind::name_list, note("those whose columns the film shows"),
+                  "What is measured beside the usual columns of measures.csv: \"bed\", \"convection\", "
+                  "\"energy_balance\", \"intruder\", \"outflow\", \"surface\", \"walls\"."),
+            [](Document& document, const Scene&, const std::string& path, O& into) {
+                into.instruments = document.name_list(path);
+            },
+            [](const O& from, const Scene&) { return names_text(from.instruments); })
+            .written_at(1),
     };
     return table;
 }
@@ -107,6 +122,7 @@ const KeyTable<Output>& output_table() {
 void list_run(Keys& all) {
     run_table().list(all, "run");
     output_table().list(all, "output");
+    list_fields(all);
 }
 
 void read_run(Document& document, Scene& scene) {
@@ -118,6 +134,7 @@ void read_run(Document& document, Scene& scene) {
             "is made for velocity-verlet and the law walton-braun with a restitution that is the same at "
             "any speed; remove it");
     output_table().read(document, scene, "output", scene.output);
+    read_fields(document, scene);
 }
 
 void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
@@ -128,10 +145,11 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
     run_table().write(out, scene, run);
 
     Output output = scene.output;
-    output.trajectory_interval = static_cast<double>(plan.trajectory_every) * plan.clock.step;
-    output.measures_interval = static_cast<double>(plan.measures_every) * plan.clock.step;
+    if (plan.trajectory_periods == 0) output.trajectory_interval = plan.trajectory_every * plan.clock.step;
+    if (plan.measures_periods == 0) output.measures_interval = plan.measures_every * plan.clock.step;
     out.table("output");
     output_table().write(out, scene, output);
+    write_fields(out, scene);
 }
 
 }  // namespace grainreel

@@ -28,6 +28,11 @@ inline const Words<Precision> precision_words{{"double", Precision::full}, {"mix
 inline const Words<Accuracy> accuracy_words{
     {"draft", Accuracy::draft}, {"standard", Accuracy::standard}, {"reference", Accuracy::reference}};
 
+inline const Words<FieldOutput::Grid> field_grid_words{
+    {"none", FieldOutput::Grid::none}, {"yz", FieldOutput::Grid::yz}, {"xyz", FieldOutput::Grid::xyz}};
+inline const Words<FieldOutput::Kernel> field_kernel_words{{"gaussian", FieldOutput::Kernel::gaussian},
+                                                           {"lucy", FieldOutput::Kernel::lucy}};
+
 inline const Words<FilmLook::Style> style_words{
     {"studio", FilmLook::Style::studio}, {"flat", FilmLook::Style::flat}, {"dark", FilmLook::Style::dark}};
 inline const Words<CameraFrame> camera_frame_words{

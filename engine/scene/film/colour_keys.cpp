@@ -72,7 +72,7 @@ const KeyTable<C>& colour_table() {
     static const KeyTable<C> table{
         choice("by", &C::by, grain_value_words, initial(),
                "What a grain's colour stands for; see docs/guide/colours.md.")
-            .owns({"map", "unit", "range", "layers"}),
+            .owns({"map", "unit", "range", "layers", "as"}),
         choice("map", &C::map, colour_map_words, note("viridis; vik for what has two signs"),
                "All three are safe for the colour-blind; vik runs from blue over white to red.")
             .useless_for(by_species)
@@ -89,6 +89,9 @@ const KeyTable<C>& colour_table() {
             read_unit,
             [](const C& colour, const Scene&) { return colour.unit.empty() ? "" : quoted(colour.unit); })
             .useless_for(of_pure_numbers),
+        choice("as", &C::as_field, Words<bool>{{"grains", false}, {"field", true}}, initial(),
+               "field: the grains' mean over the depth, by coarse-graining, as a layer before pale grains.")
+            .useless_for(by_species),
         integer("layers", &C::layers, 2, 12, initial(), "Bands of start-height.").useless_for(without_bands),
     };
     return table;

@@ -217,6 +217,7 @@ void list_film(Keys& all) {
     list_cut(all);
     list_camera(all);
     list_segments(all);
+    list_captions(all);
     list_shows(all);
 }
 
@@ -230,6 +231,7 @@ void read_film(Document& document, Scene& scene) {
     read_camera(document, scene);
     scenery_table().read(document, scene, "film", film);
     read_segments(document, scene);
+    read_captions(document, scene);
     read_shows(document, scene);
 }
 
@@ -245,6 +247,7 @@ void write_film(SceneText& out, const Scene& scene) {
     write_shows(out, scene);
     write_camera(out, scene);
     write_segments(out, scene);
+    write_captions(out, scene);
 }
 
 Colour read_colour(Document& document, const std::string& path, const char* example) {

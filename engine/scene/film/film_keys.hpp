@@ -46,6 +46,10 @@ void list_segments(keys::Keys& all);
 void read_segments(Document& document, Scene& scene);  // after the rate
 void write_segments(SceneText& out, const Scene& scene);
 
+void list_captions(keys::Keys& all);
+void read_captions(Document& document, Scene& scene);  // after the run
+void write_captions(SceneText& out, const Scene& scene);
+
 // A colour by name or number. example: for the message.
 Colour read_colour(Document& document, const std::string& path, const char* example);
 

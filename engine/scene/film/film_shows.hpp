@@ -37,6 +37,9 @@ struct GrainColouring {
     bool fixed = false;                 // the range is the user's
     std::string unit;                   // of the colour bar; empty for pure numbers
     int layers = 5;                     // bands of start_height
+    bool as_field = false;              // a layer of means before pale grains, in place of coloured grains
+    bool of_grains() const { return by != GrainValue::species && !as_field; }
+    bool of_field() const { return by != GrainValue::species && as_field; }
     bool operator==(const GrainColouring&) const = default;
 };
 
@@ -45,6 +48,7 @@ struct FilmPlot {
     std::string column;                          // as in the file: "height_difference", "centre_z_m"
     std::string label;                           // in words, without the unit
     std::optional<std::array<double, 2>> range;  // SI; grows with the data when empty
+    Dimension dimension = Dimension::number;
     bool operator==(const FilmPlot&) const = default;
 };
 

@@ -31,7 +31,7 @@ std::vector<std::string> usual_units(Dimension dimension) {
 
 // m/s: the drive's; without one that of the fastest listed grain, or that of a fall through the container.
 double speed_scale(const Scene& scene) {
-    if (scene.drive.present) return scene.drive.speed();
+    if (scene.drive.present) return scene.drive.top_speed();
     double fastest = std::sqrt(2 * scene.gravity.norm() * scene.container.height);
     for (const ListedGrain& grain : scene.start.grains) fastest = std::max(fastest, grain.velocity.norm());
     return fastest;
@@ -46,7 +46,8 @@ double smallest_diameter(const Scene& scene) {
 // N: what the bed's weight under the drive's peak acceleration presses on a grain of mean volume with.
 double force_scale(const Scene& scene) {
     const double gravity = scene.gravity.norm();
-    const double peak = scene.drive.present ? gravity * (1 + scene.drive.g_level(gravity)) : gravity;
+    const double peak =
+        scene.drive.present ? gravity * (1 + scene.drive.strongest_g_level(gravity)) : gravity;
     const double grains = std::max(1.0, static_cast<double>(scene.grains()));
     const double volume = solid_volume(scene), area = std::pow(volume / grains, 2.0 / 3.0);
     const double pressure = total_mass(scene) / volume * packing * peak * fill_height(scene, packing);

@@ -47,8 +47,8 @@ const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, cons
 std::string column_names(const std::vector<MeasureColumn>& columns) {
     std::string known;
     for (std::size_t i = kCounters; i < columns.size(); ++i)
-        known += (i > kCounters ? ", " : "") + columns[i].name;
-    return known;
+        if (columns[i].instrument.empty()) known += (known.empty() ? "" : ", ") + columns[i].name;
+    return known + ", and those of the instruments (docs/reference/scenes.md, measures.csv)";
 }
 
 std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns) {

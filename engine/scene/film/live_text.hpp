@@ -24,7 +24,8 @@ struct LiveWords {
 // The column that a name means, with or without its unit ("kinetic_J", "kinetic"); null for none. Those that
 // count steps and time mean nothing here.
 const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name);
-std::string column_names(const std::vector<MeasureColumn>& columns);  // "lacey, kinetic_J"
+// "lacey, kinetic_J, ...": those that are always there.
+std::string column_names(const std::vector<MeasureColumn>& columns);
 
 // Throws UserError, which says what is wrong with the text.
 std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns);

@@ -51,10 +51,4 @@ std::string ids_text(const std::vector<std::int32_t>& ids) {
     return words.empty() ? "" : toml_list(words);
 }
 
-std::vector<MeasureColumn> columns_of(const Scene& scene) {
-    std::vector<std::string> names;
-    for (const Species& species : scene.species) names.push_back(species.name);
-    return measure_columns(names);
-}
-
 }  // namespace grainreel

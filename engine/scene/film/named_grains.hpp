@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/film/measure_columns.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {
@@ -19,9 +18,6 @@ std::vector<std::int32_t> ids_at(Document& document, const Scene& scene, const s
 // As TOML; empty for none.
 std::string species_text(const std::vector<std::size_t>& chosen, const Scene& scene);
 std::string ids_text(const std::vector<std::int32_t>& ids);
-
-// Of the scene's measures.
-std::vector<MeasureColumn> columns_of(const Scene& scene);
 
 template <class T>
 keys::BoundKey<T> species_key(const char* name, std::vector<std::size_t> T::*member, const char* about) {

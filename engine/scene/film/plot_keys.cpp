@@ -18,18 +18,18 @@ constexpr double usual_trail_periods = 10;
 
 void read_column(Document& document, const Scene& scene, const std::string& path, FilmPlot& plot) {
     const std::string name = document.required_text(path);
-    const std::vector<MeasureColumn> columns = columns_of(scene);
+    const std::vector<MeasureColumn>& columns = scene.measurable.columns;
     const MeasureColumn* column = find_column(columns, name);
     if (column == nullptr)
         document.fail(path, fmt::format("must be a column of measures.csv, but is \"{}\"; there are {}",
                                         excerpt(name), column_names(columns)));
     plot.column = column->name;
     plot.label = column->label;
+    plot.dimension = column->dimension;
 }
 
-void read_range(Document& document, const Scene& scene, const std::string& path, FilmPlot& plot) {
-    const std::vector<MeasureColumn> columns = columns_of(scene);
-    plot.range = document.interval(path, find_column(columns, plot.column)->dimension);
+void read_range(Document& document, const Scene&, const std::string& path, FilmPlot& plot) {
+    plot.range = document.interval(path, plot.dimension);
     if (plot.range && !((*plot.range)[0] < (*plot.range)[1]))
         document.fail(path, "must rise, from low to high; exchange them or widen it");
 }
@@ -53,9 +53,9 @@ const KeyTable<FilmPlot>& plot_table() {
 
 // A grain's diameter in five periods is a fast circulation.
 void usual_speed(FilmArrows& arrows, const Scene& scene) {
-    arrows.speed = arrows.period
-                       ? 0.1 * usual_range(GrainValue::displacement, scene)[1] * 2 * scene.drive.frequency
-                       : usual_range(GrainValue::speed, scene)[1];
+    arrows.speed = arrows.period ? 0.1 * usual_range(GrainValue::displacement, scene)[1] * 2 *
+                                       scene.drive.highest_frequency()
+                                 : usual_range(GrainValue::speed, scene)[1];
 }
 
 const KeyTable<FilmArrows>& arrow_table() {

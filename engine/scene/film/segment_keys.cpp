@@ -80,8 +80,8 @@ FilmSegment read_segment(Document& document, const Scene& scene, const std::stri
 std::vector<FilmSegment> default_segments(const Scene& scene) {
     FilmSegment motion;
     if (!scene.drive.present) return {motion};
-    motion.playback =
-        std::min({0.1, scene.film.rate / (8 * scene.drive.frequency), 3 / scene.drive.frequency});
+    const double frequency = scene.drive.highest_frequency();
+    motion.playback = std::min({0.1, scene.film.rate / (8 * frequency), 3 / frequency});
     motion.duration = std::min(4 * motion.playback, 0.1 * scene.run.duration);
     FilmSegment between;
     between.kind = FilmSegment::Kind::locked;

@@ -56,7 +56,7 @@ void read_condition(Document& document, const Scene& scene, const std::string& p
 void read_words(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
     shows.text = document.text(path).value_or("");
     try {
-        shows.live_words = parse_live_text(shows.text, columns_of(scene));
+        shows.live_words = parse_live_text(shows.text, scene.measurable.columns);
     } catch (const UserError& error) {
         document.fail(path, error.what());
     }

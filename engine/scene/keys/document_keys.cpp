@@ -41,7 +41,9 @@ std::optional<double> plain_number(std::string_view text) {
 // `text` as TOML where it is TOML and the key does not want text; otherwise as a number or a string.
 toml::table parsed_value(const std::string& text, const Key* key) {
     const bool quoted = !text.empty() && (text.front() == '"' || text.front() == '\'');
-    const bool wants_text = key != nullptr && (key->kind == KeyKind::text || key->kind == KeyKind::choice);
+    const bool a_table = key != nullptr && is_table_path(key->path) && text.rfind('{', 0) == 0;
+    const bool wants_text =
+        key != nullptr && !a_table && (key->kind == KeyKind::text || key->kind == KeyKind::choice);
     // "0x0" is a hexadecimal number to TOML.
     const bool plain_size = key != nullptr && key->kind == KeyKind::picture_size && text.rfind('[', 0) != 0;
     if (quoted || !(wants_text || plain_size)) {
@@ -110,7 +112,7 @@ void Document::remove(toml::table& table, const std::string& table_path, std::st
 // Takes out of the table what belonged to the value that `key` has had.
 void Document::take_back(toml::table& table, const std::string& table_path, const std::string& key,
                          const toml::node& value) {
-    const Key* known = find_key(join_path(table_path, key));
+    const Key* known = find_key(join_path(table_path, key), *keys_);
     const auto old = table[key].value<std::string>(), now = value.value<std::string>();
     if (known == nullptr || (old && old == now)) return;
     for (const std::string& own : known->owns)
@@ -129,13 +131,14 @@ void Document::set(const Assignment& assignment) {
     const auto [table, table_path] = table_for(parts, by);
     const std::string& key = parts.back();
     const std::string path = join_path(table_path, key);
-    toml::table parsed = parsed_value(assignment.value(), find_key(path));
+    toml::table parsed = parsed_value(assignment.value(), find_key(path, *keys_));
     const toml::node& value = *parsed.get("value");
-    for (const std::string& rival : rivals_of(path)) remove(*table, table_path, rival);
+    for (const std::string& rival : rivals_of(path, *keys_)) remove(*table, table_path, rival);
     take_back(*table, table_path, key, value);
     remove(*table, table_path, key);
     written_[path] = by;
-    const bool empty_list = is_table_array_path(path) && value.is_array() && value.as_array()->empty();
+    const bool empty_list =
+        is_table_array_path(path, *keys_) && value.is_array() && value.as_array()->empty();
     const bool empty_table = value.is_table() && value.as_table()->empty();
     if (empty_list || empty_table) return;
     toml::table& target = *table;
@@ -151,10 +154,11 @@ void Document::check_table(const std::string& path, const toml::table& table) co
 }
 
 void Document::check_entry(const std::string& path, const toml::node& node) const {
-    const bool is_value = find_key(path) != nullptr;
-    if (is_value && node.is_table() && is_table_path(path)) return check_table(path, *node.as_table());
+    const bool is_value = find_key(path, *keys_) != nullptr;
+    if (is_value && node.is_table() && is_table_path(path, *keys_))
+        return check_table(path, *node.as_table());
     if (is_value) return;
-    if (is_table_array_path(path)) {
+    if (is_table_array_path(path, *keys_)) {
         const toml::array* array = node.as_array();
         if (array == nullptr || !array->is_array_of_tables() || array->empty())
             fail(path, fmt::format("must be a list of tables; write [[{}]] above its keys", path));
@@ -162,14 +166,14 @@ void Document::check_entry(const std::string& path, const toml::node& node) cons
             check_table(fmt::format("{}[{}]", path, i), *array->get(i)->as_table());
         return;
     }
-    if (is_table_path(path)) {
+    if (is_table_path(path, *keys_)) {
         if (!node.is_table()) fail(path, fmt::format("must be a table; write [{}] above its keys", path));
         return check_table(path, *node.as_table());
     }
     const std::string table = table_of(path);
     throw UserError(fmt::format("{}: unknown key '{}' {} {}; {}", place(path), excerpt(name_of(path)),
                                 table.front() == '[' ? "in" : "at", excerpt(table),
-                                advice_for_unknown_key(path)));
+                                advice_for_unknown_key(path, *keys_)));
 }
 
 void Document::check_all_read() const {
@@ -177,12 +181,14 @@ void Document::check_all_read() const {
 }
 
 void Document::check_read(const std::string& path, const toml::node& node) const {
-    const bool is_value = find_key(path) != nullptr && !(node.is_table() && is_table_path(path));
+    const bool is_value =
+        find_key(path, *keys_) != nullptr && !(node.is_table() && is_table_path(path, *keys_));
     if (is_value && read_.count(path) == 0)
         fail(path, "is of no use here: nothing in this scene needs it; remove it");
     if (const toml::table* table = node.as_table()) {
         for (const auto& entry : *table) check_read(join_path(path, entry.first.str()), entry.second);
-    } else if (const toml::array* array = node.as_array(); array != nullptr && is_table_array_path(path)) {
+    } else if (const toml::array* array = node.as_array();
+               array != nullptr && is_table_array_path(path, *keys_)) {
         for (std::size_t i = 0; i < array->size(); ++i)
             check_read(fmt::format("{}[{}]", path, i), *array->get(i));
     }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "engine/base/nearest_name.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 
@@ -23,29 +23,11 @@ std::string without_indices(std::string_view path) {
     return pattern;
 }
 
-// Damerau's distance: insertions, deletions, substitutions and swaps of neighbours that turn a into b.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
-    std::iota(above.begin(), above.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substituted = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            row[j] = std::min({above[j] + 1, row[j - 1] + 1, substituted});
-            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
-        }
-        std::swap(before, above);
-        std::swap(above, row);
-    }
-    return above[b.size()];
-}
-
 // Names of keys and tables directly inside a table, in the list's order.
-std::vector<std::string> names_inside(const std::string& table) {
+std::vector<std::string> names_inside(const std::string& table, const std::vector<Key>& keys) {
     const std::string start = table.empty() ? "" : table + ".";
     std::vector<std::string> names;
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : keys) {
         if (key.path.compare(0, start.size(), start) != 0) continue;
         std::string name = key.path.substr(start.size());
         name = name.substr(0, name.find_first_of(".["));
@@ -87,6 +69,12 @@ std::string value_words(const Key& key) {
             return "list of names";
         case KeyKind::integer_list:
             return "list of whole numbers";
+        case KeyKind::seeds:
+            return "whole number or a list of them";
+        case KeyKind::value:
+            return "number or quantity";
+        case KeyKind::value_list:
+            return "list of values";
         case KeyKind::quantity:
         case KeyKind::gravity:
         case KeyKind::diameter:
@@ -126,6 +114,9 @@ std::string Key::example() const {
     if (kind == KeyKind::interval) return "[0, 1]";
     if (kind == KeyKind::name_list) return "[\"small\"]";
     if (kind == KeyKind::integer_list) return "[3, 14]";
+    if (kind == KeyKind::seeds) return "3";
+    if (kind == KeyKind::value) return "\"2 mm\"";
+    if (kind == KeyKind::value_list) return "[1, 2, 3]";
     if (kind == KeyKind::vector)
         return dimension == Dimension::number ? "[0, 0, 1]"
                                               : fmt::format("[{}, 0, 0]", text_of(dimension).example);
@@ -148,18 +139,17 @@ Range Key::bounds() const {
     return left;
 }
 
-const Key* find_key(std::string_view path) {
+const Key* find_key(std::string_view path, const std::vector<Key>& keys) {
     const std::string pattern = without_indices(path);
-    const auto& keys = scene_keys();
     const auto found =
         std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.path == pattern; });
     return found == keys.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> rivals_of(std::string_view path) {
+std::vector<std::string> rivals_of(std::string_view path, const std::vector<Key>& keys) {
     const std::string pattern = without_indices(path), name = name_of(pattern);
     std::vector<std::string> rivals;
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : keys) {
         if (parent_of(key.path) != parent_of(pattern)) continue;
         if (key.path == pattern) rivals.insert(rivals.end(), key.excludes.begin(), key.excludes.end());
         const auto& others = key.excludes;
@@ -169,42 +159,39 @@ std::vector<std::string> rivals_of(std::string_view path) {
     return rivals;
 }
 
-bool is_table_path(std::string_view path) {
+bool is_table_path(std::string_view path, const std::vector<Key>& keys) {
     const std::string start = without_indices(path) + ".";
-    return std::any_of(scene_keys().begin(), scene_keys().end(),
+    return std::any_of(keys.begin(), keys.end(),
                        [&](const Key& k) { return k.path.compare(0, start.size(), start) == 0; });
 }
 
-bool is_table_array_path(std::string_view path) {
-    return is_table_path(std::string(path) + "[]");
+bool is_table_array_path(std::string_view path, const std::vector<Key>& keys) {
+    return is_table_path(std::string(path) + "[]", keys);
 }
 
 std::string table_of(std::string_view path) {
     return heading_of(parent_of(without_indices(path)));
 }
 
-std::string advice_for_unknown_key(std::string_view path) {
+std::string advice_for_unknown_key(std::string_view path, const std::vector<Key>& keys) {
     const std::string name = name_of(without_indices(path));
-    const std::vector<std::string> here = names_inside(parent_of(without_indices(path)));
-    const auto nearest = std::min_element(here.begin(), here.end(), [&](const auto& a, const auto& b) {
-        return edit_distance(name, a) < edit_distance(name, b);
-    });
-    if (nearest != here.end() && edit_distance(name, *nearest) <= std::max<std::size_t>(2, name.size() / 3))
+    const std::vector<std::string> here = names_inside(parent_of(without_indices(path)), keys);
+    if (const std::optional<std::string> nearest = nearest_name(name, here))
         return fmt::format("did you mean '{}'?", *nearest);
-    for (const Key& key : scene_keys())
+    for (const Key& key : keys)
         if (name_of(key.path) == name) return fmt::format("it belongs in {}", table_of(key.path));
     return fmt::format("the keys there are {}", fmt::join(here, ", "));
 }
 
-std::string key_table_markdown() {
+std::string key_table_markdown(const std::vector<Key>& keys) {
     std::string text;
     std::string table = "none yet";
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : keys) {
         std::string inside = parent_of(key.path);
         std::string name = name_of(key.path);
-        if (inside == "species[].diameter") {
-            inside = "species[]";
-            name = "diameter." + name;
+        if (find_key(inside) != nullptr) {  // a value that may be a table
+            name = name_of(inside) + "." + name;
+            inside = parent_of(inside);
         }
         if (inside != table) {
             table = inside;

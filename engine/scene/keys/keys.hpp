@@ -1,5 +1,5 @@
 // The one list of keys that a scene file may have. The reader, the search for the nearest key and the table
-// in docs/reference/scenes.md all live on it.
+// in docs/reference/scenes.md all live on it. Another kind of file (a study) has a list of its own.
 #pragma once
 
 #include <limits>
@@ -27,6 +27,9 @@ enum class KeyKind {
     interval,      // [low, high] of a quantity that another key names
     name_list,     // ["small", ...]
     integer_list,  // [3, 14, ...]
+    seeds,         // a whole number or a list of them
+    value,         // a number, or text that may be a quantity
+    value_list,    // anything, several times
 };
 
 // What numbers may be, ends included unless `open`.
@@ -62,21 +65,21 @@ struct Key {
 const std::vector<Key>& scene_keys();
 
 // The key at a path with or without indices ("species[1].count"), or nullptr.
-const Key* find_key(std::string_view path);
+const Key* find_key(std::string_view path, const std::vector<Key>& keys = scene_keys());
 // The names beside a key or a table that it excludes, or that exclude it.
-std::vector<std::string> rivals_of(std::string_view path);
+std::vector<std::string> rivals_of(std::string_view path, const std::vector<Key>& keys = scene_keys());
 // Whether a path is a table ("drive", "species[0]", "contact.wall"), or an array of tables ("species").
-bool is_table_path(std::string_view path);
-bool is_table_array_path(std::string_view path);
+bool is_table_path(std::string_view path, const std::vector<Key>& keys = scene_keys());
+bool is_table_array_path(std::string_view path, const std::vector<Key>& keys = scene_keys());
 
 // What to tell somebody who wrote an unknown key: "did you mean 'frequency'?", "it belongs in [drive]", or
 // the keys that exist there.
-std::string advice_for_unknown_key(std::string_view path);
+std::string advice_for_unknown_key(std::string_view path, const std::vector<Key>& keys = scene_keys());
 
 // "[drive]", "[[species]]", "the top level": the table that a path lies in, as a scene would write it.
 std::string table_of(std::string_view path);
 
-// The table of all keys in Markdown, as in docs/reference/scenes.md.
-std::string key_table_markdown();
+// The table of all keys in Markdown, as in docs/reference/scenes.md and docs/reference/studies.md.
+std::string key_table_markdown(const std::vector<Key>& keys = scene_keys());
 
 }  // namespace grainreel

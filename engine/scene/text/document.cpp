@@ -41,8 +41,8 @@ toml::table parse(std::string_view text, const std::string& file) {
 
 }  // namespace
 
-Document::Document(std::string_view text, std::string file)
-    : file_(std::move(file)), root_(parse(text, file_)) {
+Document::Document(std::string_view text, std::string file, const std::vector<Key>& keys)
+    : keys_(&keys), file_(std::move(file)), root_(parse(text, file_)) {
     record("", root_);
 }
 
@@ -82,7 +82,7 @@ void Document::fail(const std::string& path, const std::string& what) const {
 
 void Document::fail_missing(const std::string& path) const {
     const std::string table = parent_of(path);
-    const Key* key = find_key(path);
+    const Key* key = find_key(path, *keys_);
     throw UserError(fmt::format("{}: {} lacks '{}'; write for example {} = {}", place(table), table_of(path),
                                 name_of(path), name_of(path), key->example()));
 }
@@ -181,13 +181,21 @@ double Document::number_in(const std::string& path, const toml::node& node, cons
 std::optional<double> Document::quantity(const std::string& path) {
     const toml::node* node = read(path);
     if (node == nullptr) return std::nullopt;
-    return number_in(path, *node, *find_key(path));
+    return number_in(path, *node, *find_key(path, *keys_));
+}
+
+std::optional<double> Document::quantity(const std::string& path, Dimension dimension) {
+    const toml::node* node = read(path);
+    if (node == nullptr) return std::nullopt;
+    Key key = *find_key(path, *keys_);
+    key.dimension = dimension;
+    return number_in(path, *node, key);
 }
 
 std::optional<std::int64_t> Document::integer(const std::string& path) {
     const toml::node* node = read(path);
     if (node == nullptr) return std::nullopt;
-    const Key& key = *find_key(path);
+    const Key& key = *find_key(path, *keys_);
     const auto whole = node->value_exact<std::int64_t>();
     if (!whole || !key.range.contains(static_cast<double>(*whole)))
         fail(path, fmt::format("must be a whole number {}, but is {}; write for example {}", key.range.text(),
@@ -206,7 +214,7 @@ std::optional<bool> Document::flag(const std::string& path) {
 std::optional<std::string> Document::text(const std::string& path) {
     const toml::node* node = read(path);
     if (node == nullptr) return std::nullopt;
-    const Key& key = *find_key(path);
+    const Key& key = *find_key(path, *keys_);
     const auto value = node->value_exact<std::string>();
     if (!value)
         fail(path, fmt::format("must be text, but is {}; write for example {}", written_value(*node),
@@ -221,7 +229,7 @@ std::optional<std::string> Document::text(const std::string& path) {
 std::optional<Vec3> Document::vector(const std::string& path) {
     const toml::node* node = read(path);
     if (node == nullptr) return std::nullopt;
-    Key element = *find_key(path);
+    Key element = *find_key(path, *keys_);
     element.range = Range{};
     const toml::array* array = node->as_array();
     if (array == nullptr || array->size() != 3)
@@ -241,14 +249,14 @@ std::optional<std::vector<std::string>> Document::names(const std::string& path)
             if (const auto name = element.value_exact<std::string>()) values.push_back(*name);
     if (values.size() != 2 || values.size() != size(path))
         fail(path, fmt::format("must be two names, but is {}; write for example {}", written_value(*node),
-                               find_key(path)->example()));
+                               find_key(path, *keys_)->example()));
     return values;
 }
 
 std::vector<std::array<double, 2>> Document::speed_table(const std::string& path) {
     const toml::node* node = read(path);
     if (node == nullptr) return {};
-    const Key& key = *find_key(path);
+    const Key& key = *find_key(path, *keys_);
     Key number = key;
     number.dimension = Dimension::number;
     const toml::array* rows = node->as_array();

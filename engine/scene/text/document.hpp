@@ -23,8 +23,9 @@ namespace grainreel {
 
 class Document {
   public:
-    // `file` is the name used in messages. Throws UserError when the text is not UTF-8 or not TOML.
-    Document(std::string_view text, std::string file);
+    // `file` is the name used in messages; `keys`, which must live on, those that it may have. Throws
+    // UserError when the text is not UTF-8 or not TOML.
+    Document(std::string_view text, std::string file, const std::vector<Key>& keys = scene_keys());
 
     // One assignment of the command line. A key that excludes others (g_level and amplitude), or that others
     // belong to (the colour's map to what it stands for), removes them; [] and {} remove a list of tables and
@@ -47,6 +48,7 @@ class Document {
     // The value of a key, in its dimension's unit; none when absent. Throw UserError when it is not of the
     // key's kind or outside its range.
     std::optional<double> quantity(const std::string& path);
+    std::optional<double> quantity(const std::string& path, Dimension dimension);  // that another key names
     std::optional<std::int64_t> integer(const std::string& path);
     std::optional<bool> flag(const std::string& path);
     std::optional<std::string> text(const std::string& path);  // also choices
@@ -59,6 +61,10 @@ class Document {
     std::optional<std::array<double, 2>> interval(const std::string& path, Dimension dimension);
     std::vector<std::string> name_list(const std::string& path);      // empty when absent
     std::vector<std::int64_t> integer_list(const std::string& path);  // likewise
+    // Values of any kind as TOML writes them in one line, of which an assignment can be made. Empty when
+    // absent. Throw UserError when the key is not a list, or is one.
+    std::vector<std::string> value_list(const std::string& path);
+    std::string value(const std::string& path);
 
     double required_quantity(const std::string& path);
     std::string required_text(const std::string& path);
@@ -90,6 +96,7 @@ class Document {
     void take_back(toml::table& table, const std::string& table_path, const std::string& key,
                    const toml::node& value);
 
+    const std::vector<Key>* keys_;
     std::string file_;
     toml::table root_;
     std::map<std::string, Location> written_;

@@ -1,10 +1,14 @@
 #include "engine/scene/text/reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/shipped/shipped_scenes.hpp"
 #include "engine/scene/text/scene_file.hpp"
 
 namespace grainreel {
@@ -16,13 +20,40 @@ void check_name(const std::filesystem::path& file) {
     if (!wrong.empty()) throw UserError(fmt::format("{}; rename the file", wrong));
 }
 
-}  // namespace
-
-Scene read_scene(const std::filesystem::path& file, const Assignments& sets) {
-    return read_scene_text(load_scene_file(file), file, sets);
+void check_instruments(const Document& document, const Scene& scene) {
+    const std::vector<std::string>& known = scene.measurable.instruments;
+    for (const std::string& name : scene.output.instruments)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            document.fail("output.instruments",
+                          fmt::format("names \"{}\", which is no instrument; there is {}", excerpt(name),
+                                      fmt::join(known, ", ")));
 }
 
-Scene read_scene_text(std::string_view text, const std::filesystem::path& file, const Assignments& sets) {
+// What the film shows is measured.
+void take_instruments_of_film(Scene& scene) {
+    std::vector<std::string>& taken = scene.output.instruments;
+    const auto take = [&](const std::string& name) {
+        for (const MeasureColumn& column : scene.measurable.columns)
+            if (column.name == name && !column.instrument.empty() &&
+                std::find(taken.begin(), taken.end(), column.instrument) == taken.end())
+                taken.push_back(column.instrument);
+    };
+    for (const FilmPlot& plot : scene.film.shows.plots) take(plot.column);
+    for (const LiveWords& words : scene.film.shows.live_words) take(words.column);
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const Assignments& sets, const MeasurableIn& measurable) {
+    std::error_code ignored;
+    if (!file.has_parent_path() && !std::filesystem::exists(file, ignored))
+        if (const ShippedScene* shipped = shipped_scene(file.string()))
+            return read_scene_text(shipped->text, shipped->name + ".toml", sets, measurable);
+    return read_scene_text(load_scene_file(file), file, sets, measurable);
+}
+
+Scene read_scene_text(std::string_view text, const std::filesystem::path& file, const Assignments& sets,
+                      const MeasurableIn& measurable) {
     check_name(file);
     Document document(text, file.string());
     for (const Assignment& assignment : sets) document.set(assignment);
@@ -43,7 +74,10 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file, 
     read_start(document, scene);
     read_run(document, scene);
     count_fed(document, scene);
+    if (measurable) scene.measurable = measurable(scene);
+    check_instruments(document, scene);
     read_film(document, scene);
+    take_instruments_of_film(scene);
     size_empty_space(scene);
     document.check_all_read();
     check_scene(scene);

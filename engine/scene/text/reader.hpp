@@ -10,13 +10,17 @@
 
 namespace grainreel {
 
-// Reads a TOML file. `sets` take precedence over it, "run.duration=2 s" or "species.big.count=30"; their
-// values are TOML, or else taken as text. A relative start.file becomes
-// absolute, counted from the scene's folder. Throws UserError at the first mistake: keys that are unknown or
-// of no use, values of the wrong kind, unit or size, and what does not go together.
-Scene read_scene(const std::filesystem::path& file, const Assignments& sets = {});
+// Reads a TOML file, or the shipped scene of that name where there is no such file. `sets` take precedence
+// over it, "run.duration=2 s" or "species.big.count=30"; their values are TOML, or else taken as text. A
+// relative start.file becomes absolute, counted from the scene's folder. Throws UserError at the first
+// mistake: keys that are unknown or of no use, values of the wrong kind, unit or size, and what does not go
+// together. measurable: what plots, live words and output.instruments may name (measurable_in() of
+// engine/measure/columns.hpp); without it, nothing.
+Scene read_scene(const std::filesystem::path& file, const Assignments& sets = {},
+                 const MeasurableIn& measurable = nullptr);
 
 // Likewise from text; `file` is the name for messages, and its folder the one that paths count from.
-Scene read_scene_text(std::string_view text, const std::filesystem::path& file, const Assignments& sets = {});
+Scene read_scene_text(std::string_view text, const std::filesystem::path& file, const Assignments& sets = {},
+                      const MeasurableIn& measurable = nullptr);
 
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
+#include "engine/scene/shipped/shipped_scenes.hpp"
 
 namespace grainreel {
 namespace {
@@ -14,6 +15,12 @@ constexpr std::size_t most_of_a_path = 400;  // characters, in a message
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
     throw UserError(fmt::format("{}: {}", excerpt(file.string(), most_of_a_path), what));
+}
+
+std::string advice_for_missing(const std::filesystem::path& file) {
+    const std::optional<std::string> meant = nearest_shipped_scene(file.filename().string());
+    return meant ? fmt::format("did you mean the shipped scene '{}'?", *meant)
+                 : "give the path of a scene file (.toml)";
 }
 
 void check_kind(const std::filesystem::path& file) {
@@ -26,7 +33,7 @@ void check_kind(const std::filesystem::path& file) {
         case Type::directory:
             fail(file, "this is a folder; give the path of a scene file (.toml)");
         case Type::not_found:
-            fail(file, "there is no such file; give the path of a scene file (.toml)");
+            fail(file, "there is no such file; " + advice_for_missing(file));
         case Type::none:
         case Type::unknown:
             fail(file, "cannot be read; check its permissions");

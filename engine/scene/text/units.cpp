@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -68,7 +69,7 @@ const UnitSystem& unit_system() {
     return system;
 }
 
-constexpr std::array<DimensionText, 17> dimension_texts{{
+constexpr std::array<DimensionText, 18> dimension_texts{{
     {"m", "a length", "\"5 mm\"", 1e-12, 1e6},
     {"s", "a time", "\"10 s\"", 1e-30, 1e12},
     {"Hz", "a frequency", "\"25 Hz\"", 1e-12, 1e12},
@@ -85,6 +86,7 @@ constexpr std::array<DimensionText, 17> dimension_texts{{
     {"m/s2", "an acceleration", "\"9.81 m/s2\"", 0, 1e6},
     {"J", "an energy", "\"5 µJ\"", 0, 1e30},
     {"N", "a force", "\"10 mN\"", 0, 1e30},
+    {"N.m", "a moment", "\"1 N.m\"", 0, 1e30},
     {"1", "a plain number", "0.5", 0, 1e30},
 }};
 
@@ -117,7 +119,48 @@ std::string other_dimension(const Unit& unit) {
     return " is not";
 }
 
+// What udunits makes of a unit in base units: "m.kg.s-2" without its factor.
+std::string base_units(const Unit& unit) {
+    std::array<char, 256> definition{};
+    if (ut_format(unit.get(), definition.data(), definition.size() - 1, UT_ASCII | UT_DEFINITION) < 0)
+        return "none";
+    std::string_view text = definition.data();
+    const std::size_t space = text.find(' ');
+    if (space != std::string_view::npos) text.remove_prefix(space + 1);
+    // A plain number is a factor without units.
+    return std::string(text.find_first_not_of("0123456789.eE+-") == std::string_view::npos ? "" : text);
+}
+
+std::optional<Powers> powers_of(std::string_view base) {
+    constexpr std::array<std::string_view, 4> names = {"m", "kg", "s", "rad"};
+    Powers powers{};
+    while (!base.empty()) {
+        const std::string_view part = base.substr(0, base.find('.'));
+        base.remove_prefix(std::min(base.size(), part.size() + 1));
+        const std::size_t letters = std::min(part.size(), part.find_first_of("-0123456789"));
+        const auto name = std::find(names.begin(), names.end(), part.substr(0, letters));
+        if (name == names.end()) return std::nullopt;
+        int power = 1;
+        if (letters < part.size()) std::from_chars(part.data() + letters, part.data() + part.size(), power);
+        powers[static_cast<std::size_t>(name - names.begin())] += power;
+    }
+    return powers;
+}
+
 }  // namespace
+
+std::optional<AnyUnit> parse_unit(std::string_view text) {
+    const std::lock_guard guard(units_lock);
+    const Unit unit = looks_like_unit(text) ? unit_system().parse(std::string(text)) : Unit();
+    if (!unit) return std::nullopt;
+    const std::string base = base_units(unit);
+    const std::optional<Powers> powers = powers_of(base);
+    if (!powers) return std::nullopt;
+    const std::optional<double> size =
+        UnitSystem::factor(unit, unit_system().parse(base.empty() ? "1" : base));
+    if (!size) return std::nullopt;
+    return AnyUnit{*size, *powers};
+}
 
 const DimensionText& text_of(Dimension dimension) {
     return dimension_texts[static_cast<std::size_t>(dimension)];

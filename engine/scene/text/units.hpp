@@ -1,6 +1,7 @@
 // Quantities with units, "2 mm" or "25 Hz", over the udunits2 library.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,7 @@ enum class Dimension {
     acceleration,
     energy,
     force,
+    moment,
     number,
 };
 
@@ -42,5 +44,16 @@ const DimensionText& text_of(Dimension dimension);
 // the key: "must be a length, but \"2 s\" is a time; write for example \"5 mm\"", with `example` when there
 // is one. Safe from several threads.
 double parse_quantity(std::string_view text, Dimension dimension, const std::string& example = "");
+
+// Powers of m, kg, s and rad. A radian is a dimension of its own, so that 25 rad/s is not 25 Hz.
+using Powers = std::array<double, 4>;
+
+struct AnyUnit {
+    double size = 1;  // in SI: 0.01 for "cm"
+    Powers powers{};
+};
+// Empty for text that is no unit, and for one of what has no place here (temperature, current). Safe from
+// several threads.
+std::optional<AnyUnit> parse_unit(std::string_view text);
 
 }  // namespace grainreel

@@ -1,5 +1,6 @@
 #include "engine/step/forces/loads.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -145,6 +146,26 @@ HWY_INLINE void put_work(const WallForces& in, int c, const Triple<L>& force, do
     }
 }
 
+// Notes the forces on the faces. What the walls do to their grains does not depend on it.
+template <class L>
+void note(const WallForces& in, int c, const Triple<L>& force) {
+    const ChunkOfContacts& chunk = in.contacts;
+    const std::size_t size = chunk.rounded ? sizeof(float) : sizeof(double);
+    alignas(64) double rows[3][L::count];
+    store_as(force.x, rows[0]), store_as(force.y, rows[1]), store_as(force.z, rows[2]);
+    for (int k = 0; k < std::min(L::count, chunk.count - c); ++k) {
+        if (!chunk.touch->touches(c + k)) continue;
+        const std::int32_t face = chunk.second[c + k];
+        const Place& grain = in.grains.place[chunk.first[c + k]];
+        const Row* const normal = chunk.touch->normal;
+        const Vec3 out(normal[0].get(c + k, size), normal[1].get(c + k, size), normal[2].get(c + k, size));
+        const double reach = grain.radius - 0.5 * chunk.touch->overlap.get(c + k, size);
+        in.walls.tally->add(face, Vec3(rows[0][k], rows[1][k], rows[2][k]),
+                            chunk.force->normal.get(c + k, size),
+                            grain.position + reach * out - in.walls.faces[face].axis);
+    }
+}
+
 template <class L, bool rubs>
 void walls_of(const WallForces& in) {
     const ChunkOfContacts& chunk = in.contacts;
@@ -152,6 +173,7 @@ void walls_of(const WallForces& in) {
     for (int c = 0; c < chunk.count; c += L::count) {
         const Pushes<L> p = pushes<L, rubs>(chunk, c);
         put_work<L>(in, c, p.force, work);
+        if (in.walls.tally) note<L>(in, c, p.force);
         const auto lost = by_contact<rubs>(p.force, p.first_loses);
         each_of<L>(chunk.count - c, [&]<int k>() HWY_ATTR {
             if (!chunk.touch->touches(c + k)) return;

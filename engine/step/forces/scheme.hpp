@@ -19,6 +19,9 @@ struct Scheme {
     double ahead;           // steps, from the velocity between two forces to the time of the second force
     bool corrects = false;  // Gear: positions and velocities are predicted, then corrected
 
+    // Whether positions still change after the last forces of a step.
+    bool moves_after_forces() const { return corrects || closing_drift > 0; }
+
     // Of the forces of a stage: how long they act, for the work that walls do.
     double acts(std::size_t stage) const {
         return stages[stage].kick + (stage + 1 == stages.size() ? opening_kick : 0);

@@ -24,6 +24,11 @@ ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk
     v.smaller_radius = group.of_pairs ? std::min(one.radius, in.grains.place[second].radius) : one.radius;
     v.normal_force = of.force.normal[at];
     v.tangential = group.law->rubs ? vector(of.force.tangential) : Vec3::Zero();
+    const Vec3 turning = v.normal.cross(v.tangential);
+    const Vec3 rolling = group.rolling ? vector(of.rolling.torque) : Vec3::Zero();
+    v.torque_on_first = v.torque_on_second = Vec3::Zero();
+    if (group.law->rubs) v.torque_on_first = -of.touch.first_arm[at] * turning - rolling;
+    if (group.law->rubs && group.of_pairs) v.torque_on_second = -of.touch.second_arm[at] * turning + rolling;
     v.stored_energy = energy.stored[at];
     v.sideways_energy = energy.sideways[at];
     v.latched_energy = energy.latched[at];

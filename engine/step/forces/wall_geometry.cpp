@@ -1,5 +1,6 @@
 // The geometry of contacts between a grain and a wall.
 #include "engine/step/forces/contact_geometry.hpp"
+#include "engine/step/forces/plate_geometry.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/step/forces/wall_geometry.cpp"
@@ -120,10 +121,12 @@ HWY_EXPORT(walls);
 
 std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                              int count, const WallState& walls) {
+    if (!walls.ends.empty()) return touching_plates(grains, first, second, count, walls);
     return HWY_DYNAMIC_DISPATCH(walls_that_touch)(grains, first, second, count, walls);
 }
 
 void touch_walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
+    if (!state.ends.empty()) return touch_plates(in, state, out);
     HWY_DYNAMIC_DISPATCH(walls)(in, state, out);
 }
 

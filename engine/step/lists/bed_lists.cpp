@@ -177,7 +177,6 @@ void BedLists::renew_shares() {
         if (thread == 0) place_halos();
         team_.barrier(thread);
         refresh(thread);
-        contacts(thread).note_loads(grains_);
     });
 }
 

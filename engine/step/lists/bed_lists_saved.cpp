@@ -73,7 +73,6 @@ void BedLists::load(Bytes& in) {
         mine = {};
         mine.own(rules_, lists_, begin(thread), end(thread));
         mine.restore(rules_, kept, steps);
-        mine.note_loads(grains_);
     }
     grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
     place_halos();

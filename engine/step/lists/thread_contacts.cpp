@@ -71,11 +71,6 @@ void ThreadContacts::note_loaded(const ContactRules& rules, std::size_t g, std::
     }
 }
 
-void ThreadContacts::note_loads(const Grains& grains) {
-    for (std::int32_t i = begin; i < end; ++i)
-        if (grains.load[i].force != Vec3::Zero() || grains.load[i].torque != Vec3::Zero()) loaded.note(i);
-}
-
 std::int64_t ThreadContacts::parted() const {
     std::int64_t count = 0;
     for (const ContactTable& table : tables) {

@@ -51,9 +51,6 @@ struct ThreadContacts {
     // Notes the own grains of all contacts, or of the contacts [from, to) of a group.
     void note_loaded(const ContactRules& rules);
     void note_loaded(const ContactRules& rules, std::size_t group, std::int32_t from, std::int32_t to);
-    // Counts grains that have a load among those that have contacts. A grain that has lost its contact with a
-    // grain that left still has the load of that contact for half a step.
-    void note_loads(const Grains& grains);
 
     // The number of contacts under own grains that no longer touch. They are computed until the next refresh.
     std::int64_t parted() const;

@@ -7,18 +7,23 @@
 #include "engine/scene/text/data_size.hpp"
 #include "render/cli/check/check_parts.hpp"
 #include "render/cli/estimate/cost_estimate.hpp"
+#include "render/cli/estimate/disk_estimate.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/files/film_limits.hpp"
+#include "render/film/production/caption_holds.hpp"
 
 namespace grainreel {
 namespace {
 
+// Of records: how often they come.
+std::string interval_text(double periods, double steps, const Plan& plan) {
+    if (periods > 0) return periods == 1 ? "period" : fmt::format("{:.3g} periods", periods);
+    return span_text(steps * plan.clock.step);
+}
+
 constexpr double engine_bytes_a_grain = 600;
 constexpr double bytes_a_pixel = 122;  // from the renderer to the encoder, and what those keep themselves
 constexpr double bytes_of_program = 138e6;  // with its libraries, the software rasteriser above all
-constexpr double trajectory_bytes = 64;     // a grain and frame: id, type, radius, x in double, v, spin
-constexpr double orientation_bytes = 16;
-constexpr double measures_bytes = 400;  // a row
 
 std::string film_format_text(const Film& film) {
     return film.format == FilmFormat::png ? std::string("PNG pictures") : codec_of(film.format).words;
@@ -37,34 +42,31 @@ std::int64_t frames_of(const std::vector<SegmentCount>& film) {
 }
 
 void print_files(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {
-    const std::int64_t pictures = frames_of(film);
+    const std::int64_t pictures = frames_of(film), held = held_frames(scene.film);
+    const DiskEstimate disk = estimate_disk(scene, plan, pictures + held);
     list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {} frames, plays for {}", scene.film.width,
-                                  scene.film.height, scene.film.rate, pictures,
-                                  span_text(static_cast<double>(pictures) / scene.film.rate)));
+                                  scene.film.height, scene.film.rate, pictures + held,
+                                  span_text(static_cast<double>(pictures + held) / scene.film.rate)));
+    if (held > 0)
+        list.line("", fmt::format("{} of that it stands still for captions",
+                                  span_text(static_cast<double>(held) / scene.film.rate)));
     for (const FilmSegment& segment : scene.film.segments)
         list.line("", fmt::format("{}: {}", segment.duration ? span_text(*segment.duration) : "the rest",
                                   playback_caption(played(segment, scene.film.rate, plan.clock), scene.drive,
                                                    scene.film.rate)));
     list.line("files",
               fmt::format(
-                  "film ({}) about {}{}", film_format_text(scene.film),
-                  data_size_text(estimated_film_size(scene.film, pictures)),
+                  "film ({}) about {}{}", film_format_text(scene.film), data_size_text(disk.film),
                   scene.film.max_size
                       ? fmt::format(", {} at most", data_size_text(static_cast<double>(*scene.film.max_size)))
                       : ""));
-    const auto grains = static_cast<double>(scene.grains());
-    if (plan.trajectory_every > 0) {
-        const auto frames =
-            static_cast<std::int64_t>(static_cast<double>(plan.steps) / plan.trajectory_every) + 1;
-        const double size = trajectory_bytes + (scene.keeps_orientations() ? orientation_bytes : 0);
-        list.line("", fmt::format("trajectory {}, {} frames, one every {}",
-                                  data_size_text(static_cast<double>(frames) * grains * size),
-                                  grouped(frames), span_text(plan.trajectory_every * plan.clock.step)));
-    }
-    const auto rows = static_cast<std::int64_t>(static_cast<double>(plan.steps) / plan.measures_every) + 1;
-    list.line("", fmt::format("measures {}, {} rows, one every {}",
-                              data_size_text(static_cast<double>(rows) * measures_bytes), grouped(rows),
-                              span_text(plan.measures_every * plan.clock.step)));
+    if (disk.trajectory_frames > 0)
+        list.line("", fmt::format("trajectory {}, {} frames, one every {}", data_size_text(disk.trajectory),
+                                  grouped(disk.trajectory_frames),
+                                  interval_text(plan.trajectory_periods, plan.trajectory_every, plan)));
+    list.line("", fmt::format("measures {}, {} rows, one every {}", data_size_text(disk.measures),
+                              grouped(disk.measures_rows),
+                              interval_text(plan.measures_periods, plan.measures_every, plan)));
 }
 
 void print_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {

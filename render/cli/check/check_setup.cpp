@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 #include "render/cli/check/check_parts.hpp"
 
 namespace grainreel {
@@ -75,6 +76,32 @@ std::string drive_text(const Scene& scene) {
                        metres_text(d.amplitude), level, d.speed(), phase, ramp);
 }
 
+// "from 2.01 s over 3 periods: 12 Hz, amplitude 5 mm, gamma 3"
+std::string stage_text(const Scene& scene, const DriveSchedule& schedule, std::size_t number) {
+    const DriveStage& stage = scene.drive.stages[number - 1];
+    const double begins = schedule.begins(number), settled = schedule.settled(number);
+    std::string text = fmt::format("from {:.6g} s", begins);
+    if (settled > begins) text += fmt::format(" over {} periods, until {:.6g} s", stage.over, settled);
+    if (stage.kind == DriveStage::Kind::rest) return text + ": at rest";
+    const bool taps = stage.kind == DriveStage::Kind::taps;
+    text += fmt::format(": {}{:.4g} Hz, amplitude {}", taps ? "taps of " : "", stage.frequency,
+                        metres_text(stage.amplitude));
+    const double gravity = scene.gravity.norm();
+    const Drive of_stage{true, stage.frequency, stage.amplitude};
+    if (gravity > 0) text += fmt::format(", gamma {:.4g}", of_stage.g_level(gravity));
+    if (taps) text += fmt::format(", one every {:.4g} s", stage.interval);
+    const double peak = peak_acceleration_of_change(schedule, number) / gravity;
+    if (gravity > 0 && peak > 0) text += fmt::format("; at most gamma {:.4g} in the change", peak);
+    return text;
+}
+
+void print_stages(const Scene& scene, Listing& list) {
+    if (!scene.drive.changes()) return;
+    const DriveSchedule schedule(scene.drive);
+    for (std::size_t k = 1; k <= scene.drive.stages.size(); ++k)
+        list.line("", stage_text(scene, schedule, k));
+}
+
 }  // namespace
 
 void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
@@ -93,6 +120,7 @@ void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
                               metres_text(plan.bed_height), 100 * plan.bed_height / scene.container.height));
     list.line("gravity", fmt::format("{:.4g} m/s2", scene.gravity.norm()));
     list.line("drive", drive_text(scene));
+    print_stages(scene, list);
 }
 
 }  // namespace grainreel

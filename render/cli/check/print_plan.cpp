@@ -57,7 +57,8 @@ void print_plan(const Scene& scene, const Plan& plan, std::ostream& out) {
     print_cost(scene, plan, film, list);
     std::vector<std::string> warnings = plan.warnings;
     for (std::string& line : pace_warnings(scene, plan.clock)) warnings.push_back(std::move(line));
-    for (std::string& line : strobe_warnings(scene.film, scene.drive)) warnings.push_back(std::move(line));
+    for (std::string& line : strobe_warnings(scene.film, scene.drive, scene.run.duration))
+        warnings.push_back(std::move(line));
     for (std::string& line : film_warnings(scene, frames_of(film))) warnings.push_back(std::move(line));
     if (!warnings.empty()) list.gap();
     for (const std::string& line : warnings) list.line("warning", line);

@@ -123,7 +123,8 @@ CostEstimate estimate_cost(const Scene& scene, const Plan& plan, const std::vect
     return cost;
 }
 
-MachineFigures machine_figures(const Scene& scene, const Plan& plan, const ThreadPlan& threads) {
+MachineFigures machine_figures(const Scene& scene, const Plan& plan, const ThreadPlan& threads,
+                               bool has_film) {
     SpeedCache cache;
     const auto engine = [&](int team) {
         if (const auto known = cache.engine(team)) return *known;
@@ -135,6 +136,10 @@ MachineFigures machine_figures(const Scene& scene, const Plan& plan, const Threa
     machine.lattice_one = engine(1);
     // More threads than processors would measure their waiting.
     machine.lattice_team = engine(std::min(threads.engine, machine.processors));
+    if (!has_film) {
+        cache.save();
+        return machine;
+    }
     const std::string look = look_of(scene, plan, threads);
     std::optional<FilmSpeed> film = cache.film(look);
     if (!film && (film = probe_film(scene, threads))) cache.keep_film(look, *film);

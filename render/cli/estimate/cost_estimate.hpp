@@ -36,6 +36,8 @@ CostEstimate estimate_cost(const Scene& scene, const Plan& plan, const std::vect
                            const ThreadPlan& threads, const MachineFigures& machine);
 
 // From the cache, or measured now and put there: half a second or so, and as much for a film not seen before.
-MachineFigures machine_figures(const Scene& scene, const Plan& plan, const ThreadPlan& threads);
+// film: false leaves out what its frames cost.
+MachineFigures machine_figures(const Scene& scene, const Plan& plan, const ThreadPlan& threads,
+                               bool film = true);
 
 }  // namespace grainreel

@@ -12,6 +12,8 @@
 #include <CLI/Formatter.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/nearest_name.hpp"
+#include "engine/base/shell_word.hpp"
 #include "engine/base/utf8.hpp"
 #include "render/cli/report/result.hpp"
 #include "render/cli/report/version.hpp"
@@ -25,29 +27,34 @@ constexpr std::size_t most_of_a_mistake = 300;  // characters of what CLI11 says
 
 using Verbs = std::vector<std::unique_ptr<Verb>>;
 
-// A word as the shell would need it typed.
-std::string quoted(const std::string& word) {
-    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
-    return result + "'";
-}
-
-std::string as_typed(int argc, const char* const* argv) {
-    std::string command;
-    for (int i = 0; i < argc; ++i) command += (i == 0 ? "" : " ") + quoted(argv[i]);
-    return command;
-}
-
 void check_verb(const Verbs& verbs, const std::string& word) {
     std::vector<std::string> names;
     for (const auto& verb : verbs) names.push_back(verb->name());
     if (word[0] == '-' || std::find(names.begin(), names.end(), word) != names.end()) return;
-    throw UserError(
-        fmt::format("{}; there are {}; see grainreel --help",
-                    word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
-                    fmt::join(names, ", ")));
+    const std::optional<std::string> meant = nearest_name(word, names);
+    throw UserError(fmt::format(
+        "{}; {}there are {}; see grainreel --help",
+        word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
+        meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "", fmt::join(names, ", ")));
+}
+
+// "--duratoin=3" and "--duratoin" are the option "--duratoin". Empty for what is none.
+std::string option_name(const std::string& word) {
+    return word.compare(0, 2, "--") == 0 && word.size() > 2 ? word.substr(0, word.find('=')) : "";
+}
+
+// Tells the first option that the verb does not have, if there is one.
+void check_options(const Verb& verb, const CLI::App& parser, int argc, const char* const* argv) {
+    std::vector<std::string> names = {"--help"};
+    for (const CLI::Option* option : parser.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (int i = 2; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+        const std::string word = option_name(argv[i]);
+        if (word.empty() || std::find(names.begin(), names.end(), word) != names.end()) continue;
+        const std::optional<std::string> meant = nearest_name(word, names);
+        throw UserError(fmt::format("unknown option '{}'; {}see grainreel {} --help", excerpt(word),
+                                    meant ? fmt::format("did you mean '{}'? ", *meant) : "", verb.name()));
+    }
 }
 
 void add_verb(CLI::App& app, Verb& verb) {
@@ -81,12 +88,15 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
         return nullptr;
     } catch (const CLI::ParseError& mistake) {
         check_verb(verbs, argc > 1 ? argv[1] : "");
+        for (const auto& verb : verbs)
+            if (app.got_subcommand(verb->name()))
+                check_options(*verb, *app.get_subcommand(verb->name()), argc, argv);
         throw UserError(fmt::format("{}; see grainreel --help", excerpt(mistake.what(), most_of_a_mistake)));
     }
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),
                                      [&](const auto& verb) { return app.got_subcommand(verb->name()); });
     GRAINREEL_CHECK(chosen != verbs.end());
-    (*chosen)->command = as_typed(argc, argv);
+    (*chosen)->command = shell_words({argv, argv + argc});
     return std::move(*chosen);
 }
 

@@ -22,6 +22,8 @@ std::string to_string(Progress::Stage stage) {
             return "timing";
         case Progress::Stage::drawing:
             return "drawing";
+        case Progress::Stage::studying:
+            return "studying";
         case Progress::Stage::vibrating:
             break;
     }

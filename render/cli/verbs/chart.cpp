@@ -1,7 +1,4 @@
 // The verb `chart`: experiments on the methods themselves, as tables and pictures.
-#include <spawn.h>
-#include <sys/wait.h>
-
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -11,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/chart/chart.hpp"
+#include "engine/chart/gnuplot.hpp"
 #include "render/cli/options/option_groups.hpp"
 #include "render/cli/report/result.hpp"
 #include "render/cli/report/share_watcher.hpp"
@@ -20,20 +18,6 @@ namespace grainreel {
 namespace {
 
 constexpr int signal_base = 128;
-
-// Runs gnuplot on a file of commands in its folder. False when there is none, or it failed.
-bool draw(const std::filesystem::path& folder, std::string commands) {
-    posix_spawn_file_actions_t there;
-    posix_spawn_file_actions_init(&there);
-    posix_spawn_file_actions_addchdir_np(&there, folder.c_str());
-    char name[] = "gnuplot";
-    char* words[] = {name, commands.data(), nullptr};
-    pid_t child = 0;
-    const bool started = posix_spawnp(&child, name, &there, nullptr, words, environ) == 0;
-    posix_spawn_file_actions_destroy(&there);
-    int status = 1;
-    return started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
 
 class ChartVerb final : public Verb {
   public:
@@ -88,7 +72,7 @@ class ChartVerb final : public Verb {
     static void draw_pictures(const Chart& chart, const std::filesystem::path& folder, Reporter& reporter) {
         const std::string commands = chart.name + ".gp";
         replace_file(folder / commands, chart.drawing());
-        if (!draw(folder, commands))
+        if (!run_gnuplot(folder, commands))
             reporter.warning(
                 fmt::format("gnuplot is missing or failed, so there are tables but no pictures; install "
                             "gnuplot-nox and run it on {} in the folder",

@@ -1,6 +1,7 @@
 // The verb `check`: what a scene will do, in words, before it is run.
 #include <sstream>
 
+#include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/text/reader.hpp"
@@ -21,7 +22,7 @@ class Check final : public Verb {
     void add_options(CLI::App& parser) override { add_scene(parser, scene_, sets_); }
 
     int run(Reporter&) override {
-        const Scene scene = read_scene(scene_, sets_);
+        const Scene scene = read_scene(scene_, sets_, measurable_in);
         const Plan plan = make_plan(scene);
         check_start(scene, plan);
         std::ostringstream text;

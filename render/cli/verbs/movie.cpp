@@ -1,6 +1,7 @@
 // The verb `movie`: one scene becomes a film and the files beside it.
 #include <fmt/format.h>
 
+#include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "render/cli/options/option_groups.hpp"
@@ -31,7 +32,7 @@ class Movie final : public Verb {
     int run(Reporter& reporter) override {
         film_.command = command;
         film_.program = program_info();
-        const Scene scene = read_scene(scene_, sets_);
+        const Scene scene = read_scene(scene_, sets_, measurable_in);
         const Plan plan = make_plan(scene);
         MovieRun movie(film_, reporter, scene, plan);
         return tell_folder(movie.run(), film_);

@@ -53,7 +53,9 @@ void CameraPath::frame_by_itself(const Scene& scene) {
         if (part.top >= scene.container.height) part = whole_container(scene);
         scale = frame_part(scene, part);
     }
-    if (part.cut && still_) show_more(scene, part, scale);
+    if (!part.cut || !still_) return;
+    part = show_more(scene, part, scale);
+    if (leaves_aside(scene, part)) keep_sides(scene, part);
 }
 
 // Returns pixels a metre at the middle of what is framed.
@@ -68,7 +70,7 @@ double CameraPath::frame_part(const Scene& scene, const FramedPart& part) {
 }
 
 // Where the port's width is what binds, its free height shows more of the container.
-void CameraPath::show_more(const Scene& scene, FramedPart part, double scale) {
+FramedPart CameraPath::show_more(const Scene& scene, FramedPart part, double scale) {
     double most = scene.container.height;
     for (int i = 0; i < 20; ++i) {
         const double middle = 0.5 * (part.top + most);
@@ -76,6 +78,33 @@ void CameraPath::show_more(const Scene& scene, FramedPart part, double scale) {
         (as_large ? part.top : most) = middle;
     }
     frame_part(scene, part);
+    return part;
+}
+
+// Whether walls above the framed part are in the picture's height, but not in its width: slanted walls are
+// wider above.
+bool CameraPath::leaves_aside(const Scene& scene, const FramedPart& part) const {
+    constexpr int heights = 64;
+    for (int i = 0; i <= heights; ++i) {
+        const double top = part.top + (scene.container.height - part.top) * i / heights;
+        for (const Vec3& point : framing_points(scene, camera_.azimuth, {top, true})) {
+            const Eigen::Vector2d seen = still_->project(point);
+            if (seen.y() >= 0 && (seen.x() < 0 || seen.x() > port_.width)) return true;
+        }
+    }
+    return false;
+}
+
+// Frames as little more as leaves no wall aside. The whole container leaves none.
+void CameraPath::keep_sides(const Scene& scene, FramedPart part) {
+    FramedPart most = whole_container(scene);
+    most.top = std::min(most.top, scene.container.height);
+    for (int i = 0; i < 20; ++i) {
+        const FramedPart middle{0.5 * (part.top + most.top), true};
+        frame_part(scene, middle);
+        (leaves_aside(scene, middle) ? part : most) = middle;
+    }
+    frame_part(scene, most);
 }
 
 // m before the eye, of the nearest point that is seen on the way.

@@ -39,7 +39,9 @@ class CameraPath {
     void look_from_position();
     void frame_by_itself(const Scene& scene);
     double frame_part(const Scene& scene, const FramedPart& part);
-    void show_more(const Scene& scene, FramedPart part, double scale);
+    FramedPart show_more(const Scene& scene, FramedPart part, double scale);
+    bool leaves_aside(const Scene& scene, const FramedPart& part) const;
+    void keep_sides(const Scene& scene, FramedPart part);
     void keep_distance(const Scene& scene, const FramedPart& part);
     double least_depth(const std::vector<Vec3>& points) const;
     std::vector<Pose> samples() const;

@@ -5,6 +5,7 @@
 
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 #include "render/draw/container/drawing_kit.hpp"
 #include "render/draw/container/lab_marks.hpp"
 
@@ -25,7 +26,7 @@ double room_above(const Scene& scene) {
     const double gravity = scene.gravity.norm();
     if (container.shape == Container::Shape::none || container.lid || !scene.drive.present || gravity <= 0)
         return 0;
-    const double thrown = 2 * scene.drive.speed() * upward(scene);
+    const double thrown = 2 * drive_peaks(scene.drive).speed * upward(scene);
     const double highest = fill_height(scene, 0.55) + thrown * thrown / (2 * gravity);
     return std::clamp(highest - container.height, 0.0, 0.5 * container.height);
 }
@@ -40,7 +41,7 @@ bool looks_steeply(const Camera& camera) {
 // m above the floor's rest position, as drawn.
 std::optional<double> wanted_top(const Scene& scene) {
     const Camera& camera = scene.film.camera;
-    const double stroke = scene.drive.present ? scene.drive.amplitude * upward(scene) : 0;
+    const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset * upward(scene) : 0;
     if (camera.frame == CameraFrame::bed) {
         const std::optional<double> rest = resting_top(scene);
         return rest ? std::optional(*rest + scene.film.exaggerate * stroke) : std::nullopt;
@@ -62,6 +63,14 @@ std::vector<Vec3> corners_of(const Scene& scene, const FramedPart& part) {
             break;
     }
     return prism_corners(scene.container, top);
+}
+
+// What falls through an outlet, as far as it stays in the run.
+void add_stream(const Container& container, std::vector<Vec3>& corners) {
+    const Outlet& outlet = *container.outlet;
+    const double y = outlet.half_width, x = outlet.shape == Outlet::Shape::slot ? 0.5 * container.depth : y;
+    for (const double side : {-1.0, 1.0})
+        for (const double end : {-1.0, 1.0}) corners.emplace_back(end * x, side * y, -outlet.exit_depth);
 }
 
 }  // namespace
@@ -90,6 +99,7 @@ Vec3 framed_middle(const Scene& scene) {
 
 std::vector<Vec3> framing_points(const Scene& scene, double azimuth, const FramedPart& part) {
     std::vector<Vec3> corners = corners_of(scene, part);
+    if (scene.container.outlet) add_stream(scene.container, corners);
     if (!part.cut && part.top > scene.container.height) corners.emplace_back(0, 0, part.top);
     std::vector<Vec3> points;
     const Vec3 stroke = drawn_stroke(scene);

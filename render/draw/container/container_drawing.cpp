@@ -5,6 +5,7 @@
 
 #include "render/draw/camera/camera_path.hpp"
 #include "render/draw/container/drawing_kit.hpp"
+#include "render/draw/container/floor_opening.hpp"
 #include "render/draw/container/lab_marks.hpp"
 
 namespace grainreel {
@@ -47,10 +48,11 @@ void draw_container(const Scene& scene, const Views& views, const Frame& frame, 
     const Sketches sketches{{views, palette, picture_height, frame.container().place},
                             {views, palette, picture_height, frame.floor().place},
                             {views, palette, picture_height, Vec3(0, 0, 0)}};
-    if (scene.container.shape == Container::Shape::cylinder)
-        draw_cylinder(scene.container, sketches, shapes);
-    else if (scene.container.shape != Container::Shape::none)
-        draw_prism(scene.container, sketches, shapes);
+    const Container container = container_at(scene.container, frame.time);
+    if (container.shape == Container::Shape::cylinder)
+        draw_cylinder(container, sketches, shapes);
+    else if (container.shape != Container::Shape::none)
+        draw_prism(container, sketches, shapes);
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {  // inside, so over the container's far walls
         const Vec3 offset = frame.body(kFirstPlaneBody + w).place;
         draw_free_wall(scene.walls[w], scene, {views, palette, picture_height, offset}, shapes);

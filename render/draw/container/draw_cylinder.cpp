@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/draw/container/drawing_kit.hpp"
+#include "render/draw/container/floor_opening.hpp"
 
 namespace grainreel {
 namespace {
@@ -45,6 +46,7 @@ class Cylinder {
           height_(container.height),
           thickness_(drawn_thickness(container)),
           lid_(container.lid),
+          outlet_(container.outlet),
           sketches_(sketches),
           shapes_(shapes) {
         std::tie(facing_, half_visible_) =
@@ -69,7 +71,7 @@ class Cylinder {
         const double wide = radius_ + thickness_;
         const Paint edge = blend(sketch.glass_edge(), sketch.edge(), solid);
         if (solid > 0 && behind) {
-            sketch.polygon(on, circle(wide, inner), faded(sketch.inner_face(), solid));
+            fill(on, sketch, wide, inner, up, faded(sketch.inner_face(), solid));
             sketch.line(on, circle(radius_, inner), true, 0.6 * sketch.pen, faded(sketch.far_edge(), solid));
         }
         const auto upper = arc(wide, facing_ - half_visible_, facing_ + half_visible_, high);
@@ -83,13 +85,23 @@ class Cylinder {
         else
             sketch.line(on, circle(wide, inner), true, sketch.pen, edge);
         if (sketch.faces({0, 0, outer}, {0, 0, up})) {
-            sketch.polygon(on, circle(wide, outer), blend(sketch.glass_face(), sketch.outer_face(), solid));
+            fill(on, sketch, wide, outer, up, blend(sketch.glass_face(), sketch.outer_face(), solid));
             sketch.line(on, circle(wide, outer), true, sketch.pen, edge);
         } else {
             sketch.line(on, up > 0 ? upper : lower, false, sketch.pen, edge);
         }
         sketch.line(on, {upper.front(), lower.front()}, false, sketch.pen, edge);
         sketch.line(on, {upper.back(), lower.back()}, false, sketch.pen, edge);
+    }
+
+    // A disc; the floor's has a hole where its outlet is open.
+    void fill(WallSide& on, const Sketch& sketch, double wide, double height, double up,
+              const Paint& paint) const {
+        if (up > 0 || !outlet_) return sketch.polygon(on, circle(wide, height), paint);
+        for (const std::vector<Vec3>& piece : disc_around_hole(*outlet_, wide, height))
+            sketch.polygon(on, piece, paint);
+        sketch.line(on, rim_of_hole(*outlet_, height), true, 0.6 * sketch.pen,
+                    faded(sketch.far_edge(), paint.alpha));
     }
 
     // The far half of the tube, tinted more where it turns away from the eye.
@@ -129,6 +141,7 @@ class Cylinder {
 
     const double radius_, height_, thickness_;
     const bool lid_;
+    const std::optional<Outlet> outlet_;
     const Sketches& sketches_;
     ContainerShapes& shapes_;
     double facing_ = 0, half_visible_ = 0;  // rad, about z

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/draw/container/drawing_kit.hpp"
+#include "render/draw/container/floor_opening.hpp"
 
 namespace grainreel {
 namespace {
@@ -41,17 +42,26 @@ Profile wall_profile(const Container& container, double side) {
 
 // Floor or lid: a plate between two heights.
 struct Plate {
-    double half_width, low, high;
+    double left, right, low, high;  // m; left and right along y
 };
 
 Plate floor_plate(const Container& container) {
-    const double t = drawn_thickness(container);
-    return {outer_floor_half_width(container), -1.4 * t, 0};
+    const double t = drawn_thickness(container), half = outer_floor_half_width(container);
+    return {-half, half, -1.4 * t, 0};
+}
+
+// One, or what an open slot leaves of it.
+std::vector<Plate> floor_plates(const Container& container) {
+    const Plate whole = floor_plate(container);
+    if (!container.outlet || container.outlet->shape != Outlet::Shape::slot) return {whole};
+    const double half = container.outlet->half_width;
+    return {{whole.left, -half, whole.low, whole.high}, {half, whole.right, whole.low, whole.high}};
 }
 
 Plate lid_plate(const Container& container) {
     const double t = drawn_thickness(container);
-    return {std::abs(wall_profile(container, 1).outer.back().x()), container.height, container.height + t};
+    const double half = std::abs(wall_profile(container, 1).outer.back().x());
+    return {-half, half, container.height, container.height + t};
 }
 
 // A cross-section at one end of the prism, and how much of it is to be seen: all, but while a moving camera
@@ -83,7 +93,7 @@ class Prism {
         const Profile left = wall_profile(container_, -1), right = wall_profile(container_, 1);
         panes(left, right);
         if (container_.lid) plate(sketches_.walls, lid_plate(container_), container_.height, 1);
-        plate(sketches_.floor, floor_plate(container_), 0, -1);
+        for (const Plate& part : floor_plates(container_)) plate(sketches_.floor, part, 0, -1);
         wall(left);
         wall(right);
     }
@@ -160,30 +170,39 @@ class Prism {
         const double solid = sketch.solid({0, 0, inner_height}, {0, 0, up});
         const bool behind = !sketch.faces({0, 0, inner_height}, {0, 0, up});
         WallSide& on = behind ? shapes_.behind : shapes_.before;
-        const double w = plate.half_width, x = 0.5 * container_.depth;
+        const double left = plate.left, right = plate.right, x = 0.5 * container_.depth;
         const auto level = [&](double z) {
-            return std::vector<Vec3>{{x, -w, z}, {x, w, z}, {-x, w, z}, {-x, -w, z}};
+            return std::vector<Vec3>{{x, left, z}, {x, right, z}, {-x, right, z}, {-x, left, z}};
+        };
+        const bool with_hole = up < 0 && container_.outlet && container_.outlet->shape == Outlet::Shape::hole;
+        const auto fill = [&](double z, const Paint& paint) {
+            const Pieces pieces =
+                with_hole ? rectangle_around_hole(*container_.outlet, x, right, z) : Pieces{level(z)};
+            for (const std::vector<Vec3>& piece : pieces) sketch.polygon(on, piece, paint);
+            if (with_hole)
+                sketch.line(on, rim_of_hole(*container_.outlet, z), true, 0.6 * sketch.pen,
+                            faded(sketch.far_edge(), paint.alpha));
         };
         const double outer_height = up > 0 ? plate.high : plate.low;
         const Paint edge = blend(sketch.glass_edge(), sketch.edge(), solid);
         const Paint face = blend(sketch.glass_face(), sketch.outer_face(), solid);
-        if (sketch.faces({0, 0, outer_height}, {0, 0, up})) sketch.polygon(on, level(outer_height), face);
+        if (sketch.faces({0, 0, outer_height}, {0, 0, up})) fill(outer_height, face);
         if (solid > 0 && behind) {
-            sketch.polygon(on, level(inner_height), faded(sketch.inner_face(), solid));
+            fill(inner_height, faded(sketch.inner_face(), solid));
             sketch.line(on, level(inner_height), true, 0.6 * sketch.pen, faded(sketch.far_edge(), solid));
         }
-        for (const double y : {-w, w}) {
-            if (!sketch.faces({0, y, plate.low}, {0, y, 0})) continue;
+        for (const double y : {left, right}) {
+            if (!sketch.faces({0, y, plate.low}, {0, y == left ? -1.0 : 1.0, 0})) continue;
             const std::vector<Vec3> side = {
                 {x, y, plate.low}, {-x, y, plate.low}, {-x, y, plate.high}, {x, y, plate.high}};
             sketch.polygon(on, side, face);
             sketch.line(on, side, true, 0.7 * sketch.pen, edge);
         }
         for (const End& end : near_) {
-            const std::vector<Vec3> section = {{end.x, -w, plate.low},
-                                               {end.x, w, plate.low},
-                                               {end.x, w, plate.high},
-                                               {end.x, -w, plate.high}};
+            const std::vector<Vec3> section = {{end.x, left, plate.low},
+                                               {end.x, right, plate.low},
+                                               {end.x, right, plate.high},
+                                               {end.x, left, plate.high}};
             sketch.polygon(on, section, faded(blend(sketch.glass_cut(), sketch.cut(), solid), end.weight));
             sketch.line(on, section, true, sketch.pen, faded(edge, end.weight));
         }
@@ -227,25 +246,25 @@ std::vector<Vec3> prism_corners(const Container& container, double top) {
     for (const double x : {-0.5 * container.depth, 0.5 * container.depth})
         for (const double side : {-1.0, 1.0}) {
             for (const Flat& p : below(wall_profile(container, side).outer, top)) corners.push_back(at(x, p));
-            corners.emplace_back(x, side * floor.half_width, floor.low);
-            if (container.lid && lid.high <= top) corners.emplace_back(x, side * lid.half_width, lid.high);
+            corners.emplace_back(x, side * floor.right, floor.low);
+            if (container.lid && lid.high <= top) corners.emplace_back(x, side * lid.right, lid.high);
         }
     return corners;
 }
 
 void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on) {
     const Plate floor = floor_plate(container);
-    std::vector<Flat> outline = {{floor.half_width, floor.low}, {-floor.half_width, floor.low}};
+    std::vector<Flat> outline = {{floor.right, floor.low}, {floor.left, floor.low}};
     if (floor_only) {
-        outline.emplace_back(-floor.half_width, floor.high);
-        outline.emplace_back(floor.half_width, floor.high);
+        outline.emplace_back(floor.left, floor.high);
+        outline.emplace_back(floor.right, floor.high);
     } else {
         const Profile left = wall_profile(container, -1), right = wall_profile(container, 1);
         outline.insert(outline.end(), left.outer.begin(), left.outer.end());
         if (container.lid) {
             const Plate lid = lid_plate(container);
-            outline.emplace_back(-lid.half_width, lid.high);
-            outline.emplace_back(lid.half_width, lid.high);
+            outline.emplace_back(lid.left, lid.high);
+            outline.emplace_back(lid.right, lid.high);
         }
         outline.insert(outline.end(), right.outer.rbegin(), right.outer.rend());
     }

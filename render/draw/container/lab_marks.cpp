@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/drive/drive_schedule.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -16,11 +18,11 @@ double reach_aside(const Container& container, double half, double azimuth) {
 
 Vec3 drawn_stroke(const Scene& scene) {
     if (!scene.drive.present) return {0, 0, 0};
-    return scene.film.exaggerate * scene.drive.amplitude * scene.drive.direction;
+    return scene.film.exaggerate * drive_peaks(scene.drive).offset * scene.drive.direction;
 }
 
 bool has_lab_marks(const Scene& scene) {
-    return scene.drive.present && scene.drive.amplitude > 0 &&
+    return scene.drive.present && scene.drive.largest_amplitude() > 0 &&
            scene.container.shape != Container::Shape::none;
 }
 

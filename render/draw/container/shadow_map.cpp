@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/drive/drive_schedule.hpp"
 #include "render/draw/container/container_drawing.hpp"
 #include "render/draw/container/drawing_kit.hpp"
 
@@ -31,8 +32,9 @@ ShadowMap::ShadowMap(const Scene& scene)
       low_plate_(-1.4 * drawn_thickness(scene.container)),
       cells_(kSide * kSide) {
     const double stroke =
-        scene.drive.present ? scene.drive.amplitude * std::abs(scene.drive.direction.z()) : 0;
+        scene.drive.present ? drive_peaks(scene.drive).offset * std::abs(scene.drive.direction.z()) : 0;
     height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
+    if (container_.outlet) height_ = std::min(height_, -container_.outlet->exit_depth);
 }
 
 Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {

@@ -10,7 +10,8 @@
 namespace grainreel {
 namespace {
 
-constexpr int smooth_steps = 1024;  // of a colour map: finer than 8 bits
+constexpr Colour pale_grain{0.93, 0.93, 0.93};  // sRGB
+constexpr int smooth_steps = 1024;              // of a colour map: finer than 8 bits
 
 Albedo linear(const Colour& colour) {
     return {static_cast<float>(to_linear(colour.red)), static_cast<float>(to_linear(colour.green)),
@@ -20,10 +21,11 @@ Albedo linear(const Colour& colour) {
 }  // namespace
 
 GrainColours::GrainColours(const Scene& scene)
-    : quantities_(scene, scene.film.shows.colour.by),
-      by_species_(scene.film.shows.colour.by == GrainValue::species) {
+    : quantities_(scene, scene.film.shows.colour.by), by_species_(!scene.film.shows.colour.of_grains()) {
     if (by_species_) {
-        for (const Species& species : scene.species) steps_.push_back(linear(species.colour));
+        const bool pale = scene.film.shows.colour.of_field();
+        for (const Species& species : scene.species)
+            steps_.push_back(linear(pale ? mix(species.colour, pale_grain, 0.8) : species.colour));
         return;
     }
     const ColourScale scale(scene.film.shows.colour);

@@ -10,7 +10,7 @@ SpherePainter::SpherePainter(const Scene& scene, int width, int height, Team& te
       team_(team),
       layer_(width, height),
       look_(scene.film.look),
-      lamp_(lamp_of(look_, scene.film.shows.colour.by != GrainValue::species)) {
+      lamp_(lamp_of(look_, scene.film.shows.colour.of_grains())) {
     if (!ghosts) return;
     painted_.resize(scene.species.size(), 0);
     for (const std::size_t species : scene.film.shows.ghosts) painted_[species] = 1;

@@ -25,8 +25,8 @@ std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
 }  // namespace
 
 bool has_marks(const FilmShows& look) {
-    return look.force_chains || look.trails.wanted() || look.arrows.across > 0 || !look.highlighted.empty() ||
-           look.highlight_if.wanted();
+    return look.colour.of_field() || look.force_chains || look.trails.wanted() || look.arrows.across > 0 ||
+           !look.highlighted.empty() || look.highlight_if.wanted();
 }
 
 double arrow_scale(const Scene& scene) {
@@ -46,10 +46,13 @@ Marks::Marks(const Scene& scene, const Palette& palette)
       palette_(palette),
       pen_(std::max(1.0, scene.film.height / 540.0)),
       trails_(scene),
-      condition_(scene, scene.film.shows.highlight_if.of) {}
+      condition_(scene, scene.film.shows.highlight_if.of) {
+    if (scene.film.shows.colour.of_field()) field_.emplace(scene);
+}
 
 void Marks::start_from(const Frame& frame) {
     condition_.start_from(frame);
+    if (field_) field_->start_from(frame);
 }
 
 void Marks::remember(const Frame& frame) {
@@ -58,6 +61,7 @@ void Marks::remember(const Frame& frame) {
 
 void Marks::draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
     const FilmShows& look = scene_.film.shows;
+    if (field_) field_->draw(view, frame, on);
     if (look.force_chains) draw_chains(view, frame, on);
     remember(frame);
     if (look.trails.wanted()) draw_trails(view, on);

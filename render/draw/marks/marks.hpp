@@ -1,12 +1,15 @@
-// What is drawn over the grains: velocity arrows, trails, lines of force, rings around chosen grains.
+// What is drawn over the grains: a field, velocity arrows, trails, lines of force, rings around chosen
+// grains.
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/camera/view.hpp"
 #include "render/draw/grains/quantities.hpp"
+#include "render/draw/marks/field_layer.hpp"
 #include "render/draw/marks/trails.hpp"
 #include "render/draw/picture/canvas.hpp"
 #include "render/draw/picture/palette.hpp"
@@ -46,6 +49,7 @@ class Marks {
     const Scene& scene_;
     const Palette palette_;
     const double pen_;  // pixels
+    std::optional<FieldLayer> field_;
     Trails trails_;
     Quantities condition_;  // of which some grains are ringed
 };

@@ -3,11 +3,19 @@
 #include <cmath>
 
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 
 namespace grainreel {
 namespace {
 
 constexpr int least_grains = 3;  // fewer are no mean
+
+// Hz: one over how long the drive's last period was.
+double periods_a_second(const Scene& scene, const Frame& frame) {
+    if (!scene.drive.changes()) return scene.drive.frequency;
+    const DriveSchedule schedule(scene.drive);
+    return 1 / (schedule.times().time(frame.cycles) - schedule.times().time(frame.cycles - 1));
+}
 
 }  // namespace
 
@@ -23,6 +31,7 @@ std::vector<FieldCell> velocity_field(const Scene& scene, const Frame& frame) {
     const int across = arrows.across, upward = static_cast<int>(std::ceil(extent.size().z() / side));
     std::vector<FieldCell> cells(static_cast<std::size_t>(across) * upward);
     std::vector<double> mass(cells.size(), 0);
+    const double frequency = arrows.period ? periods_a_second(scene, frame) : 0;
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const Vec3 at = frame.position[i] - frame.container().place - extent.low;
         const int column = static_cast<int>(std::floor(at.y() / side)),
@@ -33,7 +42,7 @@ std::vector<FieldCell> velocity_field(const Scene& scene, const Frame& frame) {
         const double m = scene.species[static_cast<std::size_t>(frame.species[i])].density *
                          std::pow(frame.radius[i], 3);  // up to a factor
         cells[c].velocity +=
-            m * (arrows.period ? Vec3(frame.displacement[i] * scene.drive.frequency) : frame.velocity[i]);
+            m * (arrows.period ? Vec3(frame.displacement[i] * frequency) : frame.velocity[i]);
         cells[c].centre_of_mass += m * frame.position[i];
         mass[c] += m;
         ++cells[c].grains;

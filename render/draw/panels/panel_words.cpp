@@ -13,12 +13,18 @@ namespace {
 constexpr double longest_bar = 0.14, common_colour_bar = 0.2, common_marks = 0.17;
 constexpr int pace_lines = 4;
 
-// Only what holds for all panels; the rest is in their captions.
-TextSize common_drive(const Writer& writer, const Scene& scene, const Common& common, double x, double y) {
+// Only what holds for all panels; the rest is in their captions. frame: null to measure the longest.
+TextSize common_drive(const Writer& writer, const Scene& scene, const Common& common, const Frame* frame,
+                      double x, double y) {
     std::vector<std::string> lines;
-    if (common.frequency) lines.push_back("f = " + frequency_text(scene.drive.frequency));
-    if (common.g_level) lines.push_back(fmt::format("Γ = {:.3g}", scene.drive.g_level(scene.gravity.norm())));
-    if (common.amplitude) lines.push_back("a = " + length_text(scene.drive.amplitude));
+    if (scene.drive.changes())
+        lines = frame ? drive_lines(scene, *frame) : longest_drive_lines(scene);
+    else if (common.frequency)
+        lines.push_back("f = " + frequency_text(scene.drive.frequency));
+    const bool steady = !scene.drive.changes();
+    if (steady && common.g_level)
+        lines.push_back(fmt::format("Γ = {:.3g}", scene.drive.g_level(scene.gravity.norm())));
+    if (steady && common.amplitude) lines.push_back("a = " + length_text(scene.drive.amplitude));
     TextSize size;
     for (const std::string& line : lines) {
         const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
@@ -71,9 +77,11 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
                       }});
     if (common.clock) blocks.push_back(dial(measure, scene.drive));
     if (common.frequency || common.g_level || common.amplitude) {
-        blocks.push_back({common_drive(measure, scene, common, 0, 0), false,
-                          [scene, common](const Writer& on, double x, double y, const Frame&,
-                                          const std::string&) { common_drive(on, scene, common, x, y); }});
+        blocks.push_back(
+            {common_drive(measure, scene, common, nullptr, 0, 0), scene.drive.changes(),
+             [scene, common](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+                 common_drive(on, scene, common, &frame, x, y);
+             }});
     }
     if (common.exaggerated && scene.film.exaggerate != 1) {
         blocks.push_back({exaggeration_block(measure, scene.film, 0, 0), false,
@@ -141,8 +149,8 @@ double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width)
 double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width) {
     double height = 0;
     for (const Panel& panel : panels)
-        if (!panel.scene.film.shows.text.empty())
-            height = std::max(height, note_block(measure, longest_note(panel.scene), 0, 0, width).height);
+        for (const std::string& note : longest_notes(panel.scene))
+            height = std::max(height, note_block(measure, note, 0, 0, width, note_lines(panel.scene)).height);
     return height;
 }
 

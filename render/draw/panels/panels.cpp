@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/plan/reach.hpp"
 #include "render/draw/marks/marks.hpp"
 #include "render/draw/words/captions.hpp"
 
@@ -21,7 +22,7 @@ bool close(double a, double b) {
 }
 
 bool same_clock(const Drive& a, const Drive& b) {
-    return close(a.frequency, b.frequency) && a.phase == b.phase && a.ramp == b.ramp;
+    return close(a.frequency, b.frequency) && a.phase == b.phase && a.ramp == b.ramp && a.stages == b.stages;
 }
 
 double g_level(const Scene& scene) {
@@ -36,6 +37,7 @@ std::vector<std::string> drive_captions(const std::vector<Scene>& scenes) {
     const Scene& first = scenes.front();
     bool frequency = false, level = false, amplitude = false;
     for (const Scene& scene : scenes) {
+        frequency |= scene.drive.stages != first.drive.stages;
         frequency |= !close(scene.drive.frequency, first.drive.frequency);
         level |= std::isfinite(g_level(scene)) && !close(g_level(scene), g_level(first));
         amplitude |= !close(scene.drive.amplitude, first.drive.amplitude);
@@ -43,6 +45,7 @@ std::vector<std::string> drive_captions(const std::vector<Scene>& scenes) {
     std::vector<std::string> captions;
     for (const Scene& scene : scenes) {
         std::vector<std::string> parts;
+        if (frequency && scene.drive.changes()) parts.push_back("drive that changes, at first");
         if (frequency) parts.push_back("f = " + frequency_text(scene.drive.frequency));
         if (level) parts.push_back(fmt::format("Γ = {:.3g}", g_level(scene)));
         if (amplitude && !level && !frequency) parts.push_back("a = " + length_text(scene.drive.amplitude));
@@ -69,10 +72,13 @@ Common common_of(const std::vector<Panel>& panels) {
         const Scene& scene = panel.scene;
         const bool driven = scene.drive.present && first.drive.present;
         common.clock = common.clock && driven && same_clock(scene.drive, first.drive);
-        common.frequency = common.frequency && driven && close(scene.drive.frequency, first.drive.frequency);
-        common.g_level = common.g_level && driven && std::isfinite(g_level(scene)) &&
+        const bool same_stages = driven && scene.drive.stages == first.drive.stages;
+        common.frequency =
+            common.frequency && same_stages && close(scene.drive.frequency, first.drive.frequency);
+        common.g_level = common.g_level && same_stages && std::isfinite(g_level(scene)) &&
                          close(g_level(scene), g_level(first));
-        common.amplitude = common.amplitude && driven && close(scene.drive.amplitude, first.drive.amplitude);
+        common.amplitude =
+            common.amplitude && same_stages && close(scene.drive.amplitude, first.drive.amplitude);
         common.colours = common.colours && scene.film.shows.colour == first.film.shows.colour;
         const FilmShows &x = scene.film.shows, &y = first.film.shows;
         common.marks.arrows = common.marks.arrows && x.arrows == y.arrows &&
@@ -101,6 +107,18 @@ void share_colours(std::vector<Panel>& panels) {
         common.range = {std::min(common.range[0], own.range[0]), std::max(common.range[1], own.range[1])};
     }
     for (Panel& panel : panels) colour(panel) = common;
+}
+
+void share_reach(std::vector<Panel>& panels) {
+    std::optional<double> highest;
+    for (const Panel& panel : panels) {
+        const Camera& camera = panel.scene.film.camera;
+        if (camera.frame != CameraFrame::reach) return;
+        const std::optional<double> reach = camera.reach ? camera.reach : estimated_reach(panel.scene);
+        if (!reach) return;
+        highest = std::max(highest.value_or(*reach), *reach);
+    }
+    for (Panel& panel : panels) panel.scene.film.camera.reach = highest;
 }
 
 std::vector<std::string> captions_of(const std::vector<Scene>& scenes) {

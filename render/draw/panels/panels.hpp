@@ -43,6 +43,11 @@ std::vector<std::string> captions_of(const std::vector<Scene>& scenes);
 // scene has a range of its own: the same colour then means the same everywhere.
 void share_colours(std::vector<Panel>& panels);
 
+// One height that the grains reach, the highest of all, for cameras that frame it by themselves: containers
+// of the same size are then drawn at the same size, and their floors at the same height but for their
+// strokes.
+void share_reach(std::vector<Panel>& panels);
+
 struct PanelLayout {
     struct Place {
         Rectangle caption, pace, port, note;  // pace: what is said of time; note: live words

@@ -192,10 +192,14 @@ void SideBySide::Impl::write_note(std::size_t panel, const Frame& frame) {
     const Writer measure{nullptr, type, palette};
     // Where the longest note stands in the middle, so that words do not move with their values.
     const auto width_of = [&](const std::string& text) {
-        return note_block(measure, text, 0, 0, part.width - 2).width;
+        return note_block(measure, text, 0, 0, part.width - 2, note_lines(scenes[panel])).width;
     };
-    const double x = 0.5 * (part.width - std::max(width_of(longest_note(scenes[panel])), width_of(note)));
-    renew(part, [&](const Writer& on) { note_block(on, note, std::max(1.0, x), 0, part.width - 2); });
+    double widest = width_of(note);
+    for (const std::string& longest : longest_notes(scenes[panel]))
+        widest = std::max(widest, width_of(longest));
+    const double x = std::max(1.0, 0.5 * (part.width - widest));
+    renew(part,
+          [&](const Writer& on) { note_block(on, note, x, 0, part.width - 2, note_lines(scenes[panel])); });
     notes[panel] = std::move(note);
 }
 

@@ -9,7 +9,6 @@
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/film/grain_values.hpp"
-#include "engine/scene/film/measure_columns.hpp"
 #include "render/draw/plots/ticks.hpp"
 #include "render/draw/words/text.hpp"
 
@@ -57,13 +56,10 @@ void Plot::Slice::add(double value) {
 }
 
 PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot) {
-    std::vector<std::string> species;
-    for (const Species& s : scene.species) species.push_back(s.name);
     PlotFrame frame;
     frame.column = plot.column;
     frame.label = plot.label;
-    for (const MeasureColumn& column : measure_columns(species))
-        if (column.name == plot.column) frame.dimension = column.dimension;
+    frame.dimension = plot.dimension;
     frame.time = {0, scene.run.duration};
     frame.range = plot.range;
     return frame;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measure_table.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/film/live_text.hpp"
 
 namespace grainreel {
@@ -25,7 +27,46 @@ Unit length_unit(double metres) {
     return {1e-6, "µm"};
 }
 
+std::vector<std::string> vibration_lines(double frequency, double amplitude, double gravity) {
+    std::vector<std::string> lines = {"f = " + frequency_text(frequency)};
+    const double omega = 2 * std::numbers::pi * frequency;
+    if (gravity > 0) lines.push_back(fmt::format("Γ = {:.3g}", amplitude * omega * omega / gravity));
+    lines.push_back("a = " + length_text(amplitude));
+    return lines;
+}
+
+std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravity) {
+    std::vector<std::string> lines = vibration_lines(now.frequency, now.amplitude, gravity);
+    if (now.kind == DriveStage::Kind::rest) lines.assign({"at rest"});
+    if (now.kind != DriveStage::Kind::taps) return lines;
+    lines.front() = "taps of " + frequency_text(now.frequency);
+    lines.back() = fmt::format("every {:.3g} s", now.interval);
+    return lines;
+}
+
 }  // namespace
+
+std::vector<std::string> drive_lines(const Scene& scene, const Frame& frame) {
+    const double gravity = scene.gravity.norm();
+    if (!scene.drive.changes()) return vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity);
+    return stage_lines(DriveSchedule(scene.drive).now(std::max(0.0, frame.cycles)), gravity);
+}
+
+std::vector<std::string> longest_drive_lines(const Scene& scene) {
+    const double gravity = scene.gravity.norm();
+    std::vector<std::string> longest = vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity);
+    if (!scene.drive.changes()) return longest;
+    const DriveSchedule schedule(scene.drive);
+    const auto take = [&](const std::vector<std::string>& lines) {
+        for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
+            if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
+    };
+    for (const PeriodStretch& stretch : schedule.times().stretches())
+        take(stage_lines(schedule.now(stretch.cycles), gravity));
+    // In a change numbers have three digits, whatever they begin and end with.
+    take({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
+    return longest;
+}
 
 std::string length_text(double metres) {
     const Unit unit = length_unit(metres * 1.0000001);
@@ -71,21 +112,42 @@ std::string playback_text(const Frame& frame, const std::string& playback) {
     return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;
 }
 
-std::string note_text(const Scene& scene, const Frame& frame) {
-    return live_text(scene.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
-        if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
-        const std::vector<std::string>& columns = frame.measures->columns();
-        const auto found = std::find(columns.begin(), columns.end(), name);
-        GRAINREEL_CHECK(found != columns.end());
-        return frame.measures
-            ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
-                     frame.measure_rows)
-            .front();
-    });
+namespace {
+
+std::string with_caption(const std::string& text, const std::string& caption) {
+    return text.empty() || caption.empty() ? text + caption : text + "\n\n" + caption;
 }
 
-std::string longest_note(const Scene& scene) {
-    return live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
+std::string caption_at(const Film& film, double time) {
+    for (const FilmCaption& caption : film.captions)
+        if (shows_caption(caption, time)) return caption.text;
+    return {};
+}
+
+}  // namespace
+
+std::string note_text(const Scene& scene, const Frame& frame) {
+    const std::string text =
+        live_text(scene.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
+            if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
+            const std::vector<std::string>& columns = frame.measures->columns();
+            const auto found = std::find(columns.begin(), columns.end(), name);
+            GRAINREEL_CHECK(found != columns.end());
+            return frame.measures
+                ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
+                         frame.measure_rows)
+                .front();
+        });
+    return with_caption(text, caption_at(scene.film, frame.time));
+}
+
+std::vector<std::string> longest_notes(const Scene& scene) {
+    const std::string text =
+        live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
+    std::vector<std::string> notes;
+    if (!text.empty()) notes.push_back(text);
+    for (const FilmCaption& caption : scene.film.captions) notes.push_back(with_caption(text, caption.text));
+    return notes;
 }
 
 }  // namespace grainreel

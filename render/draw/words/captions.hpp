@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
@@ -18,6 +19,11 @@ std::string time_text(double seconds, double duration);  // in ms where all last
 std::string diameter_text(const SizeSpread& diameter);
 // The longest 1, 2 or 5 times a power of ten that is not longer; m.
 double round_length(double longest);
+// What the drive does in a frame, a line each: f, Gamma and amplitude, of the stage that is on where it has
+// stages. In a change they are those of the moment.
+std::vector<std::string> drive_lines(const Scene& scene, const Frame& frame);
+// About as long as any of them get in the course of the film, and as many.
+std::vector<std::string> longest_drive_lines(const Scene& scene);
 // Where in the drive's period a frame is, as shown: the phase in hundredths of a turn, never 1.00, and the
 // cycle that this phase belongs to.
 struct ShownCycle {
@@ -27,9 +33,13 @@ struct ShownCycle {
 ShownCycle shown_cycle(const Frame& frame);
 // The caption of time, which says so while the grains still settle.
 std::string playback_text(const Frame& frame, const std::string& playback);
-// The scene's own words, film.text, with values of the last row of measures until the frame; and about as
-// long as they get.
+// The scene's own words: film.text, with values of the last row of measures until the frame, and the caption
+// of this time. And about as long as they get: with each caption, or the one without any.
 std::string note_text(const Scene& scene, const Frame& frame);
-std::string longest_note(const Scene& scene);
+std::vector<std::string> longest_notes(const Scene& scene);
+// Into how many lines of the gutter each of their lines may break.
+inline int note_lines(const Scene& scene) {
+    return scene.film.captions.empty() ? 2 : 6;
+}
 
 }  // namespace grainreel

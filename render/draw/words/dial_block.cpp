@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/drive/drive_schedule.hpp"
 #include "render/draw/words/captions.hpp"
 #include "render/draw/words/writer.hpp"
 
@@ -11,10 +12,12 @@ namespace {
 
 // The floor's displacement from the middle of its stroke, in amplitudes. A drive that starts without a ramp
 // in mid-period moves about a middle that is not the rest position.
-double share_of_stroke(const Drive& drive, const Frame& frame) {
-    if (drive.amplitude <= 0) return 0;
+double share_of_stroke(const Drive& drive, const DriveSchedule::Now& now, const Frame& frame) {
+    if (now.amplitude <= 0) return 0;
+    const double place = frame.floor().place.dot(drive.direction) / now.amplitude;
+    if (now.kind == DriveStage::Kind::taps) return place - 1;  // from the lower end of the stroke
     const double middle = drive.ramp > 0 ? 0 : -std::sin(2 * std::numbers::pi * drive.phase);
-    return frame.floor().place.dot(drive.direction) / drive.amplitude - middle;
+    return place - middle;
 }
 
 // Pixels from the dial's upper left corner. Of a drive that goes up and down the bar stands at the right, of
@@ -113,10 +116,11 @@ TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame
     if (frame->time < 0) return size;  // the drive is off: no hand
     // Close to the period's end the disc is empty, as the phase beside it is 0.00.
     const double phase = shown_cycle(*frame).phase > 0 ? frame->phase : 0;
-    const Eigen::Vector2d tip = dial.tip(phase), floor = dial.on_bar(share_of_stroke(drive, *frame));
+    const DriveSchedule::Now now = drive_now(drive, frame->cycles);
+    const Eigen::Vector2d tip = dial.tip(phase), floor = dial.on_bar(share_of_stroke(drive, now, *frame));
     if (phase > 0) pen.sector(dial, phase, writer.palette.accent, 0.14);
     pen.colour(writer.palette.accent);
-    pen.line(tip, floor, 0.6 * dial.pen);
+    if (now.kind == DriveStage::Kind::vibrate) pen.line(tip, floor, 0.6 * dial.pen);
     pen.line(dial.middle(), tip, 2 * dial.pen);
     pen.dot(tip, 3 * dial.pen);
     pen.dot(floor, 3 * dial.pen);

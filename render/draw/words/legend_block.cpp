@@ -65,8 +65,10 @@ class Entries {
         }
         const Species& species = scene_.species[i];
         line(species.name, writer_.main(), writer_.palette.ink);
-        line(fmt::format("{} × {}", species.all(), diameter_text(species.diameter)), writer_.minor(),
-             writer_.palette.faint_ink);
+        // Of a container that empties, those that there were.
+        line(fmt::format("{} × {}{}", species.all(), diameter_text(species.diameter),
+                         scene_.container.outlet ? " at the start" : ""),
+             writer_.minor(), writer_.palette.faint_ink);
         const bool by_species = scene_.film.shows.colour.by == GrainValue::species;
         const double share =
             std::max(0.25, species.diameter.largest / std::max(largest_diameter(scene_), 1e-30));

@@ -43,7 +43,7 @@ class Planner {
         plan_.has_dial = wanted.dial && scene.drive.present;
         plan_.radius = std::min(2.2 * type_.main, stacked ? 0.14 * inner_ : 1e9);
         if (plan_.has_dial) dial_ = dial_block(measure, scene.drive, nullptr, plan_.radius, 0, 0);
-        if (scene.drive.present) drive_ = drive_block(measure, scene, 0, 0);
+        if (scene.drive.present) drive_ = drive_block(measure, scene, nullptr, 0, 0);
         if (plan_.has_arrows && stacked) arrows_ = arrows_block(measure, scene, nullptr, 0, 0);
     }
 
@@ -61,8 +61,11 @@ class Planner {
         return widest;
     }
     double note_height(double wrap) const {
-        if (scene_.film.shows.text.empty()) return 0;
-        return note_block(measure_, longest_note(scene_), 0, 0, wrap).height + type_.gap;
+        double highest = 0;
+        for (const std::string& note : longest_notes(scene_))
+            highest = std::max(highest,
+                               note_block(measure_, note, 0, 0, wrap, note_lines(scene_)).height + type_.gap);
+        return highest;
     }
     // Whole pixels inside the gutter.
     Rectangle part(double left, double top, double right, double bottom) const {
@@ -95,6 +98,8 @@ NumbersPlan Planner::column() {
         plan_.drive = {x_, plan_.dial.y + (plan_.has_dial ? dial_.height + 0.6 * type_.gap : 0)};
         plan_.dial_part = part(0, plan_.dial.y - 0.4 * type_.gap, width_, plan_.drive.y);
         y = plan_.drive.y + drive_.height + type_.gap;
+        if (scene_.drive.changes())
+            plan_.drive_part = part(0, std::ceil(plan_.drive.y), width_, std::floor(y));
         plan_.width = std::max({plan_.width, dial_.width, drive_.width});
     }
     plan_.caption = {x_, y};
@@ -172,6 +177,9 @@ NumbersPlan Planner::rows() {
         const double end = y + std::max({dial_.height, drive_.height, arrows_.height});
         plan_.dial_part =
             part(0, y - 0.4 * type_.gap, plan_.drive.x - 0.4 * type_.gap, end + 0.2 * type_.gap);
+        if (scene_.drive.changes())
+            plan_.drive_part = part(std::ceil(plan_.drive.x - 0.4 * type_.gap), y - 0.4 * type_.gap,
+                                    plan_.arrows.x - type_.gap, end + 0.2 * type_.gap);
         y = end;
     }
     plan_.height = y;
@@ -202,6 +210,9 @@ NumbersPlan Planner::row() {
     plan_.dial = next(dial_.width);
     plan_.dial_part = part(plan_.dial.x - 0.4 * gap, top, x - 0.6 * gap, top + dial_.height + 0.2 * gap);
     plan_.drive = next(drive_.width);
+    if (scene_.drive.changes())
+        plan_.drive_part =
+            part(plan_.drive.x - 0.4 * gap, top, x - 0.6 * gap, top + drive_.height + 0.2 * gap);
     plan_.arrows = next(arrows_.width);
     double height = std::max({end, top + dial_.height, top + drive_.height, top + arrows_.height});
     if (const double wrap = note_width * inner_, note = note_height(wrap); note > 0) {

@@ -21,6 +21,7 @@ struct NumbersPlan {
     int caption_lines = 1;
     // What changes is drawn anew within these; none lies over another.
     Rectangle clock_part, caption_part, note_part, dial_part;
+    Rectangle drive_part;                     // of a drive that changes; else empty
     std::vector<Rectangle> plots;             // as many as there is room for
     std::vector<WordBox> boxes;               // around what stands together
     bool has_dial = true, has_arrows = true;  // else there is no room for them

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "engine/base/error.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "render/draw/words/captions.hpp"
@@ -33,6 +35,7 @@ Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout
 std::vector<Rectangle> Overlay::moving() const {
     std::vector<Rectangle> parts{plan_.clock_part, plan_.caption_part, plan_.note_part};
     if (plan_.has_dial) parts.push_back(plan_.dial_part);
+    if (plan_.drive_part.height > 0) parts.push_back(plan_.drive_part);
     parts.insert(parts.end(), plan_.plots.begin(), plan_.plots.end());
     for (Rectangle& part : parts) part.x += layout_.second.x, part.y += layout_.second.y;
     return parts;
@@ -64,7 +67,7 @@ void Overlay::draw_still_numbers(const View& view) {
     const Writer writer{on.get(), type_, palette_};
     if (plan_.has_dial)
         dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.dial.x, plan_.dial.y, &view);
-    drive_block(writer, scene_, plan_.drive.x, plan_.drive.y);
+    if (!scene_.drive.changes()) drive_block(writer, scene_, nullptr, plan_.drive.x, plan_.drive.y);
     if (layout_.stacked && plan_.has_arrows)
         arrows_block(writer, scene_, &view, plan_.arrows.x, plan_.arrows.y);
 }
@@ -128,7 +131,12 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
     if (plan_.note_part.height > 0 && (!written_ || note != note_))
         renew(picture, plan_.note_part, [&](cairo_t* on) {
             note_block({on, type_, palette_}, note, plan_.note.x, plan_.note.y + 0.5 * type_.gap,
-                       plan_.note_wrap);
+                       plan_.note_wrap, note_lines(scene_));
+        });
+    const std::string drive = fmt::format("{}", fmt::join(drive_lines(scene_, frame), "\n"));
+    if (plan_.drive_part.height > 0 && (!written_ || drive != drive_))
+        renew(picture, plan_.drive_part, [&](cairo_t* on) {
+            drive_block({on, type_, palette_}, scene_, &frame, plan_.drive.x, plan_.drive.y);
         });
     // The hand is drawn where the drive is; before the drive there is none.
     const double angle = frame.time < 0 ? -1 : frame.phase;
@@ -143,6 +151,7 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
     clock_ = clock;
     caption_ = caption;
     note_ = note;
+    drive_ = drive;
     angle_ = angle;
     stroke_ = stroke;
 }

@@ -55,7 +55,7 @@ class Overlay {
     bool written_ = false;
     std::uint64_t still_number_ = 0;
     // What is in the picture now.
-    std::string clock_, caption_, note_;
+    std::string clock_, caption_, note_, drive_;
     double angle_ = 0, stroke_ = 0;
 };
 

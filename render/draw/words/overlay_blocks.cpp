@@ -160,14 +160,10 @@ TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, 
     return {side, side + writer.type.gap};
 }
 
-TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y) {
+TextSize drive_block(const Writer& writer, const Scene& scene, const Frame* frame, double x, double y) {
     if (!scene.drive.present) return {};
-    std::vector<std::string> lines = {"f = " + frequency_text(scene.drive.frequency)};
-    const double gravity = scene.gravity.norm();
-    if (gravity > 0) lines.push_back(fmt::format("Γ = {:.3g}", scene.drive.g_level(gravity)));
-    lines.push_back("a = " + length_text(scene.drive.amplitude));
     TextSize size;
-    for (const std::string& line : lines) {
+    for (const std::string& line : frame ? drive_lines(scene, *frame) : longest_drive_lines(scene)) {
         const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
         size.width = std::max(size.width, part.width);
         size.height += part.height;
@@ -195,14 +191,16 @@ namespace {
 // Time first, then the lines below it.
 std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
     std::vector<std::string> lines{time_text(frame.time, scene.run.duration)};
-    if (!scene.drive.present) return lines;
-    if (frame.time < 0) {
+    if (scene.drive.present && frame.time < 0) {
         lines.emplace_back("before the drive");
-    } else {
+    } else if (scene.drive.present) {
         const ShownCycle shown = shown_cycle(frame);
         lines.push_back(fmt::format("cycle {}", shown.cycle));
         lines.push_back(fmt::format("phase {:.2f}", shown.phase));
     }
+    if (scene.container.outlet)
+        lines.push_back(fmt::format("{} of {} left", scene.grains() - static_cast<std::int64_t>(frame.size()),
+                                    scene.grains()));
     return lines;
 }
 
@@ -223,13 +221,14 @@ TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& fram
     return size;
 }
 
-TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap) {
+TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap,
+                    int most) {
     TextSize size;
     for (std::size_t from = 0; from <= text.size();) {
         const std::size_t to = std::min(text.find('\n', from), text.size());
         const std::string line = to > from ? text.substr(from, to - from) : " ";
         const TextSize one =
-            writer.write(x, y + size.height, line, writer.main(), writer.palette.ink, wrap, 2);
+            writer.write(x, y + size.height, line, writer.main(), writer.palette.ink, wrap, most);
         size.width = std::max(size.width, one.width);
         size.height += one.height;
         from = to + 1;

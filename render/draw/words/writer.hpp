@@ -51,16 +51,16 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
 TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view, double x, double y);
 // x, y and z as the camera sees them, where the film wants them; likewise.
 TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, double x, double y);
-// f, Gamma and amplitude, and by how much the motion is exaggerated.
-TextSize drive_block(const Writer& writer, const Scene& scene, double x, double y);
+// f, Gamma and amplitude, and by how much the motion is exaggerated. frame: null to measure the longest.
+TextSize drive_block(const Writer& writer, const Scene& scene, const Frame* frame, double x, double y);
 // The last of these alone; nothing while motion is drawn as it is.
 TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y);
 // A hand that turns once a period, and beside it where in its stroke the floor is; without `frame` only the
 // still part. view: tells right from left for a drive that goes sideways; null: seen along -x.
 TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
                     double y, const View* view = nullptr);
-// Lines of the scene's own words, each in up to two lines of the gutter.
-TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap);
+// Lines of the scene's own words, each in up to `most` lines of the gutter.
+TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap, int most);
 // All that clock_block would write.
 std::string clock_words(const Scene& scene, const Frame& frame);
 // Time and, with a drive, the cycle.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -14,6 +15,15 @@ namespace {
 // A poster for whoever kills the run: of the first frame, and again each time the film has doubled.
 bool poster_in_passing(std::int64_t count) {
     return count == 1 || (count >= 32 && std::has_single_bit(static_cast<std::uint64_t>(count)));
+}
+
+std::string flash_remedy(const Film& film) {
+    const std::vector<FilmSegment> segments = segments_of(film);
+    const bool locked = std::all_of(segments.begin(), segments.end(), [](const FilmSegment& segment) {
+        return segment.kind == FilmSegment::Kind::locked;
+    });
+    return locked ? "show fewer frames a second (film.rate), or colours nearer in brightness"
+                  : "slow it down (film.segment playback) or lock it to a phase";
 }
 
 }  // namespace
@@ -38,7 +48,8 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
       transparent_(scene.film.transparent),
       poster_time_(poster_time(scene.film, scene.run.duration)),
       poster_done_(!options.film),
-      flashes_(scene.film.rate) {
+      flashes_(scene.film.rate),
+      flash_remedy_(flash_remedy(scene.film)) {
     if (frames_wanted_) {
         std::error_code error;
         std::filesystem::create_directories(folder_ / "frames", error);
@@ -80,8 +91,8 @@ std::vector<std::string> PictureFiles::notes() const {
     if (film_ && flashes_.too_much_at())
         notes.push_back(
             fmt::format("the film flashes more than three times a second, first at {:.3g} s of it, which can "
-                        "set off seizures; slow it down (film.segment playback) or lock it to a phase",
-                        *flashes_.too_much_at()));
+                        "set off seizures; {}",
+                        *flashes_.too_much_at(), flash_remedy_));
     return notes;
 }
 

@@ -67,6 +67,7 @@ class PictureFiles {
     std::atomic<std::int64_t> count_ = 0;
     bool poster_done_, poster_written_ = false, complete_ = false;
     FlashWatch flashes_;
+    std::string flash_remedy_;
     DrawnFrame last_;  // kept because it is the poster when the next one comes too late
     std::unique_ptr<FilmWriter> film_;
     std::string film_file_, left_file_, left_encoder_;

@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "render/film/files/picture_files.hpp"
 #include "render/film/production/bounded_queue.hpp"
+#include "render/film/production/caption_holds.hpp"
 
 namespace grainreel {
 namespace {
@@ -45,13 +46,19 @@ constexpr std::size_t pictures_in_all = waiting_pictures + 3;
 struct Order {
     Frames frames;
     std::string playback;
+    std::int64_t more;  // times that the film shows the picture again
+};
+struct Drawn {
+    DrawnFrame frame;
+    std::int64_t more;
 };
 
 }  // namespace
 
 struct FilmMaker::Impl {
     Impl(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer)
-        : files(scene, options),
+        : holds(scene.film),
+          files(scene, options),
           make(std::move(make_drawer)),
           frames(frames_that_wait(scene, options),
                  options.take_turns ? turn_patience : std::chrono::milliseconds(0)) {
@@ -90,15 +97,17 @@ struct FilmMaker::Impl {
             const Watch::time_point start = Watch::now();
             drawer->draw(order->frames, order->playback, *canvas);
             draw_seconds += seconds_since(start);
-            pictures.push({std::move(*canvas), std::move(order->frames.front()), std::move(order->playback)});
+            pictures.push({{std::move(*canvas), std::move(order->frames.front()), std::move(order->playback)},
+                           order->more});
         }
         pictures.close();
     }
 
     void encode_all() {
-        while (std::optional<DrawnFrame> drawn = pictures.pop()) {
+        while (std::optional<Drawn> drawn = pictures.pop()) {
             const Watch::time_point start = Watch::now();
-            spare.push(files.add(std::move(*drawn)));
+            for (; drawn->more > 0; --drawn->more) files.add(drawn->frame);
+            spare.push(files.add(std::move(drawn->frame)));
             encode_seconds += seconds_since(start);
         }
         const Watch::time_point start = Watch::now();
@@ -161,10 +170,11 @@ struct FilmMaker::Impl {
         if (!failure.empty()) throw RunError(failure);
     }
 
+    CaptionHolds holds;  // of who calls take()
     PictureFiles files;  // the encoding thread's, once that runs
     DrawerMaker make;
     BoundedQueue<Order> frames;
-    BoundedQueue<DrawnFrame> pictures{waiting_pictures};
+    BoundedQueue<Drawn> pictures{waiting_pictures};
     BoundedQueue<Picture> spare{pictures_in_all};
     std::atomic<bool> complete = false;  // finish() was called: the film is to be closed, not abandoned
     std::mutex end_mutex;
@@ -187,7 +197,8 @@ FilmMaker::~FilmMaker() = default;
 void FilmMaker::take(Frames frames, std::string playback) {
     GRAINREEL_CHECK(!impl_->complete && !frames.empty());
     const Watch::time_point start = Watch::now();
-    const bool taken = impl_->frames.push({std::move(frames), std::move(playback)});
+    const std::int64_t more = impl_->holds.begin_at(frames.front()->time);
+    const bool taken = impl_->frames.push({std::move(frames), std::move(playback), more});
     impl_->waited_seconds += seconds_since(start);
     if (!taken) impl_->throw_failure();
 }

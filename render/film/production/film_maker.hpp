@@ -68,8 +68,9 @@ class FilmMaker {
     // Waits until the drawer is made and says what it is. Throws RunError when it cannot be made.
     std::string drawer();
 
-    // Takes one picture's frames with their caption; waits while the queue is full. Throws RunError when
-    // drawing or encoding failed (disk full), with the first failure's words.
+    // Takes one picture's frames with their caption, which the film shows once, or for as long as a caption
+    // of the scene that begins with it holds it (held_frames() more). Waits while the queue is full. Throws
+    // RunError when drawing or encoding failed (disk full), with the first failure's words.
     void take(Frames frames, std::string playback);
     void take(FramePtr frame, std::string playback) { take(Frames{std::move(frame)}, std::move(playback)); }
 

@@ -30,10 +30,30 @@ double turn_between(double a, double b) {
     return std::abs(turns - std::round(turns));
 }
 
-bool same_phase(const std::vector<Frame>& moments) {
+double half_a_step(const std::vector<Frame>& moments) {
+    const auto steps = static_cast<double>(moments.back().step - moments.front().step);
+    return steps > 0 ? 0.5 * (moments.back().time - moments.front().time) / steps : 0;
+}
+
+// Of a drive that changes a phase may lie between two steps, and frames lie on steps.
+bool same_phase(const std::vector<Frame>& moments, const Drive& drive) {
+    const double between_steps =
+        drive.changes() ? 2.01 * half_a_step(moments) * drive.highest_frequency() : 0;
     return std::all_of(moments.begin(), moments.end(), [&](const Frame& moment) {
-        return turn_between(moment.phase, moments.front().phase) < hair;
+        return turn_between(moment.phase, moments.front().phase) < hair + between_steps;
     });
+}
+
+double mean_periods(const std::vector<Frame>& moments) {
+    return (moments.back().cycles - moments.front().cycles) / static_cast<double>(moments.size() - 1);
+}
+
+// One frame every so many periods, which may differ in length.
+bool even_in_periods(const std::vector<Frame>& moments) {
+    const double periods = mean_periods(moments);
+    for (std::size_t i = 1; i < moments.size(); ++i)
+        if (std::abs(moments[i].cycles - moments[i - 1].cycles - periods) > 0.1) return false;
+    return periods > 0.5;
 }
 
 // Frames lie on steps, so the interval that was asked for is known to half a step at best: within that, the
@@ -47,21 +67,20 @@ double plain_factor(double playback, double tolerance) {
     return faster >= 1 && std::abs(playback / faster - 1) <= tolerance ? faster : playback;
 }
 
-double half_a_step(const std::vector<Frame>& moments) {
-    const auto steps = static_cast<double>(moments.back().step - moments.front().step);
-    return steps > 0 ? 0.5 * (moments.back().time - moments.front().time) / steps : 0;
-}
-
 }  // namespace
 
 std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Drive& drive, double rate) {
-    if (moments.size() < 2 || !even(moments)) return std::nullopt;
+    if (moments.size() < 2) return std::nullopt;
+    const bool locked = drive.present && same_phase(moments, drive) &&
+                        (drive.changes() ? even_in_periods(moments) : even(moments));
+    if (!locked && !even(moments)) return std::nullopt;
     FilmSegment segment;
     segment.duration = moments.back().time - moments.front().time;
     const double interval = mean_interval(moments);
-    if (drive.present && same_phase(moments)) {
+    if (locked) {
         segment.kind = FilmSegment::Kind::locked;
-        segment.every = static_cast<int>(std::lround(interval * drive.frequency));
+        segment.every = static_cast<int>(
+            std::lround(drive.changes() ? mean_periods(moments) : interval * drive.frequency));
         const double phase = std::round(moments.front().phase / hair) * hair;
         segment.phase = phase < 1 ? phase : 0;
         return segment;
@@ -75,9 +94,10 @@ std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive
     if (const auto segment = pacing_of(moments, drive, rate)) return playback_caption(*segment, drive, rate);
     const double interval = mean_interval(moments);
     if (interval <= 0) return {};
-    if (drive.present && same_phase(moments))
+    if (drive.present && same_phase(moments, drive))
         return fmt::format("on average 1 frame every {:.3g} periods, at phase {:.3g} (plays {:.3g}×)",
-                           interval * drive.frequency, moments.front().phase, interval * rate);
+                           drive.changes() ? mean_periods(moments) : interval * drive.frequency,
+                           moments.front().phase, interval * rate);
     FilmSegment segment;
     segment.playback = std::round(interval * rate * 100) / 100 > 0 ? std::round(interval * rate * 100) / 100
                                                                    : interval * rate;
@@ -85,8 +105,8 @@ std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive
 }
 
 std::optional<std::string> pacing_warning(const std::vector<Frame>& moments, const Drive& drive) {
-    if (moments.size() < 2 || !drive.present || same_phase(moments)) return std::nullopt;
-    const double frames = 1 / mean_interval(moments), f = drive.frequency;  // a simulated second
+    if (moments.size() < 2 || !drive.present || same_phase(moments, drive)) return std::nullopt;
+    const double frames = 1 / mean_interval(moments), f = drive.highest_frequency();  // a simulated second
     if (frames >= least_frames_a_period * f * (1 - hair)) return std::nullopt;
     return fmt::format(
         "{:.3g} frames a period are drawn: the {:.4g} Hz drive will seem to move at {:.4g} Hz; take one "

@@ -7,17 +7,15 @@
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 #include "render/film/files/film_limits.hpp"
 
 namespace grainreel {
 namespace {
 
 constexpr std::int64_t means_a_period = 16;
+constexpr double rounding_of_cycles = 1e-9;
 constexpr double longest_exposure = 9e15;  // steps; up to there a double counts exactly
-
-std::vector<FilmSegment> segments_of(const Film& film) {
-    return film.segments.empty() ? std::vector<FilmSegment>(1) : film.segments;
-}
 
 // Ends of the segments in simulated time, s; none beyond `total`.
 std::vector<double> segment_ends(const std::vector<FilmSegment>& segments, double total) {
@@ -39,7 +37,9 @@ struct Stretch {
     double start = 0;        // s, where it begins; motion
     double frame = 0;        // s of simulated time a frame; motion
     std::int64_t first = 0;  // step
-    std::int64_t every = 0;  // steps between shots; 0: those nearest to start + k frame
+    std::int64_t every = 0;  // steps between shots; 0: those nearest to start + k frame, or by periods
+    double cycles = 0;       // of the first shot; locked to a drive that changes
+    int periods = 0;         // likewise, between shots; else 0
     std::int64_t stop = 0;   // step that the segment does not reach
     std::int64_t count = 0;  // shots, at most: motion may round two to one step
 };
@@ -65,7 +65,27 @@ Stretch motion_stretch(double playback, double rate, double start, std::int64_t 
     return stretch;
 }
 
+// A drive that changes has periods of several lengths: shots are counted by them, not by steps.
+Stretch changing_stretch(const FilmSegment& rule, std::int64_t start, std::int64_t stop, const Clock& clock) {
+    const double turns = rule.phase - clock.initial_phase, at = turns - std::floor(turns);
+    Stretch stretch;
+    stretch.periods = rule.every;
+    stretch.cycles = at + std::max(0.0, std::ceil(clock.cycles(start) - at - rounding_of_cycles));
+    if (clock.step_at(stretch.cycles) < start) ++stretch.cycles;
+    stretch.first = clock.step_at(stretch.cycles);
+    stretch.stop = stop;
+    if (stretch.first >= stop) return stretch;
+    const auto step_of = [&](std::int64_t k) {
+        return clock.step_at(stretch.cycles + static_cast<double>(k * rule.every));
+    };
+    stretch.count = static_cast<std::int64_t>((clock.cycles(stop) - stretch.cycles) / rule.every);
+    while (step_of(stretch.count) < stop) ++stretch.count;
+    while (step_of(stretch.count - 1) >= stop) --stretch.count;
+    return stretch;
+}
+
 Stretch locked_stretch(const FilmSegment& rule, std::int64_t start, std::int64_t stop, const Clock& clock) {
+    if (!clock.changes.empty()) return changing_stretch(rule, start, stop, clock);
     const std::int64_t period = clock.steps_per_period;
     const double turns = rule.phase - clock.initial_phase;
     const std::int64_t at = std::llround((turns - std::floor(turns)) * static_cast<double>(period));
@@ -109,23 +129,38 @@ std::vector<Stretch> stretches_of(const Scene& scene, const Clock& clock, std::i
 void make(const Stretch& stretch, const Clock& clock, std::vector<Shot>& shots) {
     for (std::int64_t k = 0;; ++k) {
         double at = static_cast<double>(stretch.first + k * stretch.every);
-        if (stretch.every == 0) at = (stretch.start + static_cast<double>(k) * stretch.frame) / clock.step;
+        if (stretch.periods > 0)
+            at =
+                static_cast<double>(clock.step_at(stretch.cycles + static_cast<double>(k * stretch.periods)));
+        else if (stretch.every == 0)
+            at = (stretch.start + static_cast<double>(k) * stretch.frame) / clock.step;
         if (at >= static_cast<double>(stretch.stop) - 0.5) return;
         const std::int64_t step = std::llround(at);
         if (shots.empty() || step > shots.back().step) shots.push_back({step, stretch.segment});
     }
 }
 
-// Steps, or periods where pictures stay in phase, that a segment's shutter is open.
-std::int64_t exposed_span(const FilmSegment& segment, std::int64_t unit, const Clock& clock) {
-    const double span = segment.exposure / (clock.step * static_cast<double>(unit));
-    return std::llround(std::min(span, longest_exposure / static_cast<double>(unit)));
+// Locked pictures stay in phase: the shutter opens once a period at most.
+bool stays_in_phase(const FilmSegment& segment, const Clock& clock) {
+    return segment.kind == FilmSegment::Kind::locked && clock.steps_per_period > 0;
 }
 
-// Locked pictures stay in phase: the shutter opens once a period at most.
-std::int64_t exposed_unit(const FilmSegment& segment, const Clock& clock, int periods = 1) {
-    const bool locked = segment.kind == FilmSegment::Kind::locked && clock.steps_per_period > 0;
-    return locked ? periods * clock.steps_per_period : 1;
+// Steps, or those of the periods at `step` where pictures stay in phase, from one opening to the next.
+double exposed_unit(const FilmSegment& segment, const Clock& clock, std::int64_t step, int periods = 1) {
+    return stays_in_phase(segment, clock) ? periods * clock.period_at(step) : 1;
+}
+
+// How many of those a segment's shutter is open.
+std::int64_t exposed_span(const FilmSegment& segment, double unit, const Clock& clock) {
+    const double span = segment.exposure / (clock.step * unit);
+    return std::llround(std::min(span, longest_exposure / unit));
+}
+
+// The step so many periods before another.
+std::int64_t periods_before(std::int64_t step, double periods, const Clock& clock) {
+    if (clock.changes.empty())
+        return step - std::llround(periods * static_cast<double>(clock.steps_per_period));
+    return clock.step_at(clock.cycles(step) - periods);
 }
 
 // "1/10", "1/2.5" or "0.35": whichever a reader takes in at a glance.
@@ -151,6 +186,7 @@ std::string pace_words(const FilmSegment& segment, const Drive& drive, double fi
     }
     const std::string often =
         segment.every == 1 ? "a period" : fmt::format("every {} periods", segment.every);
+    if (drive.changes()) return fmt::format("1 frame {} at phase {:.3g}", often, segment.phase);
     return fmt::format("1 frame {} at phase {:.3g} (plays {:.4g}×)", often, segment.phase,
                        film_rate * segment.every / drive.frequency);
 }
@@ -164,6 +200,10 @@ std::string span_words(const FilmSegment& segment) {
 }
 
 }  // namespace
+
+std::vector<FilmSegment> segments_of(const Film& film) {
+    return film.segments.empty() ? std::vector<FilmSegment>(1) : film.segments;
+}
 
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate) {
     return pace_words(segment, drive, film_rate) + span_words(segment);
@@ -200,7 +240,7 @@ std::vector<SegmentCount> count_film(const Scene& scene, const Clock& clock, std
         SegmentCount count;
         count.shots = stretch.count;
         if (rule.exposure > 0) {
-            const std::int64_t span = exposed_span(rule, exposed_unit(rule, clock), clock);
+            const std::int64_t span = exposed_span(rule, exposed_unit(rule, clock, stretch.first), clock);
             count.moments_a_shot =
                 std::max<std::int64_t>(0, std::min<std::int64_t>(rule.exposures, span) - 1);
             count.exposures_a_shot = count.moments_a_shot;
@@ -229,12 +269,14 @@ std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& seg
                                         int periods) {
     std::vector<std::int64_t> steps;
     if (segment.exposure <= 0) return steps;
-    const std::int64_t unit = exposed_unit(segment, clock, periods);
-    const std::int64_t span = exposed_span(segment, unit, clock);
+    const std::int64_t span = exposed_span(segment, exposed_unit(segment, clock, shot.step, periods), clock);
     const std::int64_t count = std::min<std::int64_t>(segment.exposures, span);
     for (std::int64_t k = count - 1; k > 0; --k) {
-        const double back = static_cast<double>(k) * static_cast<double>(span) / static_cast<double>(count);
-        steps.push_back(shot.step - unit * std::llround(back));
+        const std::int64_t back =
+            std::llround(static_cast<double>(k) * static_cast<double>(span) / static_cast<double>(count));
+        steps.push_back(stays_in_phase(segment, clock)
+                            ? periods_before(shot.step, static_cast<double>(periods * back), clock)
+                            : shot.step - back);
     }
     return steps;
 }
@@ -244,10 +286,10 @@ std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& se
     std::vector<std::int64_t> steps;
     const std::int64_t count = means_a_period * segment.average;
     if (count == 0 || clock.steps_per_period == 0) return steps;
-    const std::int64_t span = spanning(segment, periods).average * clock.steps_per_period;
-    const double spacing = static_cast<double>(span) / static_cast<double>(count);
+    const double spacing =
+        static_cast<double>(spanning(segment, periods).average) / static_cast<double>(count);
     for (std::int64_t k = count; k >= 0; --k)
-        steps.push_back(shot.step - std::llround(static_cast<double>(k) * spacing));
+        steps.push_back(periods_before(shot.step, static_cast<double>(k) * spacing, clock));
     return steps;
 }
 
@@ -263,13 +305,32 @@ double apparent_frequency(double frequency, double frames) {
     return std::abs(frequency - std::round(frequency / frames) * frames);
 }
 
-std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive) {
+namespace {
+
+// Hz, of what vibrates between two times, s.
+double highest_frequency(const Drive& drive, double from, double to) {
+    if (!drive.changes()) return drive.frequency;
+    const DriveSchedule schedule(drive);
+    double highest = 0;
+    for (std::size_t i = schedule.times().index_at(from); i < schedule.pieces().size(); ++i) {
+        const DriveSchedule::Piece& piece = schedule.pieces()[i];
+        if (schedule.times().stretches()[i].start >= to) break;
+        if (piece.kind != DriveStage::Kind::rest)
+            highest = std::max({highest, piece.frequency_before, piece.frequency});
+    }
+    return highest;
+}
+
+}  // namespace
+
+std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive, double duration) {
     std::vector<std::string> warnings;
     if (!drive.present || drive.frequency <= 0) return warnings;
-    const double f = drive.frequency;
     const std::vector<FilmSegment> segments = segments_of(film);
+    const std::vector<double> ends = segment_ends(segments, duration);
     for (std::size_t i = 0; i < segments.size(); ++i) {
         if (segments[i].kind == FilmSegment::Kind::locked) continue;
+        const double f = highest_frequency(drive, i > 0 ? ends[i - 1] : 0, ends[i]);
         const double frames = film.rate / segments[i].playback;  // per simulated second
         // A hair of tolerance: exactly 8 frames a period must not warn for rounding.
         if (frames >= least_frames_a_period * f * (1 - 1e-12)) continue;

@@ -16,6 +16,9 @@ struct Shot {
     int segment = 0;
 };
 
+// The segments of a film; the usual one where the scene has none.
+std::vector<FilmSegment> segments_of(const Film& film);
+
 // What a frame's caption says of time: "real time", "slow motion, 1/10 speed" or
 // "1 frame a period at phase 0.25 (plays 1.5×)". UTF-8.
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate);
@@ -71,7 +74,7 @@ constexpr double least_frames_a_period = 8;
 double apparent_frequency(double frequency, double frames);
 
 // One line for each segment that shows fewer frames a period than that without being locked, with the
-// apparent frequency.
-std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive);
+// apparent frequency. duration: s, of the run.
+std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive, double duration);
 
 }  // namespace grainreel

@@ -11,8 +11,14 @@ std::int64_t nearest_step(double time, const Clock& clock, std::int64_t steps) {
 }
 
 std::int64_t nearest_step_at(double phase, double time, const Clock& clock, std::int64_t steps) {
-    const auto period = static_cast<double>(clock.steps_per_period);
     const double turns = phase - clock.initial_phase;
+    if (!clock.changes.empty()) {
+        const double at = turns - std::floor(turns), cycles = clock.cycles(nearest_step(time, clock, steps));
+        double nearest = at + std::max(0.0, std::round(cycles - at));
+        if (clock.step_at(nearest) > steps) --nearest;
+        return nearest < 0 ? nearest_step(time, clock, steps) : clock.step_at(nearest);
+    }
+    const auto period = static_cast<double>(clock.steps_per_period);
     const std::int64_t first = std::llround((turns - std::floor(turns)) * period) % clock.steps_per_period;
     const double periods = std::round((time / clock.step - static_cast<double>(first)) / period);
     std::int64_t step = first + static_cast<std::int64_t>(periods) * clock.steps_per_period;

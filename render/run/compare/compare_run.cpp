@@ -107,7 +107,7 @@ void CompareRun::show_progress(Stage stage) {
     progress.end = all_.pictures.instants.back().time;
     progress.time = progress.done * progress.end;
     progress.frames = film_ ? film_->frames_done() : 0;
-    progress.frames_planned = pictures_planned_;
+    progress.frames_planned = frames_planned_;
     progress.elapsed = watch_.seconds();
     const double seconds = stage_.seconds();
     if (stage == Stage::pictures && progress.done > 0 && seconds > 1)
@@ -124,7 +124,7 @@ void CompareRun::conclude() {
 }
 
 std::string CompareRun::stopped_text() const {
-    return fmt::format("stopped at frame {} of {}", film_report_.frames, pictures_planned_);
+    return fmt::format("stopped at frame {} of {}", film_report_.frames, frames_planned_);
 }
 
 void CompareRun::report_written() {

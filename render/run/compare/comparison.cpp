@@ -10,6 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "render/draw/panels/side_by_side.hpp"
 #include "render/film/sampling/pacing.hpp"
@@ -34,7 +35,7 @@ bool is_run(const fs::path& input) {
 std::vector<Scene> read_scenes(const CompareRequest& what, std::vector<std::string>& warnings) {
     std::vector<Scene> scenes;
     for (const fs::path& input : what.inputs)
-        if (!is_run(input)) scenes.push_back(read_scene(input, what.sets));
+        if (!is_run(input)) scenes.push_back(read_scene(input, what.sets, measurable_in));
     if (scenes.empty()) return scenes;
     const auto by_duration = [](const Scene& a, const Scene& b) { return a.run.duration < b.run.duration; };
     const auto [shortest, longest] = std::minmax_element(scenes.begin(), scenes.end(), by_duration);
@@ -44,7 +45,7 @@ std::vector<Scene> read_scenes(const CompareRequest& what, std::vector<std::stri
                                    longest->run.duration, shortest->run.duration));
     Assignments sets = what.sets;
     sets.push_back(fmt::format("run.duration={}", shortest->run.duration));
-    for (Scene& scene : scenes) scene = read_scene(scene.file, sets);
+    for (Scene& scene : scenes) scene = read_scene(scene.file, sets, measurable_in);
     return scenes;
 }
 
@@ -168,7 +169,7 @@ void take_moments_of_schedule(Comparison& all) {
     std::set<double> frequencies;
     for (const Scene& scene : scenes) {
         if (!scene.drive.present || !frequencies.insert(scene.drive.frequency).second) continue;
-        for (std::string& strobe : strobe_warnings(all.film.film, scene.drive))
+        for (std::string& strobe : strobe_warnings(all.film.film, scene.drive, scene.run.duration))
             all.warnings.push_back(std::move(strobe));
     }
     if (frequencies.size() > 1)
@@ -207,6 +208,7 @@ void make_panels(const CompareRequest& what, Comparison& all) {
             all.panels[i].scene.run.duration = all.pictures.instants.back().time;
     }
     share_colours(all.panels);
+    share_reach(all.panels);
     if (!common_of(all.panels).exaggerated)  // then each panel has to say so
         for (Panel& panel : all.panels)
             if (panel.scene.film.exaggerate != 1)

@@ -27,8 +27,10 @@ PictureParts::PictureParts(const Scene& scene, const Clock& clock, std::int64_t 
       depth_(scene.container.periodic_depth ? scene.container.depth : 0) {}
 
 std::vector<std::int64_t> PictureParts::earlier(std::int64_t step, int periods) const {
-    const std::int64_t before = step - periods * clock_.steps_per_period;
-    if (!needs_displacement(shows_) || before < first_) return {};
+    if (!needs_displacement(shows_)) return {};
+    const std::int64_t before = clock_.changes.empty() ? step - periods * clock_.steps_per_period
+                                                       : clock_.step_at(clock_.cycles(step) - periods);
+    if (before < first_) return {};
     return {before};
 }
 

@@ -235,7 +235,7 @@ void RecordedRun::find_periods() {
 // The frame of that moment, when there is one: frames lie on steps, and so do the moments that are wanted.
 std::optional<std::size_t> RecordedRun::index_at(double time) const {
     constexpr double periods = 1e-3, steps = 1.01;
-    const double period = scene_.drive.present ? 1 / scene_.drive.frequency : 0;
+    const double period = scene_.drive.present ? 1 / scene_.drive.highest_frequency() : 0;
     const std::size_t index = nearest(time);
     if (std::abs(moments_[index].time - time) > std::max(periods * period, steps * clock_.step))
         return std::nullopt;
@@ -243,11 +243,10 @@ std::optional<std::size_t> RecordedRun::index_at(double time) const {
 }
 
 void RecordedRun::look_for_earlier_frames() {
-    const double period = 1 / scene_.drive.frequency;
-    const double first = moments_.front().time + (periods_ - 1e-3) * period;
+    const double first = moments_.front().cycles + periods_ - 1e-3;
     std::size_t lack = 0;
     for (const Frame& moment : moments_)
-        lack += moment.time >= first && !index_at(moment.time - periods_ * period);
+        lack += moment.cycles >= first && !index_at(clock_.time(clock_.step_at(moment.cycles - periods_)));
     if (lack > 0)
         news_.push_back(fmt::format(
             "{}: {} of its {} frames have none a period before them, and are drawn without displacements; "

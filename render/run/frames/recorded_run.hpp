@@ -47,6 +47,7 @@ class RecordedRun final : public FrameSource, public FrameArchive, private PartS
     Frame grains(std::size_t index) const override;
     Frame frame(std::size_t index) const override;
     int periods() const override { return periods_; }
+    const Clock& clock() const { return clock_; }
 
   private:
     FramePtr at(std::int64_t step) const override;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/scene/film/purposes.hpp"
 #include "engine/scene/text/reader.hpp"
 
@@ -66,7 +67,7 @@ fs::path file_of_run(const fs::path& folder, const char* name, const char* advic
 Scene scene_of_run(const fs::path& folder, const Assignments& sets) {
     check_sets(sets);
     Scene scene = read_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"),
-                             with_purpose(sets));
+                             with_purpose(sets), measurable_in);
     scene.name = folder.filename().string();
     return scene;
 }

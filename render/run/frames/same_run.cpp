@@ -7,6 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/nearest_image.hpp"
+#include "engine/plan/drive_clock.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
@@ -32,18 +34,23 @@ void check_times(const Scene& scene, double step_length, double step, double tim
             fmt::format("{} has {:.6g} s at step {:.0f}, but in trajectory.nc beside it a step is {:.6g} s",
                         file, time, step, step_length));
     const double frequency = scene.drive.present ? scene.drive.frequency : 0;
-    if (std::abs(cycles - time * frequency) > same_time * (1 + std::abs(cycles)))
-        of_two_runs(fmt::format(
-            "{} has {:.6g} periods of the drive at {:.6g} s, but scene.toml beside it has {}", file, cycles,
-            time, frequency > 0 ? fmt::format("{:.6g} Hz", frequency) : "no drive"));
+    const double periods = scene.drive.changes() && time > 0 ? DriveSchedule(scene.drive).times().cycles(time)
+                                                             : time * frequency;
+    if (std::abs(cycles - periods) > same_time * (1 + std::abs(cycles)))
+        of_two_runs(
+            fmt::format("{} has {:.6g} periods of the drive at {:.6g} s, but scene.toml beside it has {}",
+                        file, cycles, time,
+                        scene.drive.changes() ? fmt::format("{:.6g}", periods)
+                        : frequency > 0       ? fmt::format("{:.6g} Hz", frequency)
+                                              : "no drive"));
 }
 
 void check_pose(const Drive& drive, const BodyPose& is, const Pose& by_scene, const std::string& what) {
     const auto near = [](const Vec3& a, const Vec3& b, double scale) {
         return (a - b).norm() <= same_place * std::max(scale, a.norm());
     };
-    if (near(is.place, by_scene.offset, drive.amplitude) &&
-        near(is.velocity, by_scene.velocity, drive.speed()))
+    const DrivePeaks peaks = drive_peaks(drive);
+    if (near(is.place, by_scene.offset, peaks.offset) && near(is.velocity, by_scene.velocity, peaks.speed))
         return;
     const auto along = [&](const Vec3& vector) { return vector.dot(drive.direction); };
     of_two_runs(fmt::format(
@@ -59,9 +66,7 @@ Clock clock_of(const Scene& scene, const std::vector<Frame>& moments) {
     for (const Frame& moment : moments)
         if (moment.step != 0) clock.step = moment.time / static_cast<double>(moment.step);
     if (!scene.drive.present || clock.step <= 0) return clock;
-    clock.steps_per_period = std::llround(1 / (scene.drive.frequency * clock.step));
-    clock.initial_phase = scene.drive.phase;
-    return clock;
+    return drive_clock(scene.drive, clock.step, std::llround(1 / (scene.drive.frequency * clock.step)));
 }
 
 void check_species(const Scene& scene, const TrajectoryInfo& info, const std::string& trajectory) {

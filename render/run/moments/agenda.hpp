@@ -6,6 +6,8 @@
 #include <set>
 #include <vector>
 
+#include "engine/plan/field_times.hpp"
+#include "engine/plan/rhythm.hpp"
 #include "render/film/sampling/sampler.hpp"
 
 namespace grainreel {
@@ -17,16 +19,18 @@ struct Stop {
     bool trajectory = false;
     bool measures = false;
     bool moment = false;  // a later picture wants to know how the grains are now
+    bool fields = false;  // a record of fields ends
     bool strobe = false;  // one of the moments at which periods are compared
 };
 
 class Agenda {
   public:
     // Steps from `first` to `last`. Shots before `first` are left out; trajectory and measures come at
-    // the steps nearest to multiples of their interval (0: never), measures at `first` and `last` too.
-    // moments: steps. strobe_every: steps between moments at which periods are compared.
-    Agenda(std::vector<Shot> shots, double trajectory_every, double measures_every, std::int64_t first,
-           std::int64_t last, std::set<std::int64_t> moments = {}, std::int64_t strobe_every = 0);
+    // their steps, measures at `first` and `last` too. moments: steps. strobe: of moments at which periods
+    // are compared. clock: for what goes by periods. fields: null without any.
+    Agenda(std::vector<Shot> shots, const Rhythm& trajectory, const Rhythm& measures, std::int64_t first,
+           std::int64_t last, std::set<std::int64_t> moments = {}, const Rhythm& strobe = 0,
+           const Clock& clock = {}, const FieldTimes* fields = nullptr);
 
     // The next stop, in rising order of step; the last is at `last`. Empty after it.
     std::optional<Stop> next();
@@ -37,7 +41,9 @@ class Agenda {
     std::vector<Shot> shots_;
     std::size_t shot_ = 0;
     std::set<std::int64_t> moments_;
-    double trajectory_every_, measures_every_, strobe_every_;
+    Rhythm trajectory_, measures_, strobe_;
+    Clock clock_;
+    std::optional<FieldTimes> fields_;
     std::int64_t first_, last_;
     std::int64_t at_;  // steps below are done with
 };

@@ -1,6 +1,7 @@
 #include "render/run/moments/bed_periods.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -31,9 +32,19 @@ BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector
 
 void BedPeriods::note(std::int64_t step, double height) {
     const int before = multiple_.value();
-    multiple_.add(step / every(), height);
+    multiple_.add(number_of(step), height);
     const bool as_wanted = wanted_ > 0 && wanted_ % multiple_.value() == 0;
     if (multiple_.value() != before && !as_wanted) news_.push_back(news_of(step));
+}
+
+Rhythm BedPeriods::rhythm() const {
+    if (clock_.changes.empty())
+        return Rhythm(static_cast<double>(clock_.steps_per_period / PeriodMultiple::kPhases));
+    return Rhythm(0, 1.0 / PeriodMultiple::kPhases);
+}
+
+std::int64_t BedPeriods::number_of(std::int64_t step) const {
+    return std::llround(clock_.cycles(step) * PeriodMultiple::kPhases);
 }
 
 int BedPeriods::found() const {
@@ -51,7 +62,8 @@ std::vector<int> BedPeriods::possible() const {
 bool BedPeriods::shows(const FilmSegment& rule, const Shot& shot) const {
     if (!may_leave_out_ || rule.kind != FilmSegment::Kind::locked || clock_.steps_per_period == 0)
         return true;
-    const std::int64_t periods = (shot.step - first_.at(shot.segment)) / clock_.steps_per_period;
+    const std::int64_t periods =
+        std::llround(clock_.cycles(shot.step) - clock_.cycles(first_.at(shot.segment)));
     return periods % spanning(rule, shown()).every == 0;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/measure/period_multiple.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/run/moments/agenda.hpp"
 
 namespace grainreel {
 
@@ -19,8 +20,8 @@ class BedPeriods {
     // that is taken up shows the same. may_leave_out: some of them; else all are shown.
     BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots, bool may_leave_out);
 
-    // Steps between the moments that note() wants to know of; 0 for none.
-    std::int64_t every() const { return clock_.steps_per_period / PeriodMultiple::kPhases; }
+    // Of the moments that note() wants to know of.
+    Rhythm rhythm() const;
     // height: m, of the centre of mass above the floor.
     void note(std::int64_t step, double height);
 
@@ -36,6 +37,8 @@ class BedPeriods {
     const std::vector<std::string>& news() const { return news_; }
 
   private:
+    // Which of those moments a step is; they count on from period to period.
+    std::int64_t number_of(std::int64_t step) const;
     std::string news_of(std::int64_t step) const;
 
     const Clock clock_;

@@ -69,5 +69,26 @@ TEST(Agenda, NothingWantedStillGoesToTheEnd) {
     EXPECT_TRUE(stops[0].measures && stops[1].measures);
 }
 
+// A drive of 100 steps a period that from period 5 on has 40, after a change over 3.
+TEST(Agenda, RhythmsByPeriodsFollowTheDriveThatChanges) {
+    Clock clock{0.01, 100, 0};
+    const double change = length_of_change(3, 100, 40);
+    clock.changes.add({0, 0, 100, 100});
+    clock.changes.add({500, 5, 100, 40, change});
+    clock.changes.add({500 + change, 8, 40, 40});
+    const std::vector<Stop> stops = all_of(Agenda({}, Rhythm(0, 1), 0, 0, 2000, {}, Rhythm(0, 0.25), clock));
+    std::int64_t periods = 0, quarters = 0;
+    for (const Stop& stop : stops) {
+        if (stop.trajectory) {
+            EXPECT_EQ(stop.step, clock.step_at(static_cast<double>(periods++)));
+        }
+        if (stop.strobe) {
+            EXPECT_EQ(stop.step, clock.step_at(0.25 * static_cast<double>(quarters++)));
+        }
+    }
+    EXPECT_EQ(periods, static_cast<std::int64_t>(clock.cycles(2000)) + 1);
+    EXPECT_EQ(quarters, static_cast<std::int64_t>(4 * clock.cycles(2000)) + 1);
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 using testing::HasSubstr, testing::Not;
 
-constexpr Clock kClock{1e-3, 80, 0};
+const Clock kClock{1e-3, 80, 0};
 
 Scene scene_with(int periods) {
     Scene scene;
@@ -45,7 +45,8 @@ std::vector<std::int64_t> shown(const BedPeriods& bed, const FilmSegment& rule,
 
 // A bed that repeats itself every second period.
 void run(BedPeriods& bed, int periods) {
-    for (std::int64_t step = 0; step < periods * kClock.steps_per_period; step += bed.every())
+    for (std::int64_t step = 0; step < periods * kClock.steps_per_period;
+         step += static_cast<std::int64_t>(bed.rhythm().steps))
         bed.note(step, std::sin(std::numbers::pi * kClock.cycles(step)));
 }
 

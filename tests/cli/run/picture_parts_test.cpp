@@ -15,7 +15,7 @@
 namespace grainreel {
 namespace {
 
-constexpr Clock kClock{1e-4, 800, 0};  // 12.5 Hz
+const Clock kClock{1e-4, 800, 0};  // 12.5 Hz
 
 using PlaceAt = std::function<Vec3(std::int64_t step)>;
 

@@ -22,23 +22,26 @@ using test::TemporaryFolder;
 
 Scene sink_scene(const std::vector<std::string>& more = {}) {
     std::vector<std::string> sets{"output.trajectory_interval=0.01", "film.size=\"480x360\"",
-                                  "output.contacts=true"};
+                                  "output.contacts=true",
+                                  "container.outlet={width=\"9 mm\", exit_depth=\"6 mm\"}"};
     sets.insert(sets.end(), more.begin(), more.end());
     return read_scene_text(test::small_scene_text, "sink.toml", sets);
 }
 
-// Grains leave at the right end of the floor, and two come from above every now and then.
+// Grains leave through the floor, and two come from above every now and then.
 struct Sink {
     Scene scene;
-    Plan plan = make_plan(scene);
+    Plan plan = plan_of(scene);
     Simulation simulation;
 
     explicit Sink(const Scene& of, int threads = 1) : scene(of), simulation(scene, plan, threads) {
-        simulation.expect({true, 20});
         simulation.pack();
-        Exit corner;
-        corner.sides = {{Vec3(0, 0, 1), 0.006}, {Vec3(0, -1, 0), -0.008}};
-        simulation.set_exits({corner});
+    }
+    static Plan plan_of(const Scene& scene) {
+        Plan plan = make_plan(scene);
+        plan.capacity += 20;
+        plan.traffic = true;
+        return plan;
     }
     void rain(int number) {
         std::vector<NewGrain> pair;
@@ -106,7 +109,7 @@ TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
     whole.simulation.advance(quarter);
     whole.rain(3);
     whole.simulation.save_checkpoint(here / "c.grs");
-    ASSERT_GT(whole.simulation.traffic().left, 3);
+    ASSERT_GT(whole.simulation.traffic().left, 2);
     whole.simulation.advance(2 * quarter);
     Scene scene = whole.scene;
     scene.start.method = Start::Method::file;
@@ -115,9 +118,6 @@ TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
     Simulation on(scene, whole.plan, 2);
     EXPECT_EQ(on.traffic().came, 2);
     on.pack();
-    Exit corner;
-    corner.sides = {{Vec3(0, 0, 1), 0.006}, {Vec3(0, -1, 0), -0.008}};
-    on.set_exits({corner});
     on.advance(2 * quarter);
     EXPECT_EQ(on.state_hash(), whole.simulation.state_hash());
     EXPECT_EQ(on.traffic().left, whole.simulation.traffic().left);

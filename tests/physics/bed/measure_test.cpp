@@ -31,37 +31,71 @@ Lattice lattice(const Mark& mark) {
     return l;
 }
 
+double lacey_of(const Lattice& l) {
+    return lacey_index(take_samples(l.position, l.marked));
+}
+double intensity_of(const Lattice& l) {
+    return intensity_of_segregation(take_samples(l.position, l.marked));
+}
+
 TEST(Lacey, IsZeroWhenHalvesAreApart) {
     const Lattice l = lattice([](int, int, int z) { return z < 16; });
-    EXPECT_NEAR(lacey_index(l.position, l.marked), 0, 1e-12);
+    EXPECT_NEAR(lacey_of(l), 0, 1e-12);
 }
 
 TEST(Lacey, IsOneForARandomMixture) {
     Random random(5, Stream::centres);
     const Lattice l = lattice([&](int, int, int) { return random.uniform() < 0.3; });
     // The variance over 256 samples scatters by sqrt(2 / 255) of sr^2 = s0^2 / 32, so M by 0.003.
-    EXPECT_NEAR(lacey_index(l.position, l.marked), 1, 4 * 0.003);
+    EXPECT_NEAR(lacey_of(l), 1, 4 * 0.003);
 }
 
 TEST(Lacey, IsAboveOneForAnOrderedMixture) {
     const Lattice l = lattice([](int x, int y, int z) { return (x + y + z) % 2; });
-    EXPECT_NEAR(lacey_index(l.position, l.marked), 1 / (1 - 1.0 / kLaceySample), 1e-12);
+    EXPECT_NEAR(lacey_of(l), 1 / (1 - 1.0 / kLaceySample), 1e-12);
 }
 
 TEST(Lacey, IsUndefinedForOneSpecies) {
     const Lattice l = lattice([](int, int, int) { return true; });
-    EXPECT_TRUE(std::isnan(lacey_index(l.position, l.marked)));
+    EXPECT_TRUE(std::isnan(lacey_of(l)));
 }
 
 // A bed of 32 layers of which the lowest, or the lowest three, are of the rare kind: one grain a sample of 32
 // on average, or three.
 TEST(Lacey, IsUndefinedWhereSamplesHoldFewOfAKind) {
     const Lattice one = lattice([](int, int, int z) { return z < 1; });
-    EXPECT_TRUE(std::isnan(lacey_index(one.position, one.marked)));
+    EXPECT_TRUE(std::isnan(lacey_of(one)));
     const Lattice all_but_one = lattice([](int, int, int z) { return z >= 1; });
-    EXPECT_TRUE(std::isnan(lacey_index(all_but_one.position, all_but_one.marked)));
+    EXPECT_TRUE(std::isnan(lacey_of(all_but_one)));
     const Lattice three = lattice([](int, int, int z) { return z < kLeastOfRareKind; });
-    EXPECT_LT(lacey_index(three.position, three.marked), 0.5);
+    EXPECT_LT(lacey_of(three), 0.5);
+}
+
+TEST(Intensity, IsOneWhenHalvesAreApart) {
+    EXPECT_NEAR(intensity_of(lattice([](int, int, int z) { return z < 16; })), 1, 1e-12);
+}
+
+// 256 samples of n = 32 scatter by sqrt(2 / 255) of the 1 / n of chance.
+TEST(Intensity, IsOneOverTheSampleInARandomMixture) {
+    Random random(5, Stream::centres);
+    const Lattice l = lattice([&](int, int, int) { return random.uniform() < 0.3; });
+    EXPECT_NEAR(intensity_of(l), 1.0 / kLaceySample, 4 * std::sqrt(2.0 / 255) / kLaceySample);
+}
+
+TEST(Intensity, IsZeroForAnOrderedMixture) {
+    EXPECT_NEAR(intensity_of(lattice([](int x, int y, int z) { return (x + y + z) % 2; })), 0, 1e-12);
+}
+
+// One layer of 32 is rare, and Lacey's index has nothing to say. Samples are four layers high: one in eight
+// has a share of 1/4.
+TEST(Intensity, SeesALayerOfFewGrains) {
+    const Lattice l = lattice([](int, int, int z) { return z < 1; });
+    const double p = 1.0 / 32, variance = 1.0 / 8 * (1.0 / 4) * (1.0 / 4) - p * p;
+    EXPECT_NEAR(intensity_of(l), variance / (p * (1 - p)), 1e-12);
+}
+
+TEST(Intensity, IsUndefinedForOneSpecies) {
+    EXPECT_TRUE(std::isnan(intensity_of(lattice([](int, int, int) { return true; }))));
 }
 
 double above(std::vector<double> these, std::vector<double> those) {

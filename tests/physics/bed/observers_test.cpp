@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
+#include "engine/measure/columns.hpp"
+#include "engine/measure/observers/times.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -16,12 +21,13 @@ struct Calls {
     int made = 0, begun = 0, contacts = 0, looks = 0;
 };
 
-// An observer of one column, which counts its calls.
+// An observer of one column, which counts its calls. It is made where the scene asks for the instrument.
 template <int number, bool of_contacts>
 struct Counting final : Observer {
+    static constexpr const char* instrument = number == 1 ? "one" : number == 2 ? "two" : "three";
     static inline Calls calls;
     static std::string name() { return "column_" + std::to_string(number); }
-    static std::vector<ColumnGroup> columns(const std::vector<std::string>&) {
+    static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{name(), "a column"}}, "1", "of a test"}};
     }
     Counting() { ++calls.made; }
@@ -50,7 +56,16 @@ struct Bed {
         scene.species[0].diameter.mean = 2;
         scene.species[1].name = "big";
         scene.species[1].diameter.mean = 4;
+        scene.species[0].count = 2;
+        scene.species[1].count = 1;
+        scene.container.shape = Container::Shape::box;
+        scene.container.half_width = 6;
+        scene.container.depth = 8;
+        scene.container.height = 20;
         scene.drive.direction = {0, 0, 1};
+        scene.drive.present = true;
+        scene.drive.frequency = 100;
+        scene.drive.amplitude = 1e-4;
         grains.add(0, 0, {0, -1, 2}, 1, 1);
         grains.add(2, 1, {0, 0, 5}, 2, 1);
         grains.add(1, 0, {0, 1, 2}, 1, 1);
@@ -59,14 +74,15 @@ struct Bed {
         grains.wall_work[0] = 7;
         traffic.work_out = 3, traffic.energy_in = 20, traffic.energy_out = 5;
     }
-    Moment moment() const {
-        return {scene, clock, grains, 2500, {0, 0, -10}, 0, {{0, 0, 0.5}, {0, 0, 0}, 0}, 100, traffic};
+    Moment moment(std::int64_t step = 2500) const {
+        return {scene, clock, grains, step, {0, 0, -10}, 0, {{0, 0, 0.5}, {0, 0, 0}, 0}, 100, traffic};
     }
 };
 
 ContactView touch(std::int32_t second, double overlap, double force, double energy) {
     ContactView c{};
-    c.normal = c.tangential = c.point = Vec3::Zero();
+    c.tangential = c.point = Vec3::Zero();
+    c.normal = {0, 0, 1};
     c.second = second;
     c.overlap = overlap;
     c.smaller_radius = 1;
@@ -82,16 +98,42 @@ void three_contacts(const std::function<void(const ContactView&)>& see) {
     see(touch(2, 0.02, 0, 0));
 }
 
-Observers those_of(const std::vector<std::string>& wanted) {
+Observers those_of(const std::vector<std::string>& instruments) {
     Plain::calls = First::calls = Second::calls = {};
-    return {{entry_of<Plain>(), entry_of<First>(), entry_of<Second>()}, {}, [=](const std::string& name) {
-                return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-            }};
+    Scene scene;
+    scene.output.instruments = instruments;
+    return {{entry_of<Plain>(), entry_of<First>(), entry_of<Second>()}, scene, Plan()};
+}
+
+// Adds up the heights (m) of the floor at every third step, and says at how many moments.
+struct Gathering final : Observer {
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"sum_m", "sum", Dimension::length}, {"moments", "moments"}}, "m, 1", "of a test"}};
+    }
+    std::int64_t gathers_after(std::int64_t step) const override { return (step / 3 + 1) * 3; }
+    void start(const Moment& m) override { sum = 1000 + static_cast<double>(m.step), moments = 0; }
+    void gather(const Moment& m) override { sum += m.floor_height(), moments += 1; }
+    void look(const Moment&, std::vector<double>& row) override { row.insert(row.end(), {sum, moments}); }
+    void save(std::ostream& out) const override { write_value(out, sum), write_value(out, moments); }
+    void load(const Moment&, Bytes& in) override {
+        read_value(in, sum), read_value(in, moments);
+        if (!(moments >= 0)) in.fail();
+    }
+    double sum = 0, moments = 0;
+};
+
+Observers gathering() {
+    return {{entry_of<Gathering>(), entry_of<observers::Times>()}, Scene(), Plan()};
+}
+std::string saved(const Observers& observers) {
+    std::ostringstream out;
+    observers.save(out);
+    return out.str();
 }
 
 TEST(Observers, VisitContactsOnceAMoment) {
     const Bed bed;
-    Observers all = those_of({"column_1", "column_2", "column_3"});
+    Observers all = those_of({"one", "two", "three"});
     int visits = 0;
     for (int looks = 1; looks <= 2; ++looks) {
         const Measures m = all.look(bed.moment(), [&](const auto& see) {
@@ -109,7 +151,7 @@ TEST(Observers, VisitContactsOnceAMoment) {
 
 TEST(Observers, ThatNobodyWantsAreNotMade) {
     const Bed bed;
-    Observers one = those_of({"column_1"});
+    Observers one = those_of({"one"});
     const Measures m = one.look(bed.moment(), [](const auto&) { ADD_FAILURE() << "contacts were visited"; });
     EXPECT_EQ(m.names(), std::vector<std::string>{"column_1"});
     EXPECT_EQ(Plain::calls.looks, 1);
@@ -118,9 +160,79 @@ TEST(Observers, ThatNobodyWantsAreNotMade) {
     EXPECT_EQ(those_of({}).look(bed.moment(), [](const auto&) { ADD_FAILURE(); }).names().size(), 0u);
 }
 
+TEST(Observers, AreAskedForOneColumnAlone) {
+    const Bed bed;
+    Observers all = those_of({"one", "two"});
+    EXPECT_EQ(all.look(
+                  bed.moment(), [](const auto&) { ADD_FAILURE(); }, "column_1"),
+              1);
+    EXPECT_EQ(First::calls.looks, 0);
+    EXPECT_EQ(all.look(bed.moment(), three_contacts, "column_2"), 2);
+}
+
+constexpr auto no_contacts = [](const auto&) { ADD_FAILURE() << "contacts were visited"; };
+
+TEST(Observers, GatherAtTheStepsTheySay) {
+    const Bed bed;
+    Observers all = gathering();
+    all.start(bed.moment(0), no_contacts);
+    EXPECT_EQ(all.gathers_after(0), 3);
+    EXPECT_EQ(all.gathers_after(2), 3);
+    EXPECT_EQ(all.gathers_after(3), 6);
+    for (std::int64_t step = 1; step <= 7; ++step) all.gather(bed.moment(step), no_contacts);
+    EXPECT_EQ(all.look(bed.moment(7), no_contacts, "sum_m"), 1000 + 2 * 0.5);
+    EXPECT_EQ(all.look(bed.moment(7), no_contacts, "moments"), 2);
+    EXPECT_EQ(those_of({"one"}).gathers_after(0), Observer::kNever);
+}
+
+TEST(Observers, TakeUpWhatTheyHadGathered) {
+    const Bed bed;
+    Observers first = gathering(), next = gathering(), fresh = gathering();
+    first.start(bed.moment(0), no_contacts);
+    first.gather(bed.moment(3), no_contacts);
+    const std::string bytes = saved(first);
+    Bytes in(bytes);
+    next.load(bed.moment(5), in);
+    EXPECT_FALSE(in.failed());
+    next.start(bed.moment(5), no_contacts);  // nobody is left to start
+    EXPECT_EQ(next.look(bed.moment(5), no_contacts).values(),
+              first.look(bed.moment(5), no_contacts).values());
+    EXPECT_EQ(saved(next), bytes);
+    // Of a run that measured nothing of it.
+    Bytes nothing("");
+    fresh.load(bed.moment(5), nothing);
+    fresh.start(bed.moment(5), no_contacts);
+    EXPECT_EQ(fresh.look(bed.moment(5), no_contacts, "sum_m"), 1005);
+}
+
+TEST(Observers, BelieveNothingThatWasSaved) {
+    const Bed bed;
+    Observers first = gathering();
+    first.start(bed.moment(0), no_contacts);
+    const std::string bytes = saved(first);
+    const auto is_taken = [&](const std::string& what) {
+        Observers next = gathering();
+        Bytes in(what);
+        next.load(bed.moment(5), in);
+        return !in.failed();
+    };
+    EXPECT_TRUE(is_taken(bytes));
+    for (std::size_t size = 1; size < bytes.size(); ++size) EXPECT_FALSE(is_taken(bytes.substr(0, size)));
+    EXPECT_FALSE(is_taken(bytes + bytes)) << "twice";
+    std::string huge = bytes, negative = bytes;
+    huge[7] = '\x7f';  // the length of the name
+    EXPECT_FALSE(is_taken(huge));
+    negative.back() = '\xbf';  // the sign of the number of moments
+    EXPECT_FALSE(is_taken(negative));
+    // What another program's observers had gathered is passed over.
+    std::string other = bytes;
+    other[8] = 'x';
+    EXPECT_TRUE(is_taken(other));
+}
+
 TEST(Observers, GiveEveryColumnOfThreeGrains) {
     const Bed bed;
-    Observers all(all_observers(), {"small", "big"}, [](const std::string&) { return true; });
+    Observers all(all_observers(), bed.scene, Plan());
     const Measures m = all.look(bed.moment(), three_contacts);
     const double small = 4.0 / 3 * std::numbers::pi, big = 8 * small, mass = 2 * small + big;  // kg
     const double kinetic = 0.5 * big * 25, rotational = 0.5 * 0.4 * small * 4;
@@ -152,14 +264,25 @@ TEST(Observers, GiveEveryColumnOfThreeGrains) {
         {"height_difference", (4.5 - 1.5) / 1.5},
         {"big_above_small", 1},
         {"big_in_top_quarter", 1},
+        {"big_in_bottom_quarter", 0},
+        {"big_at_walls", 0},
         // All three are neighbours of each other: two pairs of three are unlike; by chance pairs weigh
         // (r + r)^2, the like one 4 and each unlike one 9.
         {"unlike_neighbours", (2.0 / 3) / (18.0 / 22)},
         {"lacey", nan},
+        // Two samples: one small grain, and one of each.
+        {"intensity", (1.0 / 9 + 1.0 / 36) / 2 / (2.0 / 9)},
         {"contact_number", (2 + 1) / 3.0},
+        {"fabric_anisotropy", 1},
+        {"fabric_vertical", 1},
         {"largest_overlap", 0.03},
         {"floor_position_m", 0.5},
-        {"bed_periods", 1}};
+        {"bed_periods", 1},
+        {"drive_frequency_Hz", 100},
+        {"drive_g_level", 1e-4 * std::pow(2 * std::numbers::pi * 100, 2) / 10},
+        {"bed_top_m", 1.5},
+        // The lower halves of the small grains reach up to there.
+        {"bed_solid_fraction", small / (12 * 8 * 1.5)}};
     ASSERT_EQ(m.names().size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const auto& [name, value] = expected[i];
@@ -175,10 +298,11 @@ TEST(Observers, OfSegregationGiveNothingForOneSpecies) {
     Bed bed;
     bed.scene.species.resize(1);
     bed.grains.species = {0, 0, 0};
-    Observers all(all_observers(), {"small"}, [](const std::string&) { return true; });
+    Observers all(all_observers(), bed.scene, Plan());
     const Measures m = all.look(bed.moment(), three_contacts);
     for (const char* name :
-         {"height_difference", "big_above_small", "big_in_top_quarter", "unlike_neighbours", "lacey"})
+         {"height_difference", "big_above_small", "big_in_top_quarter", "big_in_bottom_quarter",
+          "big_at_walls", "unlike_neighbours", "lacey", "intensity"})
         EXPECT_TRUE(std::isnan(m.at(name))) << name;
     EXPECT_NEAR(m.at("small_height_m"), 2.5, 1e-12);
 }

@@ -1,0 +1,37 @@
+#include "engine/chart/gnuplot.hpp"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace grainreel {
+
+bool run_gnuplot(const std::filesystem::path& folder, std::string commands) {
+    posix_spawn_file_actions_t there;
+    posix_spawn_file_actions_init(&there);
+    posix_spawn_file_actions_addchdir_np(&there, folder.c_str());
+    char name[] = "gnuplot";
+    char* words[] = {name, commands.data(), nullptr};
+    pid_t child = 0;
+    // A group of its own: Ctrl-C, which is ours to answer, would leave half a picture.
+    posix_spawnattr_t apart;
+    posix_spawnattr_init(&apart);
+    posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
+    const bool started = posix_spawnp(&child, name, &there, &apart, words, environ) == 0;
+    posix_spawnattr_destroy(&apart);
+    posix_spawn_file_actions_destroy(&there);
+    int status = 1;
+    return started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+std::string gnuplot_text(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '\'') result += '\'';
+        result += byte < 0x20 || byte == 0x7f ? ' ' : c;
+    }
+    return result + "'";
+}
+
+}  // namespace grainreel

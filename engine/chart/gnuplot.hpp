@@ -1,0 +1,16 @@
+// The program gnuplot, which draws our tables.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace grainreel {
+
+// Runs gnuplot on a file of commands, in its folder. False when there is no gnuplot, or it failed.
+bool run_gnuplot(const std::filesystem::path& folder, std::string commands);
+
+// Text as gnuplot takes it: in single quotes, in which nothing but a quote means anything. Control characters
+// become spaces.
+std::string gnuplot_text(const std::string& text);
+
+}  // namespace grainreel

@@ -1,0 +1,117 @@
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/questions.hpp"
+#include "engine/inspect/statistics.hpp"
+
+namespace grainreel {
+namespace {
+
+AnswerTable moment_table(const Snapshot& s) {
+    AnswerTable table{"moment",
+                      "The moment",
+                      {{"time", Dimension::time, "since the drive started"},
+                       {"step", Dimension::number, ""},
+                       {"cycles", Dimension::number, "periods of the drive"},
+                       {"floor", Dimension::length, "the floor's height against its place at rest"},
+                       {"grains", Dimension::number, ""},
+                       {"contacts", Dimension::number, "empty where the run kept none"}},
+                      {}};
+    AnswerCell contacts;
+    if (s.contacts) contacts = static_cast<std::int64_t>(s.frame.touches.size());
+    table.rows.push_back({s.frame.time, s.frame.step, s.frame.cycles, s.frame.floor().place.z(),
+                          static_cast<std::int64_t>(s.frame.size()), contacts});
+    return table;
+}
+
+AnswerTable species_table(const Snapshot& s) {
+    AnswerTable table{"species",
+                      "By species",
+                      {{"species", Dimension::number, ""},
+                       {"grains", Dimension::number, ""},
+                       {"mass", Dimension::mass, "of all"},
+                       {"mean_height", Dimension::length, "above the floor"},
+                       {"lowest", Dimension::length, ""},
+                       {"highest", Dimension::length, ""},
+                       {"mean_rise", Dimension::length, "since the run's first moment"},
+                       {"mean_speed", Dimension::speed, ""},
+                       {"kinetic_energy", Dimension::energy, "of all"}},
+                      {}};
+    const GrainVocabulary words(s);
+    const auto column = [&](const char* name) { return values_of(s, words.find(name)->column); };
+    const std::vector<double> height = column("height"), rise = column("rise"), speed = column("speed"),
+                              mass = column("mass"), energy = column("kinetic_energy");
+    for (std::size_t k = 0; k < s.scene.species.size(); ++k) {
+        const auto of_species = [&](const std::vector<double>& all) {
+            std::vector<double> own;
+            for (std::size_t i = 0; i < all.size(); ++i)
+                if (static_cast<std::size_t>(s.frame.species[i]) == k) own.push_back(all[i]);
+            return own;
+        };
+        const auto sum = [](const Statistics& of) { return of.count > 0 ? of.mean * double(of.count) : 0; };
+        const Statistics heights = statistics_of(of_species(height));
+        table.rows.push_back({s.scene.species[k].name, static_cast<std::int64_t>(heights.count),
+                              sum(statistics_of(of_species(mass))), heights.mean, heights.least, heights.most,
+                              statistics_of(of_species(rise)).mean, statistics_of(of_species(speed)).mean,
+                              sum(statistics_of(of_species(energy)))});
+    }
+    return table;
+}
+
+AnswerTable extremes_table(const Snapshot& s) {
+    AnswerTable table{"extremes",
+                      "Who stands out",
+                      {{"what", Dimension::number, ""},
+                       {"id", Dimension::number, ""},
+                       {"species", Dimension::number, ""},
+                       {"height", Dimension::length, ""},
+                       {"speed", Dimension::speed, ""}},
+                      {}};
+    const GrainVocabulary words(s);
+    const auto add = [&](const char* what, const char* column, bool most) {
+        const Statistics of = statistics_of(values_of(s, words.find(column)->column));
+        if (of.count == 0) return;
+        const std::size_t i = most ? of.where_most : of.where_least;
+        table.rows.push_back({what, static_cast<std::int64_t>(s.frame.id[i]), name_of_body(s, s.frame.id[i]),
+                              s.height(i), s.frame.velocity[i].norm()});
+    };
+    add("highest", "height", true);
+    add("lowest", "height", false);
+    add("fastest", "speed", true);
+    add("fastest spin", "spin", true);
+    add("moved most", "moved", true);
+    if (s.contacts) add("pressed most", "contact_force", true);
+    return table;
+}
+
+// m above the floor, of the container's rim; infinite without one.
+bool outside(const Snapshot& s, std::size_t i) {
+    const Container& c = s.scene.container;
+    if (c.shape == Container::Shape::none) return false;
+    const double r = s.frame.radius[i];
+    const Vec3 at = s.frame.position[i] - s.frame.container().place;
+    if (s.height(i) < -r) return true;
+    if (c.shape == Container::Shape::cylinder) return std::hypot(at.x(), at.y()) > c.half_width + r;
+    return std::abs(at.y()) > c.half_width + r;
+}
+
+}  // namespace
+
+Answer overview_of(const Snapshot& s) {
+    Answer answer{{moment_table(s), species_table(s), extremes_table(s)}, {}};
+    std::size_t out = 0, odd = 0;
+    for (std::size_t i = 0; i < s.frame.size(); ++i) {
+        out += outside(s, i);
+        odd += !s.frame.position[i].allFinite() || !s.frame.velocity[i].allFinite();
+    }
+    if (out > 0) answer.notes.push_back(fmt::format("{} grains are outside the container", out));
+    if (odd > 0)
+        answer.notes.push_back(fmt::format("{} grains have a place or a velocity that is no number", odd));
+    if (!s.contacts)
+        answer.notes.emplace_back("contacts are not known; run the scene with output.contacts = true");
+    return answer;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,28 @@
+// One moment of a run, as questions are put to it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+struct Snapshot {
+    const Scene& scene;
+    Frame frame;            // its grains; touches where they are known
+    bool contacts = false;  // whether they are
+    Frame start;            // the run's first moment
+
+    double density(std::size_t i) const;  // kg/m3, of grain i of the frame
+    double mass(std::size_t i) const;     // kg
+    double height(std::size_t i) const;   // m, of its centre above the floor where that is now
+    // Place in the frame of the grain with this id; empty when there is none.
+    std::optional<std::size_t> place_of(std::int64_t id) const;
+};
+
+// "small", or "floor" for a wall's number (-1 - face), as contacts.nc has them.
+std::string name_of_body(const Snapshot& snapshot, std::int32_t id);
+
+}  // namespace grainreel

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/questions.hpp"
+#include "engine/inspect/statistics.hpp"
+
+namespace grainreel {
+namespace {
+
+AnswerTable counts_table(const Snapshot& s, const std::vector<std::size_t>& found) {
+    AnswerTable table{"count",
+                      "How many",
+                      {{"species", Dimension::number, ""},
+                       {"grains", Dimension::number, "for which it holds"},
+                       {"of", Dimension::number, "all of the species"},
+                       {"share", Dimension::number, ""}},
+                      {}};
+    std::vector<std::int64_t> own(s.scene.species.size(), 0), all(s.scene.species.size(), 0);
+    for (const std::size_t i : found) ++own[static_cast<std::size_t>(s.frame.species[i])];
+    for (const std::int32_t k : s.frame.species) ++all[static_cast<std::size_t>(k)];
+    const auto add = [&](const std::string& name, std::int64_t some, std::int64_t of) {
+        AnswerCell share;
+        if (of > 0) share = static_cast<double>(some) / static_cast<double>(of);
+        table.rows.push_back({name, some, of, share});
+    };
+    for (std::size_t k = 0; k < own.size(); ++k) add(s.scene.species[k].name, own[k], all[k]);
+    if (own.size() != 1)
+        add("all", static_cast<std::int64_t>(found.size()), static_cast<std::int64_t>(s.frame.size()));
+    return table;
+}
+
+AnswerTable statistics_table(const Snapshot& s, const std::vector<std::size_t>& found) {
+    AnswerTable table{"statistics",
+                      "Of these grains, in SI units",
+                      {{"column", Dimension::number, ""},
+                       {"mean", Dimension::number, ""},
+                       {"deviation", Dimension::number, "standard deviation of the sample"},
+                       {"least", Dimension::number, ""},
+                       {"most", Dimension::number, ""}},
+                      {}};
+    const auto& columns = grain_columns();
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        if (columns[k].is_species || columns[k].name == "id") continue;
+        if (columns[k].needs_contacts && !s.contacts) continue;
+        const std::vector<double> all = values_of(s, static_cast<int>(k));
+        std::vector<double> own;
+        for (const std::size_t i : found) own.push_back(all[i]);
+        const Statistics of = statistics_of(own);
+        if (of.count == 0) continue;
+        table.rows.push_back({columns[k].name, of.mean, of.deviation, of.least, of.most});
+    }
+    return table;
+}
+
+AnswerTable list_table(const Snapshot& s, const std::vector<std::size_t>& found, std::size_t most) {
+    AnswerTable table{"grains",
+                      found.size() > most ? fmt::format("The first {} of them", most) : "All of them",
+                      {{"id", Dimension::number, ""},
+                       {"species", Dimension::number, ""},
+                       {"x", Dimension::length, ""},
+                       {"y", Dimension::length, ""},
+                       {"z", Dimension::length, ""},
+                       {"height", Dimension::length, ""},
+                       {"speed", Dimension::speed, ""},
+                       {"vz", Dimension::speed, ""}},
+                      {}};
+    for (std::size_t k = 0; k < std::min(most, found.size()); ++k) {
+        const std::size_t i = found[k];
+        const Vec3 &at = s.frame.position[i], &v = s.frame.velocity[i];
+        table.rows.push_back({static_cast<std::int64_t>(s.frame.id[i]), name_of_body(s, s.frame.id[i]),
+                              at.x(), at.y(), at.z(), s.height(i), v.norm(), v.z()});
+    }
+    return table;
+}
+
+}  // namespace
+
+Answer where_answer(const Snapshot& s, const std::string& condition, std::size_t most) {
+    const std::vector<std::size_t> found = grains_where(s, condition);
+    Answer answer{{counts_table(s, found)}, {}};
+    if (found.empty()) return answer;
+    answer.tables.push_back(statistics_table(s, found));
+    if (most > 0) answer.tables.push_back(list_table(s, found, most));
+    return answer;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,59 @@
+#include "engine/measure/fields/field_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/measure/fields/kernel.hpp"
+#include "engine/scene/bed.hpp"
+
+namespace grainreel {
+
+std::vector<double> GridAxis::middles() const {
+    std::vector<double> all;
+    for (std::int64_t k = 0; k < count; ++k) all.push_back(middle(k));
+    return all;
+}
+
+int FieldGrid::dimensions() const {
+    return static_cast<int>(
+        std::count_if(axes.begin(), axes.end(), [](const GridAxis& axis) { return axis.resolved; }));
+}
+
+namespace {
+
+// Whole cells from wall to wall, none larger than wanted.
+GridAxis axis_between(double low, double high, double wanted) {
+    GridAxis axis;
+    axis.count = std::max<std::int64_t>(1, std::llround(std::ceil((high - low) / wanted * (1 - 1e-12))));
+    axis.cell = (high - low) / static_cast<double>(axis.count);
+    axis.low = low;
+    return axis;
+}
+
+void pad(GridAxis& axis, double reach) {
+    const std::int64_t more = std::llround(std::ceil(reach / axis.cell));
+    axis.low -= static_cast<double>(more) * axis.cell;
+    axis.count += 2 * more;
+}
+
+}  // namespace
+
+FieldGrid make_field_grid(const Scene& scene, const FieldOutput& fields) {
+    const Extent extent = extent_of(scene);
+    const bool has_walls = scene.container.shape != Container::Shape::none;
+    FieldGrid grid;
+    grid.axes[0].resolved = fields.grid == FieldOutput::Grid::xyz;
+    const FieldKernel kernel(fields.kernel, fields.width, grid.axes[0].resolved ? 3 : 2);
+    for (int k = 0; k < 3; ++k) {
+        const bool resolved = grid.axes[k].resolved;
+        const double length = extent.high[k] - extent.low[k];
+        GridAxis axis = axis_between(extent.low[k], extent.high[k], resolved ? fields.cell : length);
+        axis.resolved = resolved;
+        axis.periodic = k == 0 && scene.container.periodic_depth;
+        if (has_walls && resolved && !axis.periodic) pad(axis, kernel.cutoff());
+        grid.axes[k] = axis;
+    }
+    return grid;
+}
+
+}  // namespace grainreel

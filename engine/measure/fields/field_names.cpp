@@ -1,0 +1,87 @@
+#include "engine/measure/fields/field_names.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace grainreel {
+namespace {
+
+// What every program takes for a name: ASCII letters, digits and underscores.
+std::string plain(const std::string& name) {
+    std::string result = name;
+    const auto odd = [](char c) {
+        return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'));
+    };
+    std::replace_if(result.begin(), result.end(), odd, '_');
+    return result;
+}
+
+std::vector<FieldAxis> axes_of(const FieldGrid& grid) {
+    const char* const about[] = {"along the depth, from the middle", "across, from the middle",
+                                 "height above the floor at rest"};
+    const char* const names[] = {"x", "y", "z"};
+    std::vector<FieldAxis> axes;
+    for (const std::size_t k : {2, 1, 0})
+        if (grid.axes[k].resolved) axes.push_back({names[k], "m", about[k], grid.axes[k].middles()});
+    return axes;
+}
+
+}  // namespace
+
+FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by) {
+    FieldSet set;
+    set.axes = axes_of(by.grid());
+    std::vector<std::string> axes;
+    for (const FieldAxis& axis : set.axes) axes.push_back(axis.name);
+    const auto add = [&](const std::string& name, const std::string& label, const char* unit,
+                         const std::string& about) {
+        set.fields.push_back({name, label, unit, about, axes});
+    };
+    add("free_volume", "volume of the cell inside the container", "m3",
+        "density times it, summed over all cells, is the mass of the grains");
+    add("density", "density", "kg m-3", "mass of grains over volume; kernels clipped at the walls");
+    for (std::size_t s = 0; s < scene.species.size(); ++s) {
+        std::string name = "solid_fraction_" + plain(scene.species[s].name);
+        const auto same = [&](const FieldInfo& field) { return field.name == name; };
+        if (std::any_of(set.fields.begin(), set.fields.end(), same)) name += fmt::format("_{}", s + 1);
+        add(name, "solid fraction of " + scene.species[s].name, "1",
+            "volume of these grains over volume; kernels clipped at the walls");
+    }
+    for (const char* axis : {"x", "y", "z"})
+        add(fmt::format("velocity_{}", axis), fmt::format("velocity along {}", axis), "m s-1",
+            "momentum over mass, seen from the container");
+    add("granular_temperature", "granular temperature", "m2 s-2",
+        "a third of the mean square velocity against the velocity at the same place and phase of the drive");
+    for (const char* pair : {"xx", "xy", "xz", "yy", "yz", "zz"})
+        add(fmt::format("kinetic_stress_{}", pair), fmt::format("kinetic stress {}", pair), "Pa",
+            "symmetric; pressure is positive");
+    for (const char* pair : {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"})
+        add(fmt::format("contact_stress_{}", pair), fmt::format("contact stress {}", pair), "Pa",
+            "force (first index) times branch (second index); pressure is positive");
+    return set;
+}
+
+FieldValues coarse_field_values(const std::optional<CoarseFields>& fields, const CoarseGraining& by) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    FieldValues values{by.shares()};
+    for (double& share : values[0]) share *= by.grid().cell_volume();
+    const std::size_t more = 1 + by.species() + 3 + 1 + 6 + 9;
+    if (!fields) {
+        values.resize(1 + more, CellValues(by.shares().size(), none));
+        return values;
+    }
+    const auto add = [&](const auto& several) {
+        values.insert(values.end(), several.begin(), several.end());
+    };
+    values.push_back(fields->density);
+    add(fields->solid_fraction);
+    add(fields->velocity);
+    values.push_back(fields->temperature);
+    add(fields->kinetic_stress);
+    add(fields->contact_stress);
+    return values;
+}
+
+}  // namespace grainreel

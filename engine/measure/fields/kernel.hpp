@@ -1,0 +1,46 @@
+// The kernels of coarse-graining: how a grain, which is a point, is spread over its surroundings.
+//
+// Both are radial, in two or three dimensions, and end at a cutoff. Only their shape matters here: a
+// footprint (footprint.hpp) scales the values to a sum of one over the cells of its grid.
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/field_output.hpp"
+
+namespace grainreel {
+
+// Value at a distance of q cutoffs, 0 <= q < 1; 1 in the middle.
+// Gaussian: exp(-r2 / 2 w2), with its cutoff at 3 w (Weinhart, Hartkamp, Thornton & Luding 2013, Phys. Fluids
+// 25, 070605). Lucy (1977, Astron. J. 82, 1013): (1 + 3 q)(1 - q)^3.
+double kernel_value(FieldOutput::Kernel kind, double q);
+
+class FieldKernel {
+  public:
+    // width: m, the standard deviation along one axis: exactly with Lucy's kernel, before the cutoff with the
+    // Gaussian. dimensions: 2 or 3.
+    FieldKernel(FieldOutput::Kernel kind, double width, int dimensions);
+
+    double width() const { return width_; }    // m
+    double cutoff() const { return cutoff_; }  // m
+
+    // Value at a distance whose square (m2) is given; 0 from the cutoff on. From a table over the square,
+    // within 2e-5 of the formula.
+    double at(double square) const {
+        const double exact = square * places_;
+        const double place =
+            exact < kEntries ? exact : kEntries + 1.0;  // no jump: it is as often one as the other
+        const auto entry = static_cast<std::size_t>(place);
+        const double share = place - static_cast<double>(entry);
+        return values_[entry] + share * (values_[entry + 1] - values_[entry]);
+    }
+
+  private:
+    static constexpr int kEntries = 4096;
+
+    double width_, cutoff_;       // m
+    double places_;               // 1/m2, entries for each square metre
+    std::vector<double> values_;  // with zeros behind
+};
+
+}  // namespace grainreel

@@ -1,0 +1,176 @@
+#include "engine/measure/flow/drift.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/measure/no_value.hpp"
+#include "engine/measure/surface/surface_frame.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double kCell = 2;  // diameters
+constexpr double kMostCells = 255;
+
+// Cells two mean diameters wide and high; an odd number across, so that one stands in the middle.
+VelocityGrid cells_of(const Scene& scene) {
+    VelocityGrid grid;
+    const Container& c = scene.container;
+    if (c.shape == Container::Shape::none) return grid;
+    const double cell = kCell * surface_frame(scene).diameter;
+    const double half = std::clamp(std::round((2 * c.half_width / cell - 1) / 2), 1.0, (kMostCells - 1) / 2);
+    grid.across = static_cast<std::size_t>(2 * half + 1);
+    grid.high = static_cast<std::size_t>(std::clamp(std::ceil(c.height / cell), 2.0, kMostCells));
+    grid.left = -c.half_width;
+    grid.width = 2 * c.half_width / static_cast<double>(grid.across);
+    grid.height = c.height / static_cast<double>(grid.high);
+    const std::size_t cells = grid.across * grid.high;
+    grid.right.assign(cells, 0), grid.up.assign(cells, 0), grid.weight.assign(cells, 0);
+    return grid;
+}
+
+// Cell of a place; what lies outside belongs to the outermost ones.
+std::size_t cell_at(const VelocityGrid& grid, double y, double z) {
+    const auto number = [](double at, std::size_t count) {
+        return static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(count - 1)));
+    };
+    return grid.index(number((y - grid.left) / grid.width, grid.across),
+                      number((z - grid.bottom) / grid.height, grid.high));
+}
+
+void add(VelocityGrid& sums, std::size_t cell, double right, double up, double weight) {
+    sums.right[cell] += weight * right;
+    sums.up[cell] += weight * up;
+    sums.weight[cell] += weight;
+}
+
+// From sums to means.
+void divide(VelocityGrid& grid) {
+    for (std::size_t i = 0; i < grid.weight.size(); ++i) {
+        if (grid.weight[i] == 0) continue;
+        grid.right[i] /= grid.weight[i];
+        grid.up[i] /= grid.weight[i];
+    }
+}
+
+struct Mean {
+    double sum = 0, count = 0;
+    void add(double value) { sum += value, count += 1; }
+    double value() const { return sum / count; }
+};
+
+}  // namespace
+
+Drift::Drift(const Scene& scene)
+    : walls_(scene), half_width_(scene.container.half_width), cells_(cells_of(scene)) {}
+
+void Drift::note(std::int64_t period, const Grains& grains, const Pose& pose) {
+    if (cells_.weight.empty()) return;
+    if (period != next_) windows_.clear();
+    if (period == next_) windows_.push_back(compare(grains, pose));
+    if (windows_.size() > kWindows) windows_.pop_front();
+    find_centres();
+    remember(grains, pose);
+    next_ = period + kPeriods;
+}
+
+void Drift::remember(const Grains& grains, const Pose& pose) {
+    before_.assign(before_.size(), {kNoValue, kNoValue});
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const auto id = static_cast<std::size_t>(grains.id[i]);
+        if (id >= before_.size()) before_.resize(id + 1, {kNoValue, kNoValue});
+        const Vec3 place = grains.place[i].position - pose.offset;
+        before_[id] = {place.y(), place.z()};
+    }
+}
+
+Drift::Window Drift::compare(const Grains& grains, const Pose& pose) const {
+    Window window;
+    window.grid = cells_;
+    Mean all;
+    std::array<Mean, zones> zone;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const auto id = static_cast<std::size_t>(grains.id[i]);
+        if (id >= before_.size() || std::isnan(before_[id][0])) continue;
+        const Vec3 place = grains.place[i].position - pose.offset;
+        const double right = (place.y() - before_[id][0]) / kPeriods,
+                     up = (place.z() - before_[id][1]) / kPeriods;
+        const double y = 0.5 * (place.y() + before_[id][0]), z = 0.5 * (place.z() + before_[id][1]);
+        add(window.grid, cell_at(cells_, y, z), right, up, 1);
+        all.add(up);
+        const Side side = walls_.side_of(
+            {{grains.place[i].position.x() - pose.offset.x(), y, z}, grains.place[i].radius}, Pose());
+        if (side == Side::left) zone[at_left_wall].add(up);
+        if (side == Side::right) zone[at_right_wall].add(up);
+        if (std::abs(y) < half_width_ / 3) zone[in_middle].add(up);
+    }
+    divide(window.grid);
+    for (std::size_t z = 0; z < zones; ++z) window.rise[z] = zone[z].value() - all.value();
+    window.left_roll = circulation(window.grid, -half_width_, 0).speed();
+    window.right_roll = -circulation(window.grid, 0, half_width_).speed();
+    return window;
+}
+
+template <class Value>
+Estimate Drift::estimate(const Value& value) const {
+    const auto count = static_cast<double>(windows_.size());
+    double mean = 0, squares = 0;
+    for (const Window& window : windows_) mean += value(window) / count;
+    for (const Window& window : windows_) squares += (value(window) - mean) * (value(window) - mean);
+    if (windows_.empty()) return {kNoValue, kNoValue};
+    return {mean, windows_.size() > 1 ? std::sqrt(squares / (count - 1) / count) : kNoValue};
+}
+
+Estimate Drift::rise(Zone zone) const {
+    return estimate([&](const Window& window) { return window.rise[zone]; });
+}
+
+Estimate Drift::roll(Side half) const {
+    return estimate(
+        [&](const Window& window) { return half == Side::left ? window.left_roll : window.right_roll; });
+}
+
+VelocityGrid Drift::sum_of_windows() const {
+    VelocityGrid sum = cells_;
+    for (const Window& window : windows_)
+        for (std::size_t i = 0; i < sum.weight.size(); ++i)
+            add(sum, i, window.grid.right[i], window.grid.up[i], window.grid.weight[i]);
+    divide(sum);
+    return sum;
+}
+
+void Drift::find_centres() {
+    left_centre_ = right_centre_ = {};
+    if (windows_.empty()) return;
+    const VelocityGrid grid = sum_of_windows();
+    const std::vector<double> psi = stream_function(grid);
+    left_centre_ = roll_centre(grid, psi, -half_width_, 0);
+    right_centre_ = roll_centre(grid, psi, 0, half_width_);
+}
+
+void Drift::save(std::ostream& out) const {
+    const Writing each{out};
+    each(next_), each(before_), each(static_cast<std::uint64_t>(windows_.size()));
+    for (const Window& w : windows_)
+        each(w.rise), each(w.left_roll), each(w.right_roll), each(w.grid.right), each(w.grid.up),
+            each(w.grid.weight);
+}
+
+void Drift::load(Bytes& in) {
+    const Reading each{in};
+    std::uint64_t count = 0;
+    each(next_), each(before_), each(count);
+    if (count > kWindows) in.fail();
+    for (std::uint64_t i = 0; i < count && !in.failed(); ++i) {
+        Window& w = windows_.emplace_back();
+        w.grid = cells_;
+        each(w.rise), each(w.left_roll), each(w.right_roll), each(w.grid.right), each(w.grid.up),
+            each(w.grid.weight);
+        const std::size_t cells = cells_.weight.size();
+        if (w.grid.right.size() != cells || w.grid.up.size() != cells || w.grid.weight.size() != cells)
+            in.fail();
+    }
+    if (!in.failed()) find_centres();
+}
+
+}  // namespace grainreel

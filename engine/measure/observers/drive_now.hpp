@@ -1,0 +1,36 @@
+// What the drive does: frequency and acceleration of the stage that is on.
+#pragma once
+
+#include <limits>
+
+#include "engine/measure/observer.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
+
+namespace grainreel::observers {
+
+// f, and Gamma = a (2 pi f)^2 / g; in a change those of the moment.
+class DriveNow final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"drive_frequency_Hz", "drive frequency", Dimension::frequency}},
+                 "Hz",
+                 "of the stage that is on, of a tap 1 over how long it lasts; 0 at rest and without a drive"},
+                {{{"drive_g_level", "Γ of the drive"}},
+                 "1",
+                 "of the stage that is on, the ramp left out; 0 at rest and without a drive, NaN without "
+                 "gravity"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        const Drive& drive = m.scene.drive;
+        double frequency = 0, g_level = 0;
+        const DriveSchedule::Now now = drive_now(drive, m.clock.cycles(m.step));
+        if (drive.present && now.kind != DriveStage::Kind::rest) {
+            frequency = now.frequency;
+            g_level = Drive{true, now.frequency, now.amplitude}.g_level(m.gravity.norm());
+            if (m.gravity.isZero(0)) g_level = std::numeric_limits<double>::quiet_NaN();
+        }
+        row.insert(row.end(), {frequency, g_level});
+    }
+};
+
+}  // namespace grainreel::observers

@@ -1,0 +1,131 @@
+// The shape of the bed's surface: waves across the container, and heaps.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <optional>
+
+#include "engine/measure/no_value.hpp"
+#include "engine/measure/observer.hpp"
+#include "engine/measure/rows.hpp"
+#include "engine/measure/surface/mound.hpp"
+#include "engine/measure/surface/spectrum.hpp"
+#include "engine/measure/surface/subharmonics.hpp"
+#include "engine/measure/surface/surface_frame.hpp"
+
+namespace grainreel::observers {
+
+class BedSurface final : public Observer {
+  public:
+    static constexpr const char* instrument = "surface";
+
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        constexpr Dimension length = Dimension::length;
+        return {
+            {{{"surface_wavelength_m", "wavelength of the surface", length}},
+             "m",
+             "of the wave across the container of which the surface has most (whole and half numbers of "
+             "waves)"},
+            {{{"surface_wave", "share of the largest wave"}},
+             "1",
+             "share of that wave in the variance of the surface's height"},
+            {{{"surface_rms_m", "roughness of the surface", length}},
+             "m",
+             "root mean square deviation of the surface from its mean height"},
+            {{{"surface_half", "share of waves at f/2"}, {"surface_quarter", "share of waves at f/4"}},
+             "1",
+             "share of the surface's shape, over eight periods at this phase, that is inverted after each "
+             "period, and after two; by chance 1/8 and 1/4"},
+            {{{"mound_height_m", "height of the mound", length}},
+             "m",
+             "mean height of the surface's middle third less that of its two outer sixths"},
+            {{{"mound_slope", "slope of the mound"}},
+             "1",
+             "tangent of the mean rise from both walls to the middle"},
+            {{{"surface_tilt", "tilt of the surface"}}, "1", "tangent of the rise from left to right"}};
+    }
+    BedSurface(const Scene& scene, const Plan& plan) : rows_(plan), frame_(surface_frame(scene)) {}
+
+    std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
+    void start(const Moment& m) override { gather(m); }
+    // The surfaces of all rows of the last periods.
+    void gather(const Moment& m) override {
+        if (m.clock.steps_per_period == 0 || !has_surface(m)) return;
+        earlier_.push_back({m.step, surface_at(m).height});
+        while (periods_since(m, earlier_.front()) >= kComparedPeriods - kHair) earlier_.pop_front();
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!has_surface(m)) return add_no_values(row, 8);
+        const Surface surface = surface_at(m);
+        if (!spectrum_) spectrum_.emplace(surface.height.size());
+        const DominantWave wave = spectrum_->dominant(surface.height, surface.width());
+        const Subharmonics shares = compare_with_earlier(m, surface.height);
+        const Mound mound = mound_of(surface);
+        row.insert(row.end(), {wave.wavelength, wave.share, std::sqrt(variance_of(surface.height)),
+                               shares.half, shares.quarter, mound.height, mound.slope, mound.tilt});
+    }
+    void save(std::ostream& out) const override {
+        write_value(out, static_cast<std::uint64_t>(earlier_.size()));
+        for (const Earlier& earlier : earlier_) {
+            write_value(out, earlier.step);
+            write_vector(out, earlier.height);
+        }
+    }
+    void load(const Moment& m, Bytes& in) override {
+        std::uint64_t count = 0;
+        read_value(in, count);
+        std::int64_t last = -1;
+        for (std::uint64_t i = 0; i < count && !in.failed(); ++i) {
+            Earlier& earlier = earlier_.emplace_back();
+            read_value(in, earlier.step);
+            read_vector(in, earlier.height);
+            const bool finite = std::all_of(earlier.height.begin(), earlier.height.end(),
+                                            [](double h) { return std::isfinite(h); });
+            if (earlier.step <= last || earlier.step > m.step || !finite ||
+                earlier.height.size() != bins_across(frame_))
+                in.fail();
+            last = earlier.step;
+        }
+    }
+
+  private:
+    struct Earlier {
+        std::int64_t step = 0;
+        std::vector<double> height;  // m
+    };
+
+    static constexpr double kHair = 1e-3;  // of a period: rows are whole steps
+
+    static double periods_since(const Moment& m, const Earlier& earlier) {
+        return m.clock.cycles(m.step) - m.clock.cycles(earlier.step);
+    }
+    bool has_surface(const Moment& m) const { return frame_.right > frame_.left && m.grains.size() > 0; }
+    Surface surface_at(const Moment& m) const {
+        SurfaceFrame frame = frame_;
+        frame.left += m.pose.offset.y(), frame.right += m.pose.offset.y();
+        frame.back += m.pose.offset.x(), frame.front += m.pose.offset.x();
+        return surface_of(m.grains.place, frame);
+    }
+    // NaN until as many periods have been seen at this phase, and where rows do not come whole periods apart.
+    Subharmonics compare_with_earlier(const Moment& m, const std::vector<double>& height) const {
+        if (m.clock.steps_per_period == 0) return {kNoValue, kNoValue};
+        std::vector<const std::vector<double>*> same_phase;
+        for (const Earlier& earlier : earlier_) {
+            const double periods = periods_since(m, earlier);
+            if (earlier.step < m.step && periods < kComparedPeriods - kHair &&
+                std::abs(periods - std::round(periods)) < kHair)
+                same_phase.push_back(&earlier.height);
+        }
+        same_phase.push_back(&height);
+        if (same_phase.size() != kComparedPeriods) return {kNoValue, kNoValue};
+        return subharmonics_of(same_phase);
+    }
+
+    const Rows rows_;
+    const SurfaceFrame frame_;
+    std::optional<Spectrum> spectrum_;
+    std::deque<Earlier> earlier_;  // by rising step
+};
+
+}  // namespace grainreel::observers

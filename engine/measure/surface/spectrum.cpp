@@ -1,0 +1,71 @@
+#include "engine/measure/surface/spectrum.hpp"
+
+#include <fftw3.h>
+
+#include <cmath>
+#include <complex>
+#include <mutex>
+#include <numeric>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/no_value.hpp"
+
+namespace grainreel {
+namespace {
+
+// FFTW makes and destroys plans one at a time; several runs may be compared at once.
+std::mutex planning;
+
+}  // namespace
+
+struct Spectrum::Plan {
+    explicit Plan(std::size_t count) : bins(count), in(2 * count, 0), out(count + 1) {
+        const std::scoped_lock lock(planning);
+        plan = fftw_plan_dft_r2c_1d(static_cast<int>(in.size()), in.data(),
+                                    reinterpret_cast<fftw_complex*>(out.data()), FFTW_ESTIMATE);
+    }
+    ~Plan() {
+        const std::scoped_lock lock(planning);
+        fftw_destroy_plan(plan);
+    }
+
+    const std::size_t bins;
+    std::vector<double> in;
+    std::vector<std::complex<double>> out;  // the same bytes as fftw_complex, as FFTW's manual says
+    fftw_plan plan;
+};
+
+Spectrum::Spectrum(std::size_t bins) : plan_(std::make_unique<Plan>(bins)) {}
+Spectrum::~Spectrum() = default;
+Spectrum::Spectrum(Spectrum&&) noexcept = default;
+Spectrum& Spectrum::operator=(Spectrum&&) noexcept = default;
+
+DominantWave Spectrum::dominant(const std::vector<double>& heights, double width) {
+    const std::size_t bins = plan_->bins;
+    GRAINREEL_CHECK(heights.size() == bins);
+    const double mean = mean_height_of(heights), variance = variance_of(heights);
+    for (std::size_t j = 0; j < bins; ++j) plan_->in[j] = heights[j] - mean;
+    fftw_execute(plan_->plan);
+    std::size_t dominant = 0;
+    double largest = 0;
+    for (std::size_t k = 1; k <= bins / 2; ++k) {
+        const double power = std::norm(plan_->out[k]);
+        if (power > largest) largest = power, dominant = k;
+    }
+    if (dominant == 0 || variance == 0) return {kNoValue, kNoValue};
+    const auto count = static_cast<double>(bins);
+    return {2 * width / static_cast<double>(dominant), 2 * largest / (count * count * variance)};
+}
+
+double mean_height_of(const std::vector<double>& heights) {
+    return std::accumulate(heights.begin(), heights.end(), 0.0) / static_cast<double>(heights.size());
+}
+
+double variance_of(const std::vector<double>& heights) {
+    const double mean = mean_height_of(heights);
+    double sum = 0;
+    for (const double h : heights) sum += (h - mean) * (h - mean);
+    return sum / static_cast<double>(heights.size());
+}
+
+}  // namespace grainreel

@@ -1,0 +1,31 @@
+#include "engine/measure/surface/surface_frame.hpp"
+
+#include "engine/scene/bed.hpp"
+#include "engine/state/container_faces.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double kSettled = 0.6;  // solid fraction of a bed at rest
+
+}  // namespace
+
+SurfaceFrame surface_frame(const Scene& scene) {
+    SurfaceFrame frame;
+    const Container& c = scene.container;
+    if (c.shape == Container::Shape::none) return frame;
+    double grains = 0, diameters = 0;
+    for (const Species& s : scene.species) {
+        grains += static_cast<double>(s.count);
+        diameters += static_cast<double>(s.count) * s.diameter.mean;
+    }
+    frame.diameter = diameters / grains;
+    frame.right = c.half_width_at(fill_height(scene, kSettled));
+    frame.left = -frame.right;
+    frame.front = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
+    frame.back = -frame.front;
+    frame.period = period_of_depth(c);
+    return frame;
+}
+
+}  // namespace grainreel

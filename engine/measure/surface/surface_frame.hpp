@@ -1,0 +1,13 @@
+// Where the surface of a scene's bed is looked for.
+#pragma once
+
+#include "engine/measure/surface/surface.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// Of the container at rest, as wide as it is free at the height that the grains fill. Bins go by the mean
+// diameter of all grains. Of no width in empty space.
+SurfaceFrame surface_frame(const Scene& scene);
+
+}  // namespace grainreel

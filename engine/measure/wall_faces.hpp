@@ -1,0 +1,36 @@
+// The faces of a scene as measures name them, and what their sums are counted in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/measure/field.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/step/forces/wall_sums.hpp"
+
+namespace grainreel {
+
+// Container and planes, in the order of the surroundings' faces, as parts of columns: "left_slant". Each name
+// once: of planes of one name the second is "NAME_2".
+std::vector<std::string> face_names(const Scene& scene);
+
+// A force's quantum is 2^-48 of what the stiffest wall would give the largest grain over its radius.
+WallScale wall_scale(const Scene& scene, const Plan& plan);
+
+// Pressure on the faces of the container that stand, in slices of equal height.
+class PressureProfile {
+  public:
+    explicit PressureProfile(const Scene& scene);
+
+    const FieldSet& fields() const { return fields_; }
+    // normal: N, of all slices, face after face.
+    FieldValues pressures(const std::vector<double>& normal) const;
+
+  private:
+    FieldSet fields_;
+    std::vector<std::size_t> faces_;         // which of the surroundings' faces each field is of
+    std::vector<std::vector<double>> area_;  // m2, of each slice of those
+};
+
+}  // namespace grainreel

@@ -1,0 +1,30 @@
+// outflow.csv: one row for each grain that left the run, in the order in which they left.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "engine/base/clock.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/step/traffic.hpp"
+
+namespace grainreel {
+
+class OutflowWriter {
+  public:
+    // Throws RunError when the file cannot be made.
+    explicit OutflowWriter(const std::filesystem::path& path);
+
+    // time_s, id, type (from 1, as in final.csv), radius in m, place in m, velocity in m/s. The rows are on
+    // disk when this returns. Throws RunError when they could not be written.
+    void write(const std::vector<Departure>& gone, const Clock& clock);
+
+    std::int64_t rows() const { return rows_; }
+
+  private:
+    TextFile file_;
+    std::int64_t rows_ = 0;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,161 @@
+#include "engine/scene/drive/drive_schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace grainreel {
+namespace {
+
+using Kind = DriveStage::Kind;
+
+constexpr double hair = 1e-6;  // periods: a stage that comes later than a whole one by less begins with it
+constexpr int looks_at_change = 256;
+
+double acceleration_of(double amplitude, double frequency) {
+    const double omega = 2 * std::numbers::pi * frequency;
+    return amplitude * omega * omega;
+}
+
+double amplitude_of(double acceleration, double frequency) {
+    const double omega = 2 * std::numbers::pi * frequency;
+    return acceleration > 0 ? acceleration / (omega * omega) : 0;  // at rest there is no frequency either
+}
+
+// Of a vibration, or of a tap.
+DriveSchedule::Piece piece_of(std::size_t stage, Kind kind, double frequency, double amplitude,
+                              double interval) {
+    const double acceleration = acceleration_of(amplitude, frequency);
+    return {stage, kind, frequency, frequency, acceleration, acceleration, interval};
+}
+
+}  // namespace
+
+DriveSchedule::DriveSchedule(const Drive& drive) {
+    // A first stage that is on from the start leaves no time to what would be before it.
+    const bool at_once = drive.changes() && drive.stages.front().from <= 0;
+    add({0, 0, 1 / drive.frequency, 1 / drive.frequency},
+        piece_of(0, at_once ? Kind::rest : Kind::vibrate, drive.frequency, at_once ? 0 : drive.amplitude, 0));
+    for (std::size_t k = 0; k < drive.stages.size(); ++k) begin(k + 1, drive.stages[k]);
+}
+
+void DriveSchedule::add(const PeriodStretch& stretch, const Piece& piece) {
+    times_.add(stretch);
+    pieces_.push_back(piece);
+}
+
+void DriveSchedule::begin(std::size_t stage, const DriveStage& next) {
+    const Piece before = pieces_.back();
+    const PeriodStretch last = times_.stretches().back();
+    const double cycles =
+        std::max(last.cycles, std::ceil(last.cycles + last.cycles_after(next.from - last.start) - hair));
+    PeriodStretch stretch{last.start + last.time_after(cycles - last.cycles), cycles, last.period,
+                          last.period};
+    const bool vibrated = before.kind == Kind::vibrate, vibrates = next.kind == Kind::vibrate;
+    const Piece after = piece_of(stage, next.kind, next.frequency, next.amplitude, next.interval);
+    const bool same = vibrated && vibrates && before.frequency == after.frequency &&
+                      before.acceleration == after.acceleration;
+    if ((vibrated || vibrates) && !same) {
+        Piece change = after;
+        change.kind = Kind::vibrate;
+        if (vibrated)
+            change.frequency_before = before.frequency;
+        else
+            stretch.period = 1 / after.frequency;  // from rest: nothing moves yet
+        if (!vibrates) change.frequency = before.frequency;
+        change.acceleration_before = vibrated ? before.acceleration : 0;
+        change.acceleration = vibrates ? after.acceleration : 0;
+        change.interval = 0;
+        stretch.period_after = 1 / change.frequency;
+        stretch.length = length_of_change(next.over, stretch.period, stretch.period_after);
+        add(stretch, change);
+        stretch = {stretch.start + stretch.length, cycles + next.over, stretch.period_after};
+    }
+    if (vibrates) stretch.period = 1 / after.frequency;
+    if (next.kind == Kind::taps) stretch.period = next.interval;
+    stretch.period_after = stretch.period;
+    add(stretch, after);
+}
+
+DriveChange DriveSchedule::change(std::size_t piece) const {
+    const Piece& p = pieces_[piece];
+    return {p.frequency_before, p.frequency, p.acceleration_before, p.acceleration,
+            times_.stretches()[piece].length};
+}
+
+double DriveSchedule::begins(std::size_t stage) const {
+    const auto first = std::find_if(pieces_.begin(), pieces_.end(),
+                                    [&](const Piece& piece) { return piece.stage == stage; });
+    return times_.stretches()[static_cast<std::size_t>(first - pieces_.begin())].start;
+}
+
+double DriveSchedule::settled(std::size_t stage) const {
+    const auto last = std::find_if(pieces_.rbegin(), pieces_.rend(),
+                                   [&](const Piece& piece) { return piece.stage == stage; });
+    return times_.stretches()[static_cast<std::size_t>(pieces_.rend() - last) - 1].start;
+}
+
+DriveSchedule::Now DriveSchedule::now(double cycles) const {
+    const std::size_t index = times_.index_at_cycles(cycles + hair);
+    const Piece& piece = pieces_[index];
+    const PeriodStretch& stretch = times_.stretches()[index];
+    Now now{piece.stage,
+            piece.kind,
+            stretch.changes(),
+            piece.frequency,
+            amplitude_of(piece.acceleration, piece.frequency),
+            piece.interval};
+    if (!now.changing) return now;
+    const double u = std::clamp(stretch.time_after(cycles - stretch.cycles) / stretch.length, 0.0, 1.0);
+    const DriveChange::Values values = change(index).at(u);
+    now.frequency = values.omega / (2 * std::numbers::pi);
+    now.amplitude = values.amplitude;
+    return now;
+}
+
+DriveSchedule::Now drive_now(const Drive& drive, double cycles) {
+    if (drive.changes()) return DriveSchedule(drive).now(cycles);
+    DriveSchedule::Now now;
+    now.frequency = drive.frequency;
+    now.amplitude = drive.amplitude;
+    return now;
+}
+
+DrivePeaks drive_peaks(const Drive& drive) {
+    const double omega = 2 * std::numbers::pi * drive.frequency;
+    DrivePeaks peaks{drive.frequency, drive.amplitude, drive.speed(), drive.amplitude * omega * omega};
+    if (!drive.changes()) return peaks;
+    const DriveSchedule schedule(drive);
+    peaks = {};
+    const auto take = [&](double frequency, const Envelope& most) {
+        peaks.frequency = std::max(peaks.frequency, frequency);
+        peaks.offset = std::max(peaks.offset, most.offset);
+        peaks.speed = std::max(peaks.speed, most.speed);
+        peaks.acceleration = std::max(peaks.acceleration, most.acceleration);
+    };
+    for (std::size_t i = 0; i < schedule.pieces().size(); ++i) {
+        const DriveSchedule::Piece& piece = schedule.pieces()[i];
+        const bool changes = schedule.times().stretches()[i].changes();
+        for (int k = 0; changes && k <= looks_at_change; ++k)
+            take(0, envelope_of(schedule.change(i).at(static_cast<double>(k) / looks_at_change)));
+        if (changes || piece.kind == Kind::rest) continue;
+        const double amplitude = amplitude_of(piece.acceleration, piece.frequency);
+        take(piece.frequency, {(piece.kind == Kind::taps ? 2 : 1) * amplitude,
+                               amplitude * 2 * std::numbers::pi * piece.frequency, piece.acceleration});
+    }
+    return peaks;
+}
+
+double peak_acceleration_of_change(const DriveSchedule& schedule, std::size_t stage) {
+    double peak = 0;
+    for (std::size_t i = 0; i < schedule.pieces().size(); ++i)
+        for (int k = 0; schedule.pieces()[i].stage == stage && schedule.times().stretches()[i].changes() &&
+                        k <= looks_at_change;
+             ++k)
+            peak = std::max(
+                peak,
+                envelope_of(schedule.change(i).at(static_cast<double>(k) / looks_at_change)).acceleration);
+    return peak;
+}
+
+}  // namespace grainreel

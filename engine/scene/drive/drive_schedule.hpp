@@ -1,0 +1,69 @@
+// What the drive does when: its stages one after the other, and the changes between them.
+//
+// A stage begins with the first whole period that starts at its `from` or later, and its change takes whole
+// periods. So each stretch begins at the drive's first phase, and the count of periods goes on without a
+// jump. A period of taps lasts from one tap to the next; at rest the periods of before go on.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/period_table.hpp"
+#include "engine/scene/drive/drive_change.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+class DriveSchedule {
+  public:
+    // The drive oscillates, and its stages have passed check_stages().
+    explicit DriveSchedule(const Drive& drive);
+
+    // Of each stretch of times(), beside it.
+    struct Piece {
+        std::size_t stage = 0;  // the one that is on, or that it changes to; 0: before the first, k: the k-th
+        DriveStage::Kind kind = DriveStage::Kind::vibrate;  // of what it does; a change vibrates
+        double frequency_before = 0, frequency = 0;         // Hz, of the vibration or of a tap
+        double acceleration_before = 0, acceleration = 0;   // m/s2, a (2 pi f)^2
+        double interval = 0;                                // s, between taps
+    };
+    const PeriodTable& times() const { return times_; }  // s
+    const std::vector<Piece>& pieces() const { return pieces_; }
+    DriveChange change(std::size_t piece) const;
+
+    // s: when the change to a stage begins, and when it is over; stages count from 1.
+    double begins(std::size_t stage) const;
+    double settled(std::size_t stage) const;
+
+    // What is on after so many periods. In a change it has the values of that moment.
+    struct Now {
+        std::size_t stage = 0;
+        DriveStage::Kind kind = DriveStage::Kind::vibrate;
+        bool changing = false;
+        double frequency = 0, amplitude = 0;  // Hz, m
+        double interval = 0;                  // s, between taps
+    };
+    Now now(double cycles) const;
+
+  private:
+    void begin(std::size_t stage, const DriveStage& next);
+    void add(const PeriodStretch& stretch, const Piece& piece);
+
+    PeriodTable times_;
+    std::vector<Piece> pieces_;
+};
+
+// Likewise, of a drive with stages or without.
+DriveSchedule::Now drive_now(const Drive& drive, double cycles);
+
+// The most that the drive does in all its course, changes included. Without stages what the drive has.
+struct DrivePeaks {
+    double frequency = 0;     // Hz, of vibrations and taps
+    double offset = 0;        // m, from rest; a tap's is twice its amplitude
+    double speed = 0;         // m/s
+    double acceleration = 0;  // m/s2
+};
+DrivePeaks drive_peaks(const Drive& drive);
+// m/s2, the most in the change to a stage; 0 where nothing has to change.
+double peak_acceleration_of_change(const DriveSchedule& schedule, std::size_t stage);
+
+}  // namespace grainreel

@@ -1,0 +1,19 @@
+// The keys of [[drive.stage]].
+#pragma once
+
+#include "engine/scene/keys/key_parts.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/scene/text/document.hpp"
+#include "engine/scene/text/toml_text.hpp"
+
+namespace grainreel {
+
+void list_stages(keys::Keys& all);
+// After all else of [drive]. Throws UserError.
+void read_stages(Document& document, Scene& scene);
+void write_stages(SceneText& out, const Scene& scene);
+
+// Throws UserError where stages do not fit each other, the ramp or the run.
+void check_stages(const Scene& scene);
+
+}  // namespace grainreel

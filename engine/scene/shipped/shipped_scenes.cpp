@@ -1,0 +1,70 @@
+#include "engine/scene/shipped/shipped_scenes.hpp"
+
+#include <algorithm>
+
+#include "engine/base/nearest_name.hpp"
+
+namespace grainreel {
+namespace {
+
+std::string plain_name(std::string_view name) {
+    constexpr std::string_view extension = ".toml";
+    if (name.size() > extension.size() && name.substr(name.size() - extension.size()) == extension)
+        name.remove_suffix(extension.size());
+    std::string plain(name);
+    std::replace(plain.begin(), plain.end(), '-', '_');
+    return plain;
+}
+
+// The lines of the comment at the top of a text, in one line.
+std::string first_comment(std::string_view text) {
+    std::string comment;
+    while (!text.empty() && text.front() == '#') {
+        const std::string_view line = text.substr(1, text.find('\n') - 1);
+        const std::size_t start = line.find_first_not_of(' ');
+        if (start == std::string_view::npos) break;
+        comment += (comment.empty() ? "" : " ") + std::string(line.substr(start));
+        text.remove_prefix(std::min(text.size(), line.size() + 2));
+    }
+    return comment;
+}
+
+}  // namespace
+
+std::string ShippedScene::about() const {
+    const std::string comment = first_comment(text);
+    for (std::size_t i = 0; i < comment.size(); ++i) {
+        const bool ends = comment[i] == '.' || comment[i] == '?';
+        if (ends && (i + 1 == comment.size() || comment[i + 1] == ' '))
+            return comment.substr(0, comment[i] == '?' ? i + 1 : i);
+    }
+    return comment;
+}
+
+const ShippedScene* shipped_scene(std::string_view name) {
+    const std::string plain = plain_name(name);
+    const auto& all = shipped_scenes();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const ShippedScene& scene) { return scene.name == plain; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+const ShippedScene* shipped_scene_like(std::string_view words) {
+    if (const ShippedScene* exact = shipped_scene(words)) return exact;
+    const std::string plain = plain_name(words);
+    const ShippedScene* only = nullptr;
+    for (const ShippedScene& scene : shipped_scenes()) {
+        if (scene.name.find(plain) == std::string::npos) continue;
+        if (only) return nullptr;
+        only = &scene;
+    }
+    return only;
+}
+
+std::optional<std::string> nearest_shipped_scene(std::string_view name) {
+    std::vector<std::string> names;
+    for (const ShippedScene& scene : shipped_scenes()) names.push_back(scene.name);
+    return nearest_name(plain_name(name), names);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,36 @@
+#include "render/cli/estimate/disk_estimate.hpp"
+
+#include "render/film/files/film_limits.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double trajectory_bytes = 64;  // a grain and frame: id, type, radius, x in double, v, spin
+constexpr double orientation_bytes = 16;
+constexpr double measures_bytes = 400;  // a row
+constexpr double end_state_bytes =
+    1500;  // a grain: its row of final.csv, and lists and histories of the checkpoint
+
+// every: steps from one to the next, not always a whole number.
+std::int64_t moments(std::int64_t steps, double every) {
+    return static_cast<std::int64_t>(static_cast<double>(steps) / every) + 1;
+}
+
+}  // namespace
+
+DiskEstimate estimate_disk(const Scene& scene, const Plan& plan, std::int64_t pictures) {
+    const auto grains = static_cast<double>(scene.grains());
+    DiskEstimate disk;
+    if (plan.trajectory_every > 0) {
+        disk.trajectory_frames = moments(plan.steps, plan.trajectory_every);
+        disk.trajectory = static_cast<double>(disk.trajectory_frames) * grains *
+                          (trajectory_bytes + (scene.keeps_orientations() ? orientation_bytes : 0));
+    }
+    disk.measures_rows = moments(plan.steps, plan.measures_every);
+    disk.measures = static_cast<double>(disk.measures_rows) * measures_bytes;
+    if (pictures > 0) disk.film = estimated_film_size(scene.film, pictures);
+    disk.end_state = grains * end_state_bytes;
+    return disk;
+}
+
+}  // namespace grainreel

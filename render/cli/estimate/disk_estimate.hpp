@@ -1,0 +1,22 @@
+// What a run will leave on disk.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+struct DiskEstimate {
+    std::int64_t trajectory_frames = 0, measures_rows = 0;
+    double trajectory = 0, measures = 0, film = 0;  // bytes
+    double end_state = 0;                           // of checkpoint and final.csv
+
+    double all() const { return trajectory + measures + film + end_state; }
+};
+
+// pictures: of the film; 0 without one.
+DiskEstimate estimate_disk(const Scene& scene, const Plan& plan, std::int64_t pictures);
+
+}  // namespace grainreel

@@ -1,0 +1,43 @@
+// Where the film stands still so that a caption can be read.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// Frames that one caption's hold adds to the film.
+inline std::int64_t held_frames(const FilmCaption& caption, double rate) {
+    return std::llround(caption.hold * rate);
+}
+inline std::int64_t held_frames(const Film& film) {
+    std::int64_t frames = 0;
+    for (const FilmCaption& caption : film.captions) frames += held_frames(caption, film.rate);
+    return frames;
+}
+
+// Counts what is added picture by picture.
+class CaptionHolds {
+  public:
+    explicit CaptionHolds(const Film& film) : captions_(film.captions), rate_(film.rate) {}
+
+    // How often the picture at this simulated time (s; they come by rising time) is shown again: it is the
+    // first with its caption, or it is not.
+    std::int64_t begin_at(double time) {
+        for (; next_ < captions_.size() && time >= captions_[next_].from - rounding; ++next_)
+            if (shows_caption(captions_[next_], time)) return held_frames(captions_[next_++], rate_);
+        return 0;
+    }
+
+  private:
+    static constexpr double rounding = 1e-9;  // s
+    std::vector<FilmCaption> captions_;
+    double rate_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace grainreel

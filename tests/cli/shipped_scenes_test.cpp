@@ -1,0 +1,106 @@
+// The scenes that come with the program: listed, copied, run by name.
+#include "engine/scene/shipped/shipped_scenes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "engine/scene/text/reader.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+TEST(ShippedScenes, AreTheFilesOfTheFolderScenes) {
+    std::set<std::string> files, names;
+    for (const auto& entry : fs::directory_iterator(GRAINREEL_SOURCE "/scenes"))
+        if (entry.path().extension() == ".toml") files.insert(entry.path().stem());
+    for (const ShippedScene& scene : shipped_scenes()) {
+        names.insert(scene.name);
+        EXPECT_EQ(scene.text, text_of(fs::path(GRAINREEL_SOURCE "/scenes") / (scene.name + ".toml")));
+        EXPECT_THAT(scene.about(), testing::Not(testing::IsEmpty())) << scene.name;
+        EXPECT_EQ(scene.about().find('\n'), std::string::npos);
+    }
+    EXPECT_EQ(names, files);
+}
+
+TEST(ShippedScenes, AreFoundByNameAndByWordsOfIt) {
+    EXPECT_EQ(shipped_scene("gravel")->name, "gravel");
+    EXPECT_EQ(shipped_scene("wedge-mixing.toml")->name, "wedge_mixing");
+    EXPECT_EQ(shipped_scene("brazil-nut"), nullptr);
+    EXPECT_EQ(shipped_scene_like("brazil-nut")->name, "teaching_brazil_nut");
+    EXPECT_EQ(shipped_scene_like("wedge"), nullptr) << "there are several";
+    EXPECT_EQ(nearest_shipped_scene("gravle"), "gravel");
+    EXPECT_EQ(nearest_shipped_scene("/nowhere"), std::nullopt);
+}
+
+// The first sentence: a full stop inside a number does not end it.
+TEST(ShippedScenes, AreToldByTheFirstSentenceOfTheirComment) {
+    EXPECT_EQ((ShippedScene{"a", "# Grains of 0.5 mm\n#   fall. They rest.\n\ntitle = 1\n"}.about()),
+              "Grains of 0.5 mm fall");
+    EXPECT_EQ((ShippedScene{"a", "# Why do they rise? Look.\n"}.about()), "Why do they rise?");
+    EXPECT_EQ((ShippedScene{"a", "title = 1\n"}.about()), "");
+}
+
+TEST(ShippedScenes, AreReadByNameWhereThereIsNoSuchFile) {
+    const Scene by_name = read_scene("oblique_impact");
+    const Scene by_file = read_scene(GRAINREEL_SOURCE "/scenes/oblique_impact.toml");
+    EXPECT_EQ(by_name.name, by_file.name);
+    EXPECT_EQ(by_name.run.duration, by_file.run.duration);
+    const TemporaryFolder folder;
+    const Ended ended = run_program({"check", "gravle"}, {.folder = folder.path()});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err,
+                HasSubstr("gravle: there is no such file; did you mean the shipped scene 'gravel'?"));
+}
+
+TEST(NewScene, IsACopyThatCanBeRead) {
+    const TemporaryFolder folder;
+    const Ended ended = run_program({"new"}, {.folder = folder.path()});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, "gravel.toml\n");
+    EXPECT_EQ(text_of(folder.path() / "gravel.toml"), shipped_scene("gravel")->text);
+    EXPECT_EQ(run_program({"new", "mine", "--from", "brazil-nut"}, {.folder = folder.path()}).out,
+              "mine.toml\n");
+    EXPECT_EQ(read_scene(folder.path() / "mine.toml").title, read_scene("teaching_brazil_nut").title);
+}
+
+TEST(NewScene, OverwritesNothing) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "gravel.toml") << "precious";
+    const Ended ended = run_program({"new"}, {.folder = folder.path()});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_EQ(ended.err, "error: gravel.toml: is there already; choose another name\n");
+    EXPECT_EQ(text_of(folder.path() / "gravel.toml"), "precious");
+    const Ended unknown = run_program({"new", "x", "--from", "wedge"}, {.folder = folder.path()});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("--from: there is no single scene like 'wedge'; "));
+    EXPECT_FALSE(fs::exists(folder.path() / "x.toml"));
+    EXPECT_EQ(run_program({"new", "no/such"}, {.folder = folder.path()}).err,
+              "error: no: there is no such folder; make it first\n");
+}
+
+TEST(Doctor, FindsWhatFilmsNeed) {
+    const Ended ended = run_program({"doctor"}, {});
+    EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
+    for (const char* words : {"ok       processors", "M grain-steps/s on one thread",
+                              "ok       OpenGL by OSMesa", "H.264 in MP4", "Films can be made here."})
+        EXPECT_THAT(ended.out, HasSubstr(words));
+}
+
+}  // namespace
+}  // namespace grainreel

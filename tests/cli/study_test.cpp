@@ -1,0 +1,247 @@
+// The verb `study` as its users meet it: runs, stops, goes on, gathers.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "engine/output/measures_csv.hpp"
+#include "render/study/reduction.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+const std::string four_members = R"(scene = "fifty.toml"
+set = ["run.duration=0.1 s", "film.size=160x120"]
+seeds = 2
+[[vary]]
+key = "drive.g_level"
+values = [2, 3]
+[[measure]]
+name = "kinetic"
+column = "kinetic"
+reduce = "mean"
+)";
+
+std::string replaced(std::string text, const std::string& part, const std::string& other) {
+    const auto at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    return text.replace(at, part.size(), other);
+}
+
+// Members that nobody waits for.
+std::string with_long_runs() {
+    return replaced(four_members, "run.duration=0.1 s", "run.duration=1000 s");
+}
+
+class StudyVerb : public testing::Test {
+  protected:
+    StudyVerb() { write_small_scene(folder_.path()); }
+
+    std::string write(const std::string& text) const {
+        write_text(folder_ / "study.toml", text);
+        return (folder_ / "study.toml").string();
+    }
+    std::vector<std::string> words(const std::string& study, std::vector<std::string> more = {}) const {
+        std::vector<std::string> all{"study", study, "--out", out().string()};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    fs::path out() const { return folder_ / "out"; }
+    std::vector<fs::path> members() const {
+        std::vector<fs::path> all;
+        for (const auto& entry : fs::directory_iterator(out() / "members")) all.push_back(entry.path());
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+    nlohmann::json record(const fs::path& member) const {
+        return nlohmann::json::parse(std::ifstream(member / "run.json"));
+    }
+    // Row by row, cell by cell.
+    std::vector<std::vector<std::string>> table() const {
+        std::vector<std::vector<std::string>> rows;
+        std::istringstream text(text_of(out() / "study.csv"));
+        for (std::string line; std::getline(text, line);) {
+            rows.emplace_back();
+            std::istringstream cells(line);
+            for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+        }
+        return rows;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(StudyVerb, RunsReducesAndCharts) {
+    const Ended ended = run_program(words(write(four_members)), {});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, out().string() + "\n");
+    const auto rows = table();
+    ASSERT_EQ(rows.size(), 5u);
+    EXPECT_THAT(rows[0], testing::ElementsAre("drive.g_level", "run.seed", "state", "kinetic", "warnings",
+                                              "error", "folder"));
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        EXPECT_EQ(rows[i][0], i <= 2 ? "2" : "3");
+        EXPECT_EQ(rows[i][2], "complete");
+        const fs::path member = out() / rows[i].back();
+        EXPECT_EQ(record(member)["engine"]["seed"], std::stoi(rows[i][1]));
+        EXPECT_EQ(record(member)["threads"]["engine"], 1);
+        const auto measures = read_measures(member / "measures.csv");
+        const auto at = std::find(measures->columns().begin(), measures->columns().end(), "kinetic_J");
+        const auto column = static_cast<std::size_t>(at - measures->columns().begin());
+        EXPECT_EQ(std::stod(rows[i][3]), mean_of_values(measures->values(column, 0, measures->rows())));
+    }
+    EXPECT_NE(rows[1][3], rows[2][3]) << "seeds";
+    for (const char* file :
+         {"charts/kinetic.csv", "charts/kinetic.svg", "charts/kinetic.png", "index.html", "study.toml"})
+        EXPECT_TRUE(fs::exists(out() / file)) << file;
+    const std::string page = text_of(out() / "index.html");
+    EXPECT_THAT(page, HasSubstr("charts/kinetic.svg"));
+    for (const std::size_t first : {1, 3})
+        EXPECT_THAT(
+            page, HasSubstr("src=\"posters/" + fs::path(rows[first].back()).filename().string() + ".png\""));
+}
+
+// A member's run is the one that `movie --set ...` makes: the hash of its end state tells.
+TEST_F(StudyVerb, AMemberIsWhatMovieMakes) {
+    ASSERT_EQ(run_program(words(write(four_members), {"--no-posters"}), {}).status, 0);
+    const Ended movie = run_program(
+        {"movie", (folder_ / "fifty.toml").string(), "--no-film", "--out", (folder_ / "one").string(),
+         "--duration", "0.1 s", "--set", "drive.g_level=3", "--seed", "2"},
+        {});
+    ASSERT_EQ(movie.status, 0) << movie.err;
+    EXPECT_EQ(record(folder_ / "one")["engine"]["state_hash"],
+              record(out() / table().back().back())["engine"]["state_hash"]);
+}
+
+TEST_F(StudyVerb, GoesOnWithWhatIsMissing) {
+    const std::string study = write(four_members);
+    ASSERT_EQ(run_program(words(study, {"--no-posters"}), {}).status, 0);
+    const std::string before = text_of(out() / "study.csv");
+    const auto all = members();
+    ASSERT_EQ(all.size(), 4u);
+    std::vector<fs::file_time_type> times;
+    for (const fs::path& member : all) times.push_back(fs::last_write_time(member / "run.json"));
+    fs::remove_all(all[1]);
+    // As a killed run leaves it.
+    write_text(all[2] / "run.json", "{\"status\": \"run");
+    ASSERT_EQ(run_program(words(study, {"--no-posters"}), {}).status, 0);
+    EXPECT_EQ(text_of(out() / "study.csv"), before);
+    EXPECT_EQ(fs::last_write_time(all[0] / "run.json"), times[0]);
+    EXPECT_EQ(fs::last_write_time(all[3] / "run.json"), times[3]);
+    EXPECT_NE(fs::last_write_time(all[1] / "run.json"), times[1]);
+    EXPECT_NE(fs::last_write_time(all[2] / "run.json"), times[2]);
+}
+
+TEST_F(StudyVerb, StopsInGoodOrder) {
+    const std::string study = write(with_long_runs());
+    Program program(words(study, {"--jobs", "2", "--no-posters"}), {});
+    const auto some_vibrate = [&] {
+        if (!fs::exists(out() / "members")) return false;
+        for (const fs::path& member : members())
+            if (text_of(member / "measures.csv").size() > 2000) return true;
+        return false;
+    };
+    ASSERT_TRUE(wait_until(program, some_vibrate));
+    program.send(SIGINT);
+    const Ended ended = program.wait();
+    EXPECT_EQ(ended.status, 130) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("the same command goes on"));
+    EXPECT_EQ(table().size(), 5u);
+    for (const fs::path& member : members()) EXPECT_EQ(record(member)["status"], "interrupted");
+    EXPECT_THAT(text_of(out() / "study.csv"), HasSubstr("incomplete"));
+}
+
+// What ends at once leaves no member behind that goes on by itself.
+TEST_F(StudyVerb, MembersEndWithAKilledStudy) {
+    Program program(words(write(with_long_runs()), {"--jobs", "1", "--no-posters"}), {});
+    ASSERT_TRUE(wait_until(program, [&] {
+        return fs::exists(out() / "members") && !members().empty() &&
+               fs::exists(members()[0] / "measures.csv");
+    }));
+    program.send(SIGKILL);
+    program.wait();
+    const fs::path member = members()[0];
+    for (int i = 0; i < 100 && record(member)["status"] == "running"; ++i) usleep(100'000);
+    EXPECT_EQ(record(member)["status"], "interrupted");
+}
+
+TEST_F(StudyVerb, AFailedMemberEndsNothing) {
+    // The step of the second value is far beyond what the contacts allow.
+    const std::string study = write(
+        replaced(replaced(four_members, "drive.g_level", "run.step"), "[2, 3]", "[\"1e-5 s\", \"1e-2 s\"]"));
+    const Ended ended = run_program(words(study, {"--no-posters"}), {});
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    const auto rows = table();
+    ASSERT_EQ(rows.size(), 5u);
+    EXPECT_EQ(rows[1][2], "complete");
+    EXPECT_EQ(rows[3][2], "failed");
+    EXPECT_FALSE(rows[3][5].empty()) << "the reason";
+    EXPECT_THAT(ended.err, HasSubstr("2 of 4 members are complete, 2 failed"));
+    EXPECT_THAT(text_of(out() / "index.html"), HasSubstr("<h2>Failed</h2>"));
+}
+
+TEST_F(StudyVerb, CommandsRunElsewhereAndAreGathered) {
+    const std::string study = write(replaced(four_members, "fifty.toml", "it's fifty.toml"));
+    fs::rename(folder_ / "fifty.toml", folder_ / "it's fifty.toml");
+    const Ended printed = run_program(words(study, {"--print-commands"}), {});
+    ASSERT_EQ(printed.status, 0) << printed.err;
+    EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 4);
+    EXPECT_TRUE(members().empty());
+    write_text(folder_ / "commands.txt", printed.out);
+    // The members run the scene as it was when they were printed.
+    write_text(folder_ / "it's fifty.toml", "no scene");
+    ASSERT_EQ(std::system(("head -3 '" + (folder_ / "commands.txt").string() + "' | sh > /dev/null").c_str()),
+              0);
+    write_small_scene(folder_.path());
+    fs::rename(folder_ / "fifty.toml", folder_ / "it's fifty.toml");
+    const Ended gathered = run_program(words(study, {"--collect"}), {});
+    EXPECT_EQ(gathered.status, 0) << gathered.err;
+    EXPECT_THAT(gathered.err, HasSubstr("3 of 4 members are complete"));
+    EXPECT_EQ(table().back()[2], "missing");
+    // What is left is printed, and no more.
+    const Ended rest = run_program(words(study, {"--print-commands"}), {});
+    EXPECT_EQ(std::count(rest.out.begin(), rest.out.end(), '\n'), 1);
+}
+
+TEST_F(StudyVerb, DryRunTellsAndWritesNothing) {
+    const Ended ended = run_program(words(write(four_members), {"--dry-run"}),
+                                    {folder_.path(), {"XDG_CACHE_HOME=" + folder_.path().string()}});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    for (const char* words :
+         {"4 = 2 settings x 2 seeds, 4 of them to be run", "cost ", "disk ", "drive.g_level = 3, seed 2"})
+        EXPECT_THAT(ended.out, HasSubstr(words));
+    EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(StudyVerb, MistakesWriteNothing) {
+    const Ended many = run_program(words(write(replaced(four_members, "seeds = 2", "seeds = 6000"))), {});
+    EXPECT_EQ(many.status, 2);
+    EXPECT_THAT(many.err, HasSubstr("study.toml:5:1: the study would have 12000 members"));
+    const Ended unknown = run_program(words(write(replaced(four_members, "drive.g_level", "drive.gee"))), {});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("study.toml:5:1: unknown key 'gee'"));
+    EXPECT_FALSE(fs::exists(out()));
+    fs::create_directory(out());
+    write_text(out() / "thesis.txt", "all of it");
+    const Ended taken = run_program(words(write(four_members)), {});
+    EXPECT_EQ(taken.status, 2);
+    EXPECT_THAT(taken.err, HasSubstr("holds something that is no study"));
+}
+
+}  // namespace
+}  // namespace grainreel

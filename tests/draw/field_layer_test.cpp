@@ -1,0 +1,95 @@
+// The coloured layer of a quantity's mean before pale grains.
+#include "render/draw/marks/field_layer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+Scene with_field() {
+    Scene scene = wedge();
+    scene.film.shows.colour.by = GrainValue::vertical_velocity;
+    scene.film.shows.colour.map = ColourMap::vik;
+    scene.film.shows.colour.range = {-1, 1};
+    scene.film.shows.colour.unit = "m/s";
+    scene.film.shows.colour.as_field = true;
+    return scene;
+}
+
+// Of the layer where a place of its plane is seen; alpha 0 where it has no cell.
+Shapes::Vertex seen_at(const Scene& scene, const Frame& frame, const Vec3& place) {
+    Shapes shapes;
+    const View view = view_of(scene);
+    FieldLayer(scene).draw(view, frame, shapes);
+    const Pixel at = view.project(Vec3(scene.container.depth / 2, place.y(), place.z()));
+    Shapes::Vertex nearest{};
+    double least = 9;  // pixels squared: a cell is larger
+    for (const Shapes::Vertex& vertex : shapes.vertices()) {
+        const double away = (Pixel(vertex.x, vertex.y) - at).squaredNorm();
+        if (away < least) least = away, nearest = vertex;
+    }
+    return nearest;
+}
+
+void expect_colour(const Shapes::Vertex& vertex, const Colour& colour) {
+    EXPECT_GT(vertex.alpha, 0);
+    EXPECT_NEAR(vertex.red, colour.red, 2e-3);
+    EXPECT_NEAR(vertex.green, colour.green, 2e-3);
+    EXPECT_NEAR(vertex.blue, colour.blue, 2e-3);
+}
+
+TEST(FieldLayer, HasTheColourOfTheGrainsThatAreNear) {
+    const Scene scene = with_field();
+    const Vec3 left(0, -0.04, 0.1), right(0, 0.04, 0.1);
+    Frame frame = frame_of({{left}, {right}});
+    frame.velocity = {Vec3(0, 0, 0.5), Vec3(0, 0, -0.5)};
+    const ColourScale scale(scene.film.shows.colour);
+    expect_colour(seen_at(scene, frame, left), scale.at(0.5));
+    expect_colour(seen_at(scene, frame, right), scale.at(-0.5));
+    EXPECT_EQ(seen_at(scene, frame, Vec3(0, 0, 0.1)).alpha, 0) << "nobody is there";
+}
+
+TEST(FieldLayer, MeanIsWeightedByMass) {
+    const Scene scene = with_field();
+    const Vec3 place(0, 0, 0.08);
+    Frame frame = frame_of({{place, 0.005}, {place, 0.010}});
+    frame.velocity = {Vec3(0, 0, -0.9), Vec3(0, 0, 0.45)};
+    const ColourScale scale(scene.film.shows.colour);
+    expect_colour(seen_at(scene, frame, place), scale.at((8 * 0.45 - 0.9) / 9));
+}
+
+TEST(FieldLayer, GoesWithTheContainer) {
+    const Scene scene = with_field();
+    const Vec3 place(0, 0, 0.08), moved(0, 0, 0.004);
+    Frame frame = frame_of({{place + moved}});
+    frame.velocity = {Vec3(0, 0, 0.5)};
+    frame.container().place = moved;
+    Frame still = frame_of({{place}});
+    still.velocity = frame.velocity;
+    Shapes one, other;
+    FieldLayer layer(scene);
+    layer.draw(view_of(scene).moved_by(moved), frame, one);
+    layer.draw(view_of(scene), still, other);
+    ASSERT_EQ(one.vertices().size(), other.vertices().size());
+    for (std::size_t v = 0; v < one.vertices().size(); ++v) {
+        EXPECT_NEAR(one.vertices()[v].y, other.vertices()[v].y, 1e-3);
+        EXPECT_NEAR(one.vertices()[v].red, other.vertices()[v].red, 1e-6);
+    }
+}
+
+TEST(FieldLayer, CoversPaleGrainsInThePicture) {
+    Scene scene = with_field();
+    Frame frame = frame_of({{Vec3(0, 0, 0.08), 0.010}});
+    frame.velocity = {Vec3(0, 0, 1)};
+    Renderer with(scene, 1);
+    const Picture layer = with.draw(frame, "");
+    scene.film.shows.colour.as_field = false;
+    Renderer without(scene, 1);
+    const Extent extent = changed(layer, without.draw(frame, ""), plan_layout(scene).port, 30);
+    EXPECT_GT(extent.count, 500) << "wider than the grain";
+}
+
+}  // namespace
+}  // namespace grainreel::test

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""How fast a flat-bottomed hopper empties through a slot, against the law of Beverloo for slots.
+
+    tests/hopper/slot_rate.py PROGRAM FOLDER [B/d ...]
+
+The hopper is a box, B + 30 d wide, filled to 1.2 times its width, six grains deep and periodic in depth, so that
+no front and back walls hold grains back. For each slot of width B the program runs one discharge into FOLDER and
+writes outflow.csv; a run that is there already is used again. The rate is the slope of the mass that has left,
+between 15 % and 45 % of all. Printed are the rates, C of
+
+    W = C rho_b sqrt(g) L (B - k d)^(3/2),    k = 1.4
+
+(Beverloo, Leniger & van de Velde 1961, Chem. Eng. Sci. 15, 260, with the exponent of a slot: Myers & Sellers 1978,
+in Nedderman 1992, Statics and Kinematics of Granular Materials, ch. 10: C = 1.03), with the bulk density rho_b of
+the bed at rest, and the exponent of (B - k d) that fits the rates best. It should be 1.5 within 0.1.
+"""
+import csv
+import math
+import os
+import subprocess
+import sys
+
+D = 0.004  # m, mean diameter
+SOLID = 2500.0  # kg/m3
+K = 1.4
+SCENE = """title = "Slot hopper, B = {ratio:g} d"
+[[species]]
+name = "grain"
+count = {count}
+diameter = {{ min = {low}, max = {high} }}
+density = {solid}
+[contact]
+restitution = 0.7
+friction = 0.5
+[container]
+shape = "box"
+width = {width}
+depth = {depth}
+height = {height}
+periodic_depth = true
+top = "open"
+outlet = {{ width = {slot}, exit_depth = {exit} }}
+[start]
+settle_limit = "2 s"
+[run]
+duration = {duration}
+accuracy = "draft"
+[output]
+trajectory = false
+measures_interval = "0.05 s"
+"""
+
+
+def scene_of(ratio):
+    width, depth = (ratio + 30) * D, 6 * D
+    volume = math.pi / 6 * D**3
+    count = int(0.6 * width * depth * 1.2 * width / volume)
+    mass = count * volume * SOLID
+    expected = 1.03 * 0.6 * SOLID * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5
+    return count, mass, width, depth, SCENE.format(
+        ratio=ratio, count=count, low=0.9 * D, high=1.1 * D, solid=SOLID, width=width, depth=depth,
+        height=2.2 * width, slot=ratio * D, exit=4 * D, duration=0.1 + 0.55 * mass / expected)
+
+
+def run(program, folder, ratio):
+    count, mass, width, depth, text = scene_of(ratio)
+    out = os.path.join(folder, f"slot_{ratio:g}")
+    if not os.path.exists(os.path.join(out, "final.csv")):
+        path = out + ".toml"
+        with open(path, "w") as file:
+            file.write(text)
+        subprocess.run([program, "movie", path, "--no-film", "--quiet", "--threads", "1", "--out", out, "--force"],
+                       check=True, stdout=subprocess.DEVNULL)
+    left = []
+    with open(os.path.join(out, "outflow.csv")) as file:
+        for row in csv.DictReader(file):
+            left.append((float(row["time_s"]), 4 / 3 * math.pi * float(row["radius"]) ** 3 * SOLID))
+    return rate_of(left, mass), depth
+
+
+def rate_of(left, mass):
+    """kg/s, by least squares over the mass that has left."""
+    sum_of, points = 0.0, []
+    for time, one in left:
+        sum_of += one
+        if 0.15 * mass < sum_of < 0.45 * mass:
+            points.append((time, sum_of))
+    if len(points) < 100:
+        raise SystemExit(f"only {len(points)} grains left within the window: the hopper has clogged, or the run is too short")
+    mean_t = sum(t for t, _ in points) / len(points)
+    mean_m = sum(m for _, m in points) / len(points)
+    return (sum((t - mean_t) * (m - mean_m) for t, m in points) / sum((t - mean_t) ** 2 for t, _ in points))
+
+
+def main():
+    if len(sys.argv) < 3:
+        raise SystemExit(__doc__)
+    program, folder = sys.argv[1:3]
+    ratios = [float(r) for r in sys.argv[3:]] or [6, 9, 14, 20]
+    os.makedirs(folder, exist_ok=True)
+    points = []
+    print("  B/d   W in kg/s       C")
+    for ratio in ratios:
+        rate, depth = run(program, folder, ratio)
+        bulk = 0.6 * SOLID
+        c = rate / (bulk * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5)
+        points.append((math.log(ratio - K), math.log(rate)))
+        print(f"{ratio:5g}  {rate:10.4f}  {c:6.3f}", flush=True)
+    if len(points) > 1:
+        x, y = (sum(p[i] for p in points) / len(points) for i in (0, 1))
+        slope = sum((a - x) * (b - y) for a, b in points) / sum((a - x) ** 2 for a, _ in points)
+        print(f"exponent of (B - {K} d): {slope:.3f}")
+
+
+if __name__ == "__main__":
+    main()

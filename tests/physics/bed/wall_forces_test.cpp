@@ -1,0 +1,251 @@
+// Forces on walls: against the momentum of the grains, against statics, and the same whatever the threads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/measure/columns.hpp"
+#include "engine/measure/wall_faces.hpp"
+#include "engine/run/simulation.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+#include "tests/physics/world.hpp"
+
+namespace grainreel {
+namespace {
+
+Scene scene_of(const std::string& text, std::vector<std::string> sets = {}) {
+    sets.push_back("output.instruments=[\"walls\"]");
+    if (text == test::small_scene_text) sets.push_back("start.settle_limit=0.02 s");
+    return read_scene_text(text, "walls.toml", with_tested_precision(sets), measurable_in);
+}
+
+Vec3 force_on(const Measures& m, const std::string& face) {
+    return {m.at(face + "_force_x_N"), m.at(face + "_force_y_N"), m.at(face + "_force_z_N")};
+}
+Vec3 moment_on(const Measures& m, const std::string& face) {
+    return {m.at(face + "_moment_x_N.m"), m.at(face + "_moment_y_N.m"), m.at(face + "_moment_z_N.m")};
+}
+
+Vec3 momentum(const Scene& scene, const Frame& frame) {
+    Vec3 sum(0, 0, 0);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const double density = scene.species[static_cast<std::size_t>(frame.species[i])].density;
+        sum += density * 4 / 3 * std::numbers::pi * std::pow(frame.radius[i], 3) * frame.velocity[i];
+    }
+    return sum;
+}
+
+double mass(const Scene& scene) {
+    double sum = 0;
+    for (const Species& species : scene.species)
+        sum += static_cast<double>(species.count) * species.density * std::numbers::pi / 6 *
+               std::pow(species.diameter.mean, 3);
+    return sum;
+}
+
+class WallForces : public testing::TestWithParam<const char*> {};
+
+// The grains' weight and the walls are all that changes their momentum.
+TEST_P(WallForces, ImpulseIsWeightTimesTimeLessTheChangeOfMomentum) {
+    const Scene scene = scene_of(test::small_scene_text, {std::string("run.integrator=") + GetParam()});
+    const Plan plan = make_plan(scene);
+    Simulation run(scene, plan, 1);
+    run.pack();
+    const Vec3 before = momentum(scene, run.frame());
+    const int rows = 16;  // two periods
+    Vec3 impulse(0, 0, 0);
+    for (int row = 1; row <= rows; ++row) {
+        const std::int64_t from = run.step();
+        run.advance(std::llround(row * plan.measures_every));
+        const Measures m = run.measures();
+        for (const std::string& face : face_names(scene))
+            impulse += static_cast<double>(run.step() - from) * plan.clock.step * force_on(m, face);
+    }
+    const double time = plan.clock.time(run.step()), weight = mass(scene) * scene.gravity.norm();
+    ASSERT_NEAR(time, 2 / scene.drive.frequency, 1e-12);
+    const Vec3 expected = time * mass(scene) * scene.gravity - (momentum(scene, run.frame()) - before);
+    EXPECT_LT((impulse - expected).norm(), 1e-9 * weight * time);
+    EXPECT_GT((momentum(scene, run.frame()) - before).norm(), 1e-6 * weight * time) << "nothing moves";
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, WallForces,
+                         testing::Values("velocity-verlet", "leapfrog", "position-verlet", "forest-ruth"),
+                         [](const testing::TestParamInfo<const char*>& one) {
+                             std::string name = one.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+// One grain that has come to rest. Dashpots bring it there.
+constexpr const char* kOneGrain = R"([[species]]
+name = "ball"
+diameter = "4 mm"
+density = 2500
+[contact]
+law = "spring-dashpot"
+stiffness = 2000
+restitution = 0.1
+friction_law = "none"
+[container]
+shape = "box"
+width = "30 mm"
+depth = "20 mm"
+height = "16 mm"
+[[grain]]
+position = ["3 mm", "-5 mm", "2 mm"]
+[run]
+duration = "1 s"
+[output]
+measures_interval = "0.1 s"
+)";
+
+Measures at_rest(const Scene& scene, std::vector<FieldValues>* fields = nullptr) {
+    Simulation run(scene, make_plan(scene), 1);
+    run.pack();
+    run.advance(make_plan(scene).steps);
+    if (fields) *fields = run.fields();
+    return run.measures();
+}
+
+TEST(WallForcesAtRest, AFloorCarriesAGrain) {
+    const Scene scene = scene_of(kOneGrain);
+    const Measures m = at_rest(scene);
+    const double weight = mass(scene) * 9.81;
+    const double accuracy = of_rounding(1e-9, 1e-5) * weight;
+    EXPECT_LT((force_on(m, "floor") - Vec3(0, 0, -weight)).norm(), accuracy);
+    // r x F about the middle of the floor, r = (3 mm, -5 mm).
+    EXPECT_LT((moment_on(m, "floor") - Vec3(0.005 * weight, 0.003 * weight, 0)).norm(), 0.01 * accuracy);
+    EXPECT_NEAR(m.at("floor_carries"), 1, of_rounding(1e-9, 1e-5));
+    for (const char* wall : {"left_wall", "right_wall", "front", "back", "lid"}) {
+        EXPECT_EQ(force_on(m, wall).norm(), 0) << wall;
+        EXPECT_EQ(m.at(std::string(wall) + "_carries"), 0) << wall;
+    }
+}
+
+// Without friction each slant pushes along its normal (0, +-cos t, sin t), and both together carry the
+// weight: N = W / (2 sin t).
+TEST(WallForcesAtRest, AWedgeCarriesAGrainOnBothSides) {
+    std::string text = kOneGrain;
+    const auto at = text.find("shape"), end = text.find("[[grain]]");
+    text.replace(at, end - at,
+                 "shape = \"wedge\"\nhalf_angle = \"30 deg\"\nslant_height = \"20 mm\"\n"
+                 "half_width = \"12 mm\"\ndepth = \"20 mm\"\nheight = \"32 mm\"\n");
+    // Half the floor is 12 - 20 tan 30 = 0.453 mm. A grain of radius 2 mm touches both slants where
+    // (0.453 mm + z tan 30) cos 30 = 2 mm: at z = 3.216 mm, and at z + 2 mm * -sin 30 = 2.216 mm of height.
+    text.replace(text.find("[\"3 mm\", \"-5 mm\", \"2 mm\"]"), 25, "[\"1 mm\", 0, \"3.3 mm\"]");
+    const Scene scene = scene_of(text);
+    std::vector<FieldValues> fields;
+    const Measures m = at_rest(scene, &fields);
+    const double weight = mass(scene) * 9.81, angle = std::numbers::pi / 6;
+    const double push = weight / (2 * std::sin(angle)), accuracy = of_rounding(1e-9, 1e-5) * weight;
+    EXPECT_LT((force_on(m, "left_slant") - push * Vec3(0, -std::cos(angle), -std::sin(angle))).norm(),
+              accuracy);
+    EXPECT_LT((force_on(m, "right_slant") - push * Vec3(0, std::cos(angle), -std::sin(angle))).norm(),
+              accuracy);
+    EXPECT_NEAR(m.at("left_slant_carries"), 0.5, of_rounding(1e-9, 1e-5));
+    EXPECT_EQ(m.at("floor_carries"), 0);
+    // Four slices of 8 mm; the push is in the lowest, over its part of the slant.
+    const Simulation run(scene, make_plan(scene), 1);
+    const FieldSet& set = *run.field_sets().at(0);
+    ASSERT_EQ(set.axes.at(0).at.size(), 4u);
+    const auto slant = std::find_if(set.fields.begin(), set.fields.end(), [](const FieldInfo& field) {
+        return field.name == "pressure_left_slant";
+    });
+    ASSERT_NE(slant, set.fields.end());
+    const std::vector<double>& pressure =
+        fields.at(0).at(static_cast<std::size_t>(slant - set.fields.begin()));
+    // The mean since the start, so that the fall of 0.08 mm shows.
+    EXPECT_NEAR(pressure[0], push / (0.02 * 0.008 / std::cos(angle)), 0.02 * pressure[0]);
+    EXPECT_EQ(pressure[1], 0);
+    EXPECT_TRUE(std::isnan(pressure[3])) << "above the slant";
+}
+
+std::vector<double> later_row(Simulation& run, const Plan& plan, int row) {
+    run.advance(std::llround(row * plan.measures_every));
+    return run.measures().values();
+}
+
+TEST(WallForcesOfRuns, AreTheSameBitsAtAnyNumberOfThreadsAndWhenTakenUp) {
+    const test::TemporaryFolder here;
+    const Scene scene = scene_of(test::small_scene_text);
+    const Plan plan = make_plan(scene);
+    Simulation first(scene, plan, 1);
+    first.pack();
+    first.advance(std::llround(3.4 * plan.measures_every));  // between two rows
+    first.save_checkpoint(here / "a.grs");
+    const std::vector<double> expected = later_row(first, plan, 4), last = later_row(first, plan, 9);
+    EXPECT_EQ(first.fields().at(0).size(), 4u);  // all that stands
+    for (const int threads : {2, 3}) {
+        Simulation whole(scene, plan, threads);
+        whole.pack();
+        later_row(whole, plan, 3);
+        EXPECT_EQ(later_row(whole, plan, 4), expected) << threads;
+        Scene next = scene;
+        next.start.method = Start::Method::file;
+        next.start.file = (here / "a.grs").string();
+        next.start.keep_clock = true;
+        Simulation taken_up(next, plan, threads);
+        taken_up.pack();
+        EXPECT_EQ(later_row(taken_up, plan, 4), expected) << threads;
+        EXPECT_EQ(later_row(taken_up, plan, 9), last) << threads;
+        EXPECT_EQ(taken_up.fields(), first.fields());
+    }
+}
+
+// They change nothing of the run, and are not there where nobody asks for them.
+TEST(WallForcesOfRuns, ChangeNothing) {
+    const Scene with = scene_of(test::small_scene_text);
+    Scene without = with;
+    without.output.instruments.clear();
+    Simulation a(with, make_plan(with), 2), b(without, make_plan(without), 2);
+    a.pack(), b.pack();
+    a.advance(700), b.advance(700);
+    EXPECT_EQ(a.state_hash(), b.state_hash());
+    EXPECT_LT(b.measured().size(), a.measured().size());
+    EXPECT_TRUE(b.field_sets().empty());
+}
+
+TEST(WallForcesOfScenes, AreAskedForByNameOrByWhatTheFilmShows) {
+    const auto read = [](const std::string& more) {
+        return read_scene_text(test::small_scene_text + more, "walls.toml", {}, measurable_in)
+            .output.instruments;
+    };
+    EXPECT_TRUE(read("").empty());
+    EXPECT_EQ(read("[[film.plot]]\ny = \"floor_force_z\"\n"), std::vector<std::string>{"walls"});
+    EXPECT_EQ(read("[output]\ninstruments = [\"walls\"]\n"), std::vector<std::string>{"walls"});
+    EXPECT_THROW(read("[output]\ninstruments = [\"wals\"]\n"), UserError);
+}
+
+TEST(WallTally, CountsInAnyOrder) {
+    const Face face = floor_face();
+    const std::vector<Face> faces{face};
+    WallScale scale;
+    scale.force = std::exp2(-40), scale.length = 1, scale.slices = 2, scale.slice = 1;
+    const auto tally = [&](const std::vector<double>& pushes, int threads) {
+        std::vector<WallTally> all(static_cast<std::size_t>(threads));
+        for (WallTally& one : all) one.begin(faces, scale);
+        for (std::size_t k = 0; k < pushes.size(); ++k)
+            all[k % all.size()].add(0, Vec3(0, 0, -pushes[k]), pushes[k], Vec3(0.1, 0, 0));
+        WallSums sums;
+        for (const WallTally& one : all) one.add_to(sums);
+        return sums;
+    };
+    const WallSums one = tally({1e-3, 0.1, 0.7, 1e2 / 3}, 1), other = tally({1e2 / 3, 0.7, 1e-3, 0.1}, 3);
+    EXPECT_EQ(one.faces, other.faces);
+    EXPECT_EQ(one.slices, other.slices);
+    EXPECT_NEAR(static_cast<double>(one.faces[0].last_force[2]) * scale.force, -(0.801 + 1e2 / 3),
+                2 * scale.force);
+    EXPECT_TRUE(is_sound(one, 1, scale));
+    EXPECT_FALSE(is_sound(one, 2, scale));
+    WallSums forged = one;
+    forged.faces[0].force[1] = static_cast<WideInt>(1) << 121;
+    EXPECT_FALSE(is_sound(forged, 1, scale));
+    forged = one;
+    forged.faces[0].last_force[0] = static_cast<WideInt>(1) << 70;
+    EXPECT_FALSE(is_sound(forged, 1, scale));
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,215 @@
+// Fields of states with a known answer.
+#include "engine/measure/fields/coarse_graining.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/physics/fields/field_scene.hpp"
+
+namespace grainreel {
+namespace {
+
+using Grid = FieldOutput::Grid;
+using Kernel = FieldOutput::Kernel;
+
+struct Choice {
+    Grid grid;
+    Kernel kernel;
+};
+
+class Fields : public ::testing::TestWithParam<Choice> {
+  protected:
+    Scene box(const Vec3& size, double width, double cell) const {
+        Scene scene = field_box(size, GetParam().grid, width, cell);
+        scene.output.fields.kernel = GetParam().kernel;
+        return scene;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, Fields,
+                         ::testing::Values(Choice{Grid::yz, Kernel::gaussian},
+                                           Choice{Grid::xyz, Kernel::gaussian},
+                                           Choice{Grid::yz, Kernel::lucy}, Choice{Grid::xyz, Kernel::lucy}));
+
+// Whatever the kernel, the mean over the box is 1. With a kernel of a grain's width the single grains are
+// hardly seen: by the Gaussian of half a spacing as ripples of exp(-2 pi^2 / 4) = 0.7 % and their multiples.
+TEST_P(Fields, CubicPackingOfMassOneHasDensityOne) {
+    CoarseGraining by(box({5, 5, 5}, 0.5, 0.25), 1);
+    by.add(cubic_packing(), 0);
+    const CoarseFields fields = by.mean();
+    EXPECT_NEAR(integral(by, fields.density) / 125, 1, 1e-10);
+    EXPECT_NEAR(integral(by, fields.solid_fraction[0]) / 125, std::numbers::pi / 6, 1e-10);
+    const auto& [x, y, z] = by.grid().axes;
+    for (std::int64_t cell = 0; cell < by.grid().cells(); ++cell) {
+        const std::int64_t i = cell % x.count, j = cell / x.count % y.count, k = cell / x.count / y.count;
+        const Vec3 place(x.resolved ? x.middle(i) : 0, y.middle(j), z.middle(k) - 2.5);
+        if (place.cwiseAbs().maxCoeff() < 0.9) {
+            EXPECT_NEAR(fields.density[static_cast<std::size_t>(cell)], 1, 0.08) << place.transpose();
+        }
+    }
+}
+
+TEST_P(Fields, ShearedLatticeHasItsShearRate) {
+    constexpr double rate = 3;
+    FieldState state = cubic_packing();
+    for (FieldGrain& grain : state.grains) grain.velocity = Vec3(0, rate * grain.position.z(), 0);
+    CoarseGraining by(box({5, 5, 5}, 0.5, 0.25), 1);
+    by.add(state, 0);
+    const CoarseFields fields = by.mean();
+    const auto& [x, y, z] = by.grid().axes;
+    const std::int64_t i = x.count / 2, j = y.count / 2;
+    const auto speed = [&](double height) {
+        const auto k = static_cast<std::int64_t>((height - z.low) / z.cell);
+        return fields.velocity[1][static_cast<std::size_t>(by.grid().index(i, j, k))];
+    };
+    // Over two whole layers, so that the lattice is met in the same place.
+    EXPECT_NEAR((speed(3.6) - speed(1.6)) / 2, rate, 1e-3 * rate);
+    EXPECT_NEAR(fields.velocity[0][static_cast<std::size_t>(by.grid().index(i, j, z.count / 2))], 0, 1e-12);
+}
+
+// Two streams through each other: kinetic stress rho u2 along them, temperature u2 / 3.
+TEST_P(Fields, StreamsThroughEachOtherAreHeat) {
+    constexpr double speed = 2;
+    FieldState state;
+    for (int way : {-1, 1})
+        state.grains.push_back(sphere(Vec3(0, 0, 2.5), 0.5, 6 / std::numbers::pi, way * Vec3(0, speed, 0)));
+    CoarseGraining by(box({5, 5, 5}, 0.5, 0.5), 1);
+    by.add(state, 0);
+    const CoarseFields fields = by.mean();
+    EXPECT_NEAR(padded_integral(by, fields.kinetic_stress[3]), 2 * speed * speed, 1e-10);
+    EXPECT_NEAR(padded_integral(by, fields.kinetic_stress[0]), 0, 1e-12);
+    const auto& axes = by.grid().axes;
+    const auto middle =
+        static_cast<std::size_t>(by.grid().index(axes[0].count / 2, axes[1].count / 2, axes[2].count / 2));
+    EXPECT_NEAR(fields.temperature[middle], speed * speed / 3, 1e-12);
+    EXPECT_NEAR(fields.velocity[1][middle], 0, 1e-12);
+}
+
+// What all grains do in every period at the same phase is no heat.
+TEST_P(Fields, BouncingTogetherIsNoHeat) {
+    for (const int phases : {2, 1}) {
+        CoarseGraining by(box({5, 5, 5}, 0.5, 0.5), phases);
+        for (int period = 0; period < 3; ++period)
+            for (int half = 0; half < 2; ++half) {
+                FieldState state = cubic_packing();
+                for (FieldGrain& grain : state.grains) grain.velocity = Vec3(0, 0, half == 0 ? 1 : -1);
+                by.add(state, half % phases);
+            }
+        const CoarseFields fields = by.mean();
+        EXPECT_NEAR(padded_integral(by, fields.kinetic_stress[5]) / 125, phases == 2 ? 0 : 1, 1e-10);
+        const auto& axes = by.grid().axes;
+        const auto middle = static_cast<std::size_t>(
+            by.grid().index(axes[0].count / 2, axes[1].count / 2, axes[2].count / 2));
+        EXPECT_NEAR(fields.temperature[middle], phases == 2 ? 0 : 1.0 / 3, 1e-12);
+    }
+}
+
+// The sum over the padded grid is the sum of f x b, whatever the contacts are (Goldhirsch 2010, eq. 35).
+TEST_P(Fields, ContactStressKeepsTheVirial) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> any(-1, 1);
+    const auto vector = [&] { return Vec3(any(random), any(random), any(random)); };
+    FieldState state;
+    Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
+    for (int c = 0; c < 50; ++c) {
+        state.contacts.push_back({2 * vector() + Vec3(0, 0, 2.5), 0.5 * vector(), vector()});
+        virial += state.contacts.back().force * state.contacts.back().branch.transpose();
+    }
+    CoarseGraining by(box({5, 5, 5}, 0.5, 0.5), 1);
+    by.add(state, 0);
+    const CoarseFields fields = by.mean();
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+            EXPECT_NEAR(padded_integral(by, fields.contact_stress[static_cast<std::size_t>(3 * a + b)]),
+                        virial(a, b), 1e-10);
+}
+
+// A stack of spheres on a floor, each carrying those above: the stress at each height is the weight above.
+TEST_P(Fields, StackCarriesItsWeight) {
+    constexpr int count = 8;
+    constexpr double gravity = 10;
+    FieldState state;
+    for (int i = 0; i < count; ++i) {
+        state.grains.push_back(sphere(Vec3(0, 0, i + 0.5), 0.5, 6 / std::numbers::pi));
+        const Vec3 force(0, 0, -(count - i) * gravity);  // on what is below
+        state.contacts.push_back({state.grains.back().position, Vec3(0, 0, i > 0 ? -1 : -0.5), force});
+    }
+    CoarseGraining by(box({4, 4, 10}, 0.5, 0.25), 1);
+    by.add(state, 0);
+    const CoarseFields fields = by.mean();
+    const auto& [x, y, z] = by.grid().axes;
+    const std::int64_t layer = x.count * y.count;
+    double above = 0;  // N
+    for (std::int64_t k = z.count - 1; z.middle(k) > 1.8; --k) {
+        double weight = 0, carried = 0;  // of the layer of cells, N
+        for (std::int64_t cell = k * layer; cell < (k + 1) * layer; ++cell) {
+            weight += gravity * by.grid().cell_volume() * fields.density[static_cast<std::size_t>(cell)];
+            carried +=
+                by.grid().cell_volume() / z.cell * fields.contact_stress[8][static_cast<std::size_t>(cell)];
+        }
+        EXPECT_NEAR(carried, above + weight / 2, 2e-3 * count * gravity) << z.middle(k);
+        above += weight;
+    }
+    EXPECT_GT(above, 0.7 * count * gravity);
+}
+
+// The wall's part reaches from the lowest centre down to the floor, and no further than the kernel.
+TEST_P(Fields, WallTermIsSpreadAlongTheWayToTheWall) {
+    FieldState state;
+    state.contacts.push_back({Vec3(0, 0, 0.5), Vec3(0, 0, -0.5), Vec3(0, 0, -1)});
+    CoarseGraining by(box({4, 4, 4}, 0.25, 0.125), 1);
+    by.add(state, 0);
+    const CoarseFields fields = by.mean();
+    const auto& [x, y, z] = by.grid().axes;
+    double moment = 0, sum = 0, lowest = 1e300;
+    for (std::int64_t cell = 0; cell < by.grid().cells(); ++cell) {
+        const double stress = fields.contact_stress[8][static_cast<std::size_t>(cell)];
+        const double height = z.middle(cell / (x.count * y.count));
+        if (stress > 0) lowest = std::min(lowest, height);
+        moment += stress * height;
+        sum += stress;
+    }
+    EXPECT_NEAR(moment / sum, 0.25, 1e-3) << "half of the way";
+    EXPECT_LT(lowest, 0) << "the whole kernel, beyond the floor";
+    EXPECT_GE(lowest, z.low);
+}
+
+TEST(FieldsInXyz, PeriodicDepthHasNoSeam) {
+    Scene scene = field_box({4, 4, 4}, Grid::xyz, 0.5, 0.5);
+    scene.container.periodic_depth = true;
+    const auto of = [&](double x) {
+        FieldState state;
+        state.grains.push_back(sphere(Vec3(x, 0, 2), 0.5, 6 / std::numbers::pi));
+        state.contacts.push_back({Vec3(x, 0, 2), Vec3(1, 0, 0), Vec3(1, 0, 0)});
+        CoarseGraining by(scene, 1);
+        by.add(state, 0);
+        EXPECT_NEAR(padded_integral(by, by.mean().contact_stress[0]), 1, 1e-12) << x;
+        return std::pair{by.mean(), by.grid()};
+    };
+    const auto [at_seam, grid] = of(-2);
+    const auto [in_middle, same] = of(0);
+    const std::int64_t half = grid.axes[0].count / 2;
+    for (std::int64_t cell = 0; cell < grid.cells(); ++cell) {
+        const std::int64_t i = cell % grid.axes[0].count, moved = i < half ? cell + half : cell - half;
+        EXPECT_NEAR(at_seam.density[static_cast<std::size_t>(cell)],
+                    in_middle.density[static_cast<std::size_t>(moved)], 1e-12);
+        EXPECT_NEAR(at_seam.contact_stress[0][static_cast<std::size_t>(cell)],
+                    in_middle.contact_stress[0][static_cast<std::size_t>(moved)], 1e-12);
+    }
+}
+
+TEST(FieldsInXyz, WhereNobodyIsThereIsNoVelocity) {
+    CoarseGraining by(field_box({4, 4, 8}, Grid::xyz, 0.5, 0.5), 1);
+    FieldState state;
+    state.grains.push_back(sphere(Vec3(0, 0, 0.5), 0.5, 1, Vec3(1, 0, 0)));
+    by.add(state, 0);
+    const CoarseFields fields = by.mean();
+    for (std::size_t cell = 0; cell < fields.density.size(); ++cell) {
+        EXPECT_EQ(std::isnan(fields.velocity[0][cell]), std::isnan(fields.temperature[cell]));
+        EXPECT_EQ(std::isnan(fields.velocity[0][cell]), fields.density[cell] == 0) << cell;
+    }
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,69 @@
+#include "engine/measure/fields/kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/physics/fields/field_scene.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double kWidth = 0.7;
+
+class Kernels : public ::testing::TestWithParam<FieldOutput::Kernel> {};
+
+TEST_P(Kernels, TableIsWithinWhatItPromises) {
+    const FieldKernel kernel(GetParam(), kWidth, 3);
+    for (double q = 0; q < 0.9999; q += 0.000313)
+        EXPECT_NEAR(kernel.at(std::pow(q * kernel.cutoff(), 2)), kernel_value(GetParam(), q), 2e-5) << q;
+    EXPECT_EQ(kernel.at(0), 1);
+    EXPECT_EQ(kernel.at(std::pow(1.0001 * kernel.cutoff(), 2)), 0);
+}
+
+// Against the mean over a thousand points of the same line.
+TEST_P(Kernels, LineIsTheMeanOverItsPoints) {
+    Scene scene = field_box({6, 6, 6}, FieldOutput::Grid::xyz, 0.5, 0.25);
+    const FieldGrid grid = make_field_grid(scene, scene.output.fields);
+    const FieldKernel kernel(GetParam(), 0.5, 3);
+    const auto cells = static_cast<std::size_t>(grid.cells());
+    Footprint footprint(grid, kernel);
+    for (const Vec3& branch : {Vec3(0.3, 1, -0.5), Vec3(-1.5, 1.1, 1.2), Vec3(0, 0, -0.5)}) {
+        const Vec3 begin(0.1, -0.7, 2.9);
+        std::vector<double> mean(cells, 0), line(cells, 0);
+        constexpr int points = 1000;
+        for (int k = 0; k < points; ++k)
+            for (const CellWeight& cell : footprint.of_point(begin + (k + 0.5) / points * branch))
+                mean[static_cast<std::size_t>(cell.cell)] += cell.weight / points;
+        for (const CellWeight& cell : footprint.of_line(begin, branch))
+            line[static_cast<std::size_t>(cell.cell)] = cell.weight;
+        const double peak = *std::max_element(mean.begin(), mean.end());
+        double square = 0;
+        for (std::size_t c = 0; c < cells; ++c) {
+            square += std::pow(line[c] - mean[c], 2);
+            EXPECT_NEAR(line[c], mean[c], 0.02 * peak);
+        }
+        EXPECT_LT(std::sqrt(square / static_cast<double>(cells)), 1e-3 * peak);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Kernels,
+                         ::testing::Values(FieldOutput::Kernel::gaussian, FieldOutput::Kernel::lucy));
+
+TEST(LucyKernel, HasItsWidthAsStandardDeviationAlongEachAxis) {
+    for (const int dimensions : {2, 3}) {
+        const FieldKernel kernel(FieldOutput::Kernel::lucy, kWidth, dimensions);
+        constexpr int points = 20000;
+        double sum = 0, moment = 0;
+        for (int k = 0; k < points; ++k) {
+            const double q = (k + 0.5) / points;
+            const double share = std::pow(q, dimensions - 1) * kernel_value(FieldOutput::Kernel::lucy, q);
+            sum += share;
+            moment += share * q * q;
+        }
+        EXPECT_NEAR(kernel.cutoff() * std::sqrt(moment / sum / dimensions), kWidth, 1e-6);
+    }
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,78 @@
+// [output.fields]: defaults, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/base/error.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/text/writer.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const std::string& text, const Assignments& sets) {
+    try {
+        make_plan(read_text(text, sets));
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(FieldKeys, OneLineIsEnough) {
+    const Scene scene = read_text(wedge_text, {"output.fields.grid=yz"});
+    const FieldOutput& fields = scene.output.fields;
+    EXPECT_DOUBLE_EQ(fields.width, 0.5 * (100 * 5e-3 + 10 * 10e-3) / 110) << "half of the mean diameter";
+    EXPECT_EQ(fields.cell, fields.width);
+    EXPECT_EQ(fields.interval, 0);
+    EXPECT_EQ(read_text(wedge_text, {"output.fields.grid=xyz"}).output.fields.cell, 2 * fields.width);
+    EXPECT_DOUBLE_EQ(read_text(box_text, {"output.fields.grid=yz"}).output.fields.interval, 0.01);
+    EXPECT_FALSE(read_text(wedge_text).output.fields.wanted());
+}
+
+TEST(FieldKeys, WrittenSceneReadsBack) {
+    for (const auto& [text, sets] :
+         {std::pair<std::string, Assignments>{wedge_text,
+                                              {"output.fields.grid=yz", "output.fields.phase=90 deg"}},
+          {wedge_text, {"output.fields.grid=xyz", "output.fields.kernel=lucy", "output.fields.samples=8"}},
+          {box_text, {"output.fields.grid=yz", "output.fields.interval=0.05"}}}) {
+        const Scene scene = read_text(text, sets);
+        const std::string written = resolved_scene(scene, make_plan(scene));
+        const Scene again = read_text(written);
+        EXPECT_EQ(again.output.fields, scene.output.fields) << written;
+    }
+}
+
+TEST(FieldKeys, RefusesWhatMakesNoSense) {
+    const auto with_grid = [](Assignments sets) {
+        sets.insert(sets.begin(), "output.fields.grid=yz");
+        return sets;
+    };
+    EXPECT_THAT(complaint(wedge_text, {"output.fields.width=1 mm"}),
+                HasSubstr("'width' is of no use here: without a 'grid' no fields are kept"));
+    EXPECT_THAT(complaint(wedge_text, with_grid({"output.fields.cell=20 mm"})),
+                HasSubstr("which is more than twice the kernel's width of 0.00273 m"));
+    EXPECT_THAT(complaint(wedge_text, with_grid({"output.fields.interval=1 s"})),
+                HasSubstr("with a drive a record counts 'periods'"));
+    EXPECT_THAT(complaint(wedge_text, with_grid({"output.fields.phase=0.25", "output.fields.samples=4"})),
+                HasSubstr("a 'phase' has one moment in each period"));
+    EXPECT_THAT(complaint(wedge_text, with_grid({"run.duration=0.04 s"})),
+                HasSubstr("the run is shorter than one; lengthen run.duration"));
+    EXPECT_THAT(complaint(box_text, with_grid({"output.fields.periods=3"})),
+                HasSubstr("counts by the drive, but nothing oscillates; give 'interval'"));
+    EXPECT_THAT(complaint(box_text, with_grid({"output.fields.interval=1 s"})),
+                HasSubstr("is longer than the run; shorten it"));
+    EXPECT_THAT(complaint(wedge_text, with_grid({"output.fields.width=10 um", "output.fields.cell=10 um"})),
+                HasSubstr("raise output.fields.cell or lower output.fields.samples"));
+    const std::string cylinder =
+        with(with(with(box_text, "\"box\"", "\"cylinder\""), "width = 0.02\n", "diameter = 0.02\n"),
+             "depth = 0.02\n", "");
+    EXPECT_THAT(complaint(cylinder, with_grid({})),
+                HasSubstr("a cylinder is not as deep everywhere; write \"xyz\""));
+    EXPECT_EQ(complaint(cylinder, {"output.fields.grid=xyz"}), "none");
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,145 @@
+// Points, tables and charts of made results.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/error.hpp"
+#include "engine/base/shell_word.hpp"
+#include "engine/chart/gnuplot.hpp"
+#include "render/study/drawing.hpp"
+#include "render/study/page.hpp"
+#include "render/study/table.hpp"
+#include "tests/study/study_text.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+using State = MemberResult::State;
+
+struct Made {
+    StudyFolderOfTest folder;
+    Study study;
+    std::vector<Member> members;
+    std::vector<MemberResult> results;
+
+    explicit Made(const std::string& text) : study(folder.read(text)) {
+        members = make_members(study, [](const Scene&, const Plan&) {});
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            MemberResult result;
+            result.state = State::complete;
+            result.values = {0, static_cast<double>(m)};
+            results.push_back(result);
+        }
+    }
+};
+
+// Two seeds of a setting have the values m and m + 1: mean m + 1/2, s = 1/sqrt 2, half = t_1 s / sqrt 2.
+TEST(StudyChartPoints, AreMeansOverSeedsAlone) {
+    Made made(small_study);
+    const std::vector<ChartSeries> series =
+        chart_series(made.study, made.members, made.results, made.study.charts[0]);
+    ASSERT_EQ(series.size(), 3u);
+    EXPECT_EQ(series[1].name, "species.big.diameter = 5.5 mm");
+    ASSERT_EQ(series[1].points.size(), 2u);
+    EXPECT_EQ(series[1].points[0].x, 2);
+    EXPECT_EQ(series[1].points[1].x, 3);
+    EXPECT_EQ(series[1].points[0].y.mean, 2.5);
+    EXPECT_EQ(series[1].points[1].y.mean, 8.5);
+    EXPECT_NEAR(series[1].points[0].y.half, student_t(0.95, 1) / 2, 1e-12);
+}
+
+TEST(StudyChartPoints, LeaveOutWhatIsNotThere) {
+    Made made(small_study);
+    made.results[0].state = State::failed;
+    made.results[0].values.clear();
+    made.results[2].values[1] = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<ChartSeries> series =
+        chart_series(made.study, made.members, made.results, made.study.charts[0]);
+    EXPECT_EQ(series[0].points[0].members, 1u);
+    EXPECT_EQ(series[0].points[0].y.mean, 1);
+    EXPECT_EQ(series[1].points[0].members, 2u);
+    EXPECT_EQ(series[1].points[0].y.count, 1u);
+    EXPECT_EQ(series[1].points[0].y.mean, 3);
+    EXPECT_EQ(setting_interval(made.members, made.results, 1, 1).mean, 3);
+}
+
+TEST(StudyTable, HasARowAMember) {
+    Made made(small_study);
+    made.results[1].state = State::failed;
+    made.results[1].values.clear();
+    made.results[1].error = "it blew up, \"loudly\"";
+    const std::string table = study_table(made.study, made.members, made.results);
+    EXPECT_THAT(
+        table, testing::StartsWith("drive.g_level,species.big.diameter [mm],run.seed,state,kinetic_mean,rise,"
+                                   "warnings,error,folder\n2,5,1,complete,0,0,0,,members/"));
+    EXPECT_THAT(table, HasSubstr("\n2,5,2,failed,,,0,\"it blew up, \"\"loudly\"\"\",members/"));
+    EXPECT_THAT(table, HasSubstr("\n2,5.5,1,complete,0,2,0,,members/"));
+}
+
+TEST(StudyText, IsEscapedWhereverItGoes) {
+    EXPECT_EQ(html_text("<a href=\"x\">'&"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;");
+    EXPECT_EQ(gnuplot_text("it's `x`\n"), "'it''s `x` '");
+    EXPECT_EQ(shell_word("a b'c"), "'a b'\\''c'");
+    EXPECT_EQ(shell_word(""), "''");
+    EXPECT_EQ(shell_words({"--set", "drive.frequency=\"25 Hz\""}), "--set 'drive.frequency=\"25 Hz\"'");
+    EXPECT_EQ(csv_cell("a,b"), "\"a,b\"");
+}
+
+// Names that mean something to gnuplot, SVG, HTML or a shell: they show, and nothing is run.
+TEST(StudyCharts, AreDrawnWhateverTheNames) {
+    const std::string hostile = "x'; system(\"touch hit\"); `touch hit` $(touch hit) <script>&@{}_^%";
+    Made made(small_study);
+    made.study.title = hostile;
+    made.study.charts[0].title = made.study.charts[0].name = hostile;
+    made.study.charts[0].reference_label = hostile;
+    made.study.measures[1].label = made.study.variations[0].label = made.study.variations[1].label = hostile;
+    const DrawnCharts charts = draw_charts(made.study, made.members, made.results, {{{2, 5, 1}, {3, 6, 0}}},
+                                           made.folder.path() / "charts");
+    ASSERT_TRUE(charts.drawn);
+    ASSERT_EQ(charts.stems.size(), 1u);
+    const std::string svg = text_of(made.folder.path() / "charts" / (charts.stems[0] + ".svg"));
+    EXPECT_THAT(svg, HasSubstr("touch hit"));
+    EXPECT_THAT(svg, Not(HasSubstr("<script>")));
+    EXPECT_TRUE(std::filesystem::exists(made.folder.path() / "charts" / (charts.stems[0] + ".png")));
+    EXPECT_FALSE(std::filesystem::exists(made.folder.path() / "charts" / "hit"));
+    made.results[3].state = State::failed;
+    made.results[3].error = hostile;
+    const std::string page =
+        study_page(made.study, made.members, made.results, {made.folder.path()}, charts.stems);
+    EXPECT_THAT(page, HasSubstr("&lt;script&gt;"));
+    EXPECT_THAT(page, Not(HasSubstr("<script>")));
+}
+
+TEST(StudyReference, IsReadRowByRow) {
+    const StudyFolderOfTest folder;
+    const auto read = [&](const std::string& text) {
+        write_text(folder / "points.csv", text);
+        return read_reference(folder / "points.csv");
+    };
+    const std::vector<ReferencePoint> points = read("# Knight 1993\r\nx,y,error\r\n1,2,0.5\r\n 3 , 4\r\n");
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(points[0].error, 0.5);
+    EXPECT_EQ(points[1].x, 3);
+    EXPECT_EQ(points[1].y, 4);
+    EXPECT_EQ(points[1].error, 0);
+    for (const auto& [text, place] :
+         {std::pair{"1,2\n3,x\n", ":2:3: \"x\" is no number"},
+          std::pair{"1,2\n3\n", ":2:1: there are 1 numbers"},
+          std::pair{"1,2\n3,4,-1\n", ":2:5: the error of y is negative"}, std::pair{"1,2\n3,nan\n", ":2:3: "},
+          std::pair{"x,y\n", ": has no points"}}) {
+        try {
+            read(text);
+            ADD_FAILURE() << text;
+        } catch (const UserError& error) {
+            EXPECT_THAT(error.what(), HasSubstr((folder / "points.csv").string() + place));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace grainreel

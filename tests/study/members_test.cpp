@@ -1,0 +1,87 @@
+#include "render/study/members.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "engine/scene/text/writer.hpp"
+#include "tests/study/study_text.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+std::vector<Member> members_of(const Study& study) {
+    return make_members(study, [](const Scene&, const Plan&) {});
+}
+
+std::string name_of_first(const StudyFolderOfTest& folder, const std::string& text) {
+    return members_of(folder.read(text)).front().name;
+}
+
+TEST(StudyMembers, GoThroughTheGridSeedBySeed) {
+    const StudyFolderOfTest folder;
+    const Study study = folder.read(small_study);
+    const std::vector<Member> members = members_of(study);
+    ASSERT_EQ(members.size(), 2u * 3 * 2);
+    EXPECT_EQ(member_text(study, members[0]), "drive.g_level = 2, species.big.diameter = 5 mm, seed 1");
+    EXPECT_EQ(member_text(study, members[1]), "drive.g_level = 2, species.big.diameter = 5 mm, seed 2");
+    EXPECT_EQ(member_text(study, members[2]), "drive.g_level = 2, species.big.diameter = 5.5 mm, seed 1");
+    EXPECT_EQ(member_text(study, members.back()), "drive.g_level = 3, species.big.diameter = 6 mm, seed 2");
+    std::set<std::string> names;
+    for (const Member& member : members) names.insert(member.name);
+    EXPECT_EQ(names.size(), members.size());
+}
+
+// What `movie --set ...` makes of the scene.
+TEST(StudyMembers, HaveTheSceneThatSetWouldMake) {
+    const StudyFolderOfTest folder;
+    const Study study = folder.read("set = [\"run.duration=0.1 s\"]\n" + small_study);
+    const Member last = members_of(study).back();
+    const Scene scene = read_scene(study.scene, last.sets);
+    const Scene typed = read_scene(
+        study.scene, {"run.duration=0.1 s", "drive.g_level=3", "species.big.diameter=6 mm", "run.seed=2"});
+    EXPECT_EQ(resolved_scene(scene, make_plan(scene)), resolved_scene(typed, make_plan(typed)));
+}
+
+TEST(StudyMembers, KeepTheirNamesWhileTheirRunIsTheSame) {
+    const StudyFolderOfTest folder;
+    const std::string first = name_of_first(folder, small_study);
+    EXPECT_EQ(name_of_first(folder, with_line(small_study, "[2, 3]", "[2, 3, 4]")), first);
+    EXPECT_EQ(name_of_first(folder, "set = [\"film.rate=25\"]\n" + small_study), first);
+    EXPECT_NE(name_of_first(folder, "set = [\"run.duration=0.1 s\"]\n" + small_study), first);
+    EXPECT_NE(name_of_first(folder, with_line(small_study, "[2, 3]", "[2.5, 3]")), first);
+}
+
+TEST(StudyMembers, ManyAreAskedAbout) {
+    const StudyFolderOfTest folder;
+    const Study study = folder.read(with_line(with_line(small_study, "seeds = 2", "seeds = 100"),
+                                              "values = [2, 3]", "from = 1\nto = 3\ncount = 34"));
+    EXPECT_EQ(count_members(study, true), 34u * 3 * 100);
+    try {
+        count_members(study, false);
+        ADD_FAILURE();
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("study.toml:4:1: the study would have 10200 members"));
+        EXPECT_THAT(error.what(), HasSubstr("--yes"));
+    }
+    const Study vast = folder.read(with_line(with_line(small_study, "seeds = 2", "seeds = 100000"),
+                                             "values = [2, 3]", "from = 1\nto = 3\ncount = 100000"));
+    EXPECT_THROW(count_members(vast, true), UserError);
+}
+
+TEST(StudyMembers, NamesAreHarmless) {
+    EXPECT_EQ(file_name_part("g_level-2"), "g_level-2");
+    EXPECT_EQ(file_name_part("9 mm"), "9mm");
+    EXPECT_EQ(file_name_part("../a b;$(x)"), "_..-ab---x-");
+    EXPECT_EQ(file_name_part(""), "_");
+    EXPECT_EQ(file_name_part(std::string(500, 'x')).size(), 60u);
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,88 @@
+// Reductions against what their definitions give by hand.
+#include "render/study/reduction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace grainreel {
+namespace {
+
+using Kind = Reduction::Kind;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> line(const std::vector<double>& times, double offset, double slope) {
+    std::vector<double> values;
+    for (const double t : times) values.push_back(offset + slope * t);
+    return values;
+}
+
+const std::vector<double> uneven{0, 0.1, 0.25, 0.7, 1.5, 1.6};  // s
+
+TEST(Reduction, SlopeOfALineIsItsOwn) {
+    EXPECT_NEAR(slope_of(uneven, line(uneven, 3, -2.5)), -2.5, 1e-14);
+    EXPECT_EQ(slope_of(uneven, line(uneven, 3, 0)), 0);
+}
+
+// Of the parabola t^2 at t = 0, 1, 2, 3: sum (t - 3/2)(t^2 - 7/2) / sum (t - 3/2)^2 = 15 / 5.
+TEST(Reduction, SlopeIsThatOfLeastSquares) {
+    EXPECT_DOUBLE_EQ(slope_of({0, 1, 2, 3}, {0, 1, 4, 9}), 3);
+}
+
+TEST(Reduction, SlopeNeedsTwoTimes) {
+    EXPECT_TRUE(std::isnan(slope_of({}, {})));
+    EXPECT_TRUE(std::isnan(slope_of({1}, {2})));
+}
+
+// v = a + b t comes to the threshold at (threshold - a) / b, wherever the rows are.
+TEST(Reduction, FirstPassageIsInterpolated) {
+    for (const double slope : {2.0, -2.0}) {
+        const double offset = -slope * 0.9;
+        for (const double threshold : {-1.0, 0.3, 1.1}) {
+            const double expected = (threshold - offset) / slope;
+            EXPECT_NEAR(first_passage(threshold, uneven, line(uneven, offset, slope)), expected, 1e-14);
+        }
+    }
+}
+
+TEST(Reduction, FirstPassageAndLastCrossingDifferWhereTheValueComesBack) {
+    const std::vector<double> times{0, 1, 2, 3, 4}, values{0, 2, 0, 2, 2};
+    EXPECT_DOUBLE_EQ(first_passage(1, times, values), 0.5);
+    EXPECT_DOUBLE_EQ(last_crossing(1, times, values), 2.5);
+    EXPECT_DOUBLE_EQ(last_crossing(0.5, times, {0, 2, 0, 2, 0}), 3.75);
+}
+
+TEST(Reduction, ThresholdThatIsNotReachedGivesNothing) {
+    EXPECT_TRUE(std::isnan(first_passage(5, uneven, line(uneven, 0, 1))));
+    EXPECT_TRUE(std::isnan(last_crossing(5, uneven, line(uneven, 0, 1))));
+    EXPECT_TRUE(std::isnan(first_passage(5, {}, {})));
+    EXPECT_TRUE(std::isnan(last_crossing(5, {1}, {5})));
+}
+
+TEST(Reduction, ThresholdWhereTheValuesBegin) {
+    EXPECT_EQ(first_passage(3, {2, 3}, {3, 4}), 2);
+}
+
+// The mean of t over 0.25 <= t <= 1.5: (0.25 + 0.7 + 1.5) / 3.
+TEST(Reduction, WindowTakesItsEnds) {
+    EXPECT_DOUBLE_EQ(reduce({Kind::mean, 0.25, 1.5, 0}, uneven, uneven), (0.25 + 0.7 + 1.5) / 3);
+    EXPECT_EQ(reduce({Kind::end, 0, 1.5, 0}, uneven, uneven), 1.5);
+    EXPECT_EQ(reduce({Kind::end}, uneven, uneven), 1.6);
+    EXPECT_TRUE(std::isnan(reduce({Kind::mean, 2, 3, 0}, uneven, uneven)));
+    // 0.1 + 0.2 is a bit more than 0.3, and means it.
+    EXPECT_EQ(reduce({Kind::end, 0, 0.3, 0}, {0, 0.1 + 0.2}, {1, 2}), 2);
+    EXPECT_DOUBLE_EQ(reduce({Kind::slope, 0.1, 1.6, 0}, uneven, line(uneven, 1, 4)), 4);
+    EXPECT_DOUBLE_EQ(reduce({Kind::first_passage, 1, 4, 1}, {0, 1, 2, 3, 4}, {0, 2, 0, 2, 2}), 1.5);
+    EXPECT_DOUBLE_EQ(reduce({Kind::crossing, 0, 2, 1}, {0, 1, 2, 3, 4}, {0, 2, 0, 2, 2}), 1.5);
+}
+
+TEST(Reduction, ValuesThatAreMissingAreLeftOutButForTheLast) {
+    EXPECT_EQ(reduce({Kind::mean}, {0, 1, 2}, {1, nan, 5}), 3);
+    EXPECT_EQ(reduce({Kind::slope}, {0, 1, 2}, {1, nan, 5}), 2);
+    EXPECT_DOUBLE_EQ(reduce({Kind::first_passage, 0, 9, 3}, {0, 1, 2}, {1, nan, 5}), 1);
+    EXPECT_TRUE(std::isnan(reduce({Kind::end}, {0, 1, 2}, {1, 4, nan})));
+}
+
+}  // namespace
+}  // namespace grainreel
