@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace grainreel {
 
@@ -45,6 +46,23 @@ int PeriodMultiple::multiple_now() const {
         left = difference;
     }
     return multiple;
+}
+
+void PeriodMultiple::save(std::ostream& out) const {
+    const Writing each{out};
+    each(std::vector<double>(heights_.begin(), heights_.end()));
+    each(next_), each(value_), each(other_), each(confirmed_), each(difference_);
+}
+
+void PeriodMultiple::load(Bytes& in) {
+    const Reading each{in};
+    std::vector<double> heights;
+    each(heights), each(next_), each(value_), each(other_), each(confirmed_), each(difference_);
+    heights_.assign(heights.begin(), heights.end());
+    const auto is_multiple = [](int periods) { return periods >= 1 && periods <= kMost; };
+    if (heights_.size() >= kPhases * (kWindow + kMost + 1) || next_ < -1 || !is_multiple(value_) ||
+        !is_multiple(other_) || confirmed_ < 0)
+        in.fail();
 }
 
 }  // namespace grainreel

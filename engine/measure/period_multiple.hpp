@@ -4,6 +4,9 @@
 
 #include <cstdint>
 #include <deque>
+#include <iosfwd>
+
+#include "engine/base/binary.hpp"
 
 namespace grainreel {
 
@@ -28,6 +31,10 @@ class PeriodMultiple {
     int value() const { return value_; }
     // m: root mean square difference between a period and the one before it.
     double difference() const { return difference_; }
+
+    // Everything it knows, for the checkpoint.
+    void save(std::ostream& out) const;
+    void load(Bytes& in);
 
   private:
     void end_period();

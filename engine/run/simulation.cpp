@@ -346,17 +346,6 @@ Frame Simulation::frame() const {
     return f;
 }
 
-double Simulation::centre_height() const {
-    const Impl& m = *impl_;
-    double moment = 0, mass = 0;
-    for (std::size_t i = 0; i < m.grains.size(); ++i) {
-        moment += m.grains.mass(i) * m.grains.place[i].position.z();
-        mass += m.grains.mass(i);
-    }
-    if (mass == 0) return std::numeric_limits<double>::quiet_NaN();
-    return moment / mass - m.around.motion.at(m.step).offset.z();
-}
-
 Moment Simulation::Impl::moment() {
     if (observers.need_wall_sums()) wall_sums = loop->wall_sums();
     return {scene,

@@ -68,8 +68,7 @@ class Simulation {
     int threads() const;
 
     Frame frame() const;
-    double centre_height() const;  // m, of the centre of mass above the floor where that is now
-    Measures measures() const;     // all columns of measures.csv
+    Measures measures() const;                         // all columns of measures.csv
     const std::vector<std::string>& measured() const;  // their names
     // One of them. Looks at no more than that needs.
     double measure(const std::string& column) const;

@@ -93,8 +93,7 @@ void SceneRun::start(const Pictures& pictures) {
     want_moments(shots);
     agenda_.emplace(shots, Rhythm(plan_.trajectory_every, plan_.trajectory_periods),
                     Rhythm(plan_.measures_every, plan_.measures_periods), first_step_, plan_.steps,
-                    kept_.steps(), bed_periods_->rhythm(), plan_.clock,
-                    files_->has_fields() ? &plan_.fields : nullptr);
+                    kept_.steps(), plan_.clock, files_->has_fields() ? &plan_.fields : nullptr);
     // As far as one knows: what a bed of several periods leaves out is found later.
     shots_ = std::count_if(shots.begin(), shots.end(), [&](const Shot& shot) {
         const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));
@@ -116,7 +115,7 @@ std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     if (std::optional<Taken> picture = waiting()) return picture;
     while (std::optional<Stop> stop = agenda_->next()) {
         if (!advance_to(stop->step, go_on)) return std::nullopt;
-        if (stop->strobe) bed_periods_->note(stop->step, simulation_.centre_height());
+        look_at_bed_periods();
         leave_out_pictures(*stop);
         frame_ = serve(*stop);
         segments_waiting_ = stop->segments;
@@ -189,10 +188,13 @@ FramePtr SceneRun::serve(const Stop& stop) {
     return frame;
 }
 
+void SceneRun::look_at_bed_periods() {
+    bed_periods_->note(simulation_.step(), static_cast<int>(simulation_.measure("bed_periods")),
+                       simulation_.measure("period_difference_m"));
+}
+
 void SceneRun::add_measures() {
-    Measures measures = simulation_.measures();
-    measures.set("bed_periods", bed_periods_->found());
-    files_->add_measures(measures);
+    files_->add_measures(simulation_.measures());
 }
 
 void SceneRun::save_checkpoint() {

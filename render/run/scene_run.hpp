@@ -79,6 +79,7 @@ class SceneRun final : public FrameSource {
     bool advance_to(std::int64_t target, const GoOn& go_on);
     void leave_out_pictures(Stop& stop);
     FramePtr serve(const Stop& stop);
+    void look_at_bed_periods();
     void add_measures();
     const FilmSegment& rule(int segment) const { return segments_.at(static_cast<std::size_t>(segment)); }
     void save_checkpoint();

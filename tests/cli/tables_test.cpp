@@ -146,6 +146,7 @@ TEST(MeasuresCsv, HasAColumnForEveryNumber) {
                                            "largest_overlap",
                                            "floor_position_m",
                                            "bed_periods",
+                                           "period_difference_m",
                                            "drive_frequency_Hz",
                                            "drive_g_level",
                                            "bed_top_m",

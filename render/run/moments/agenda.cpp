@@ -13,13 +13,12 @@ constexpr std::int64_t never = Rhythm::kNever;
 }  // namespace
 
 Agenda::Agenda(std::vector<Shot> shots, const Rhythm& trajectory, const Rhythm& measures, std::int64_t first,
-               std::int64_t last, std::set<std::int64_t> moments, const Rhythm& strobe, const Clock& clock,
+               std::int64_t last, std::set<std::int64_t> moments, const Clock& clock,
                const FieldTimes* fields)
     : shots_(std::move(shots)),
       moments_(std::move(moments)),
       trajectory_(trajectory),
       measures_(measures),
-      strobe_(strobe),
       clock_(clock),
       fields_(fields != nullptr ? std::optional(*fields) : std::nullopt),
       first_(first),
@@ -34,18 +33,16 @@ std::optional<Stop> Agenda::next() {
     const std::int64_t fields = fields_ ? fields_->next_end(std::max(at_, first_ + 1)) : never;
     const std::int64_t trajectory = trajectory_.next(at_, clock_);
     const std::int64_t measures = at_ == first_ ? first_ : measures_.next(at_, clock_);
-    const std::int64_t strobe = strobe_.next(at_, clock_);
     const std::int64_t moment = moments_.empty() ? never : *moments_.begin();
 
     Stop stop;
-    stop.step = std::min({shot, trajectory, measures, moment, strobe, fields, last_});
+    stop.step = std::min({shot, trajectory, measures, moment, fields, last_});
     stop.moment = moment == stop.step;
     if (stop.moment) moments_.erase(moments_.begin());
     while (shot_ < shots_.size() && shots_[shot_].step == stop.step)
         stop.segments.push_back(shots_[shot_++].segment);
     stop.trajectory = trajectory == stop.step;
     stop.fields = fields == stop.step;
-    stop.strobe = strobe == stop.step;
     stop.measures = measures == stop.step || stop.step == last_;
     at_ = stop.step + 1;
     return stop;

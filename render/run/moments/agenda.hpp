@@ -20,17 +20,16 @@ struct Stop {
     bool measures = false;
     bool moment = false;  // a later picture wants to know how the grains are now
     bool fields = false;  // a record of fields ends
-    bool strobe = false;  // one of the moments at which periods are compared
 };
 
 class Agenda {
   public:
     // Steps from `first` to `last`. Shots before `first` are left out; trajectory and measures come at
-    // their steps, measures at `first` and `last` too. moments: steps. strobe: of moments at which periods
-    // are compared. clock: for what goes by periods. fields: null without any.
+    // their steps, measures at `first` and `last` too. moments: steps. clock: for what goes by periods.
+    // fields: null without any.
     Agenda(std::vector<Shot> shots, const Rhythm& trajectory, const Rhythm& measures, std::int64_t first,
-           std::int64_t last, std::set<std::int64_t> moments = {}, const Rhythm& strobe = 0,
-           const Clock& clock = {}, const FieldTimes* fields = nullptr);
+           std::int64_t last, std::set<std::int64_t> moments = {}, const Clock& clock = {},
+           const FieldTimes* fields = nullptr);
 
     // The next stop, in rising order of step; the last is at `last`. Empty after it.
     std::optional<Stop> next();
@@ -41,7 +40,7 @@ class Agenda {
     std::vector<Shot> shots_;
     std::size_t shot_ = 0;
     std::set<std::int64_t> moments_;
-    Rhythm trajectory_, measures_, strobe_;
+    Rhythm trajectory_, measures_;
     Clock clock_;
     std::optional<FieldTimes> fields_;
     std::int64_t first_, last_;

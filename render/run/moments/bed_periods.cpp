@@ -25,30 +25,15 @@ BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector
     : clock_(clock),
       wanted_(scene.film.periods),
       may_leave_out_(may_leave_out),
-      diameter_(mean_diameter(scene.species)),
-      multiple_(diameter_) {
+      diameter_(mean_diameter(scene.species)) {
     for (const Shot& shot : shots) first_.emplace(shot.segment, shot.step);
 }
 
-void BedPeriods::note(std::int64_t step, double height) {
-    const int before = multiple_.value();
-    multiple_.add(number_of(step), height);
-    const bool as_wanted = wanted_ > 0 && wanted_ % multiple_.value() == 0;
-    if (multiple_.value() != before && !as_wanted) news_.push_back(news_of(step));
-}
-
-Rhythm BedPeriods::rhythm() const {
-    if (clock_.changes.empty())
-        return Rhythm(static_cast<double>(clock_.steps_per_period / PeriodMultiple::kPhases));
-    return Rhythm(0, 1.0 / PeriodMultiple::kPhases);
-}
-
-std::int64_t BedPeriods::number_of(std::int64_t step) const {
-    return std::llround(clock_.cycles(step) * PeriodMultiple::kPhases);
-}
-
-int BedPeriods::found() const {
-    return clock_.steps_per_period > 0 ? multiple_.value() : 0;
+void BedPeriods::note(std::int64_t step, int periods, double difference) {
+    if (periods == found_ || periods < 1) return;
+    found_ = periods;
+    const bool as_wanted = wanted_ > 0 && wanted_ % found_ == 0;
+    if (!as_wanted) news_.push_back(news_of(step, difference));
 }
 
 std::vector<int> BedPeriods::possible() const {
@@ -67,15 +52,15 @@ bool BedPeriods::shows(const FilmSegment& rule, const Shot& shot) const {
     return periods % spanning(rule, shown()).every == 0;
 }
 
-std::string BedPeriods::news_of(std::int64_t step) const {
-    const int periods = multiple_.value();
+std::string BedPeriods::news_of(std::int64_t step, double difference) const {
+    const int periods = found_;
     const double time = clock_.time(step);
     if (periods == 1)
         return fmt::format("from {:.3g} s on the bed repeats itself every period of the drive again", time);
     std::string text = fmt::format(
         "from {:.3g} s on the bed repeats itself only every {} periods of the drive (from one period to the "
         "next its centre of mass differs by {:.2g} grain diameters)",
-        time, periods, multiple_.difference() / diameter_);
+        time, periods, difference / diameter_);
     if (wanted_ == 0 && !may_leave_out_)
         return text +
                fmt::format(

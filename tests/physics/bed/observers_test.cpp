@@ -232,7 +232,9 @@ TEST(Observers, BelieveNothingThatWasSaved) {
 
 TEST(Observers, GiveEveryColumnOfThreeGrains) {
     const Bed bed;
-    Observers all(all_observers(), bed.scene, Plan());
+    Plan plan;
+    plan.clock = bed.clock;
+    Observers all(all_observers(), bed.scene, plan);
     const Measures m = all.look(bed.moment(), three_contacts);
     const double small = 4.0 / 3 * std::numbers::pi, big = 8 * small, mass = 2 * small + big;  // kg
     const double kinetic = 0.5 * big * 25, rotational = 0.5 * 0.4 * small * 4;
@@ -278,6 +280,7 @@ TEST(Observers, GiveEveryColumnOfThreeGrains) {
         {"largest_overlap", 0.03},
         {"floor_position_m", 0.5},
         {"bed_periods", 1},
+        {"period_difference_m", 0},
         {"drive_frequency_Hz", 100},
         {"drive_g_level", 1e-4 * std::pow(2 * std::numbers::pi * 100, 2) / 10},
         {"bed_top_m", 1.5},
@@ -298,7 +301,9 @@ TEST(Observers, OfSegregationGiveNothingForOneSpecies) {
     Bed bed;
     bed.scene.species.resize(1);
     bed.grains.species = {0, 0, 0};
-    Observers all(all_observers(), bed.scene, Plan());
+    Plan plan;
+    plan.clock = bed.clock;
+    Observers all(all_observers(), bed.scene, plan);
     const Measures m = all.look(bed.moment(), three_contacts);
     for (const char* name :
          {"height_difference", "big_above_small", "big_in_top_quarter", "big_in_bottom_quarter",

@@ -1,22 +1,73 @@
 // After how many periods of the drive the bed repeats itself.
 #pragma once
 
+#include <cmath>
+
 #include "engine/measure/observer.hpp"
+#include "engine/measure/period_multiple.hpp"
+#include "engine/plan/rhythm.hpp"
 
 namespace grainreel::observers {
 
-// As long as nobody has looked at whole periods (PeriodMultiple): 1. Who has sets the column.
 class BedPeriods final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"bed_periods", "periods until the bed repeats itself"}},
                  "periods",
                  "of the drive, after which the bed repeats itself, as far as is known by then (see "
-                 "[below](#beds-that-land-every-second-period)); 0 without a drive"}};
+                 "[below](#beds-that-land-every-second-period)); 0 without a drive"},
+                {{{"period_difference_m", "difference between periods", Dimension::length}},
+                 "m",
+                 "root mean square difference between the heights of the bed's centre of mass in a period "
+                 "and in the one before; 0 until eight periods have been seen"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
-        row.push_back(m.clock.steps_per_period > 0 ? 1 : 0);
+
+    BedPeriods(const Scene& scene, const Plan& plan)
+        : clock_(plan.clock), multiple_(mean_diameter(scene.species)) {}
+
+    std::int64_t gathers_after(std::int64_t step) const override {
+        return is_shaken() ? looks().next(step + 1, clock_) : kNever;
     }
+    void start(const Moment& m) override {
+        if (is_shaken() && looks().next(m.step, clock_) == m.step) gather(m);
+    }
+    void gather(const Moment& m) override {
+        multiple_.add(std::llround(clock_.cycles(m.step) * PeriodMultiple::kPhases), centre_height(m));
+    }
+    void look(const Moment&, std::vector<double>& row) override {
+        row.insert(row.end(),
+                   {is_shaken() ? static_cast<double>(multiple_.value()) : 0.0, multiple_.difference()});
+    }
+    void save(std::ostream& out) const override { multiple_.save(out); }
+    void load(const Moment&, Bytes& in) override { multiple_.load(in); }
+
+  private:
+    static double mean_diameter(const std::vector<Species>& species) {
+        double sum = 0, count = 0;
+        for (const Species& s : species) {
+            sum += static_cast<double>(s.all()) * s.diameter.mean;
+            count += static_cast<double>(s.all());
+        }
+        return sum / count;
+    }
+    // m, of the centre of mass above the floor where that is now.
+    static double centre_height(const Moment& m) {
+        double moment = 0, mass = 0;
+        for (std::size_t i = 0; i < m.grains.size(); ++i) {
+            moment += m.grains.mass(i) * m.grains.place[i].position.z();
+            mass += m.grains.mass(i);
+        }
+        return moment / mass - m.floor_height();
+    }
+    bool is_shaken() const { return clock_.steps_per_period > 0; }
+    Rhythm looks() const {
+        if (clock_.changes.empty())
+            return Rhythm(static_cast<double>(clock_.steps_per_period / PeriodMultiple::kPhases));
+        return Rhythm(0, 1.0 / PeriodMultiple::kPhases);
+    }
+
+    const Clock clock_;
+    PeriodMultiple multiple_;
 };
 
 }  // namespace grainreel::observers
