@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/base/random.hpp"
-#include "engine/measure/energy.hpp"
+#include "engine/measure/energy/energy.hpp"
 
 namespace grainreel {
 

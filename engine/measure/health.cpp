@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/energy.hpp"
+#include "engine/measure/energy/energy.hpp"
 
 namespace grainreel {
 

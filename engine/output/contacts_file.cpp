@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/output/netcdf_file.hpp"
+#include "engine/output/netcdf/netcdf_file.hpp"
 
 namespace grainreel {
 

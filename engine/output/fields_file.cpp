@@ -12,7 +12,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/checksum.hpp"
-#include "engine/output/netcdf_file.hpp"
+#include "engine/output/netcdf/netcdf_file.hpp"
 
 namespace grainreel {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/frame_faults.hpp"
-#include "engine/output/netcdf_file.hpp"
+#include "engine/output/netcdf/netcdf_file.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/output/trajectory_layout.hpp"
 

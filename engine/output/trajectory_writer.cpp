@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/output/netcdf_file.hpp"
+#include "engine/output/netcdf/netcdf_file.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/output/trajectory_layout.hpp"
 

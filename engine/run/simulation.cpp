@@ -13,10 +13,10 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/measure/energy.hpp"
+#include "engine/measure/energy/energy.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/measure/observers.hpp"
-#include "engine/measure/segregation.hpp"
+#include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/wall_faces.hpp"
 #include "engine/run/feeder.hpp"
 #include "engine/run/surroundings.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/measure/energy.hpp"
+#include "engine/measure/energy/energy.hpp"
 #include "engine/measure/health.hpp"
 
 namespace grainreel {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/big_and_small.hpp"
+#include "engine/measure/segregation/big_and_small.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/scene/text/assignment.hpp"
-#include "render/study/reduction.hpp"
+#include "render/study/results/reduction.hpp"
 
 namespace grainreel {
 

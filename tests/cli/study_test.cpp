@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "engine/output/measures_csv.hpp"
-#include "render/study/reduction.hpp"
+#include "render/study/results/reduction.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

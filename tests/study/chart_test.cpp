@@ -8,9 +8,9 @@
 #include "engine/base/error.hpp"
 #include "engine/base/shell_word.hpp"
 #include "engine/chart/gnuplot.hpp"
-#include "render/study/drawing.hpp"
-#include "render/study/page.hpp"
-#include "render/study/table.hpp"
+#include "render/study/results/drawing.hpp"
+#include "render/study/results/page.hpp"
+#include "render/study/results/table.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "render/study/members.hpp"
+#include "render/study/file/members.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Reductions against what their definitions give by hand.
-#include "render/study/reduction.hpp"
+#include "render/study/results/reduction.hpp"
 
 #include <gtest/gtest.h>
 

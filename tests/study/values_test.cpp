@@ -1,4 +1,4 @@
-#include "render/study/values.hpp"
+#include "render/study/file/values.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/chart/gas.hpp"
-#include "engine/measure/energy_balance.hpp"
+#include "engine/measure/energy/energy_balance.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "engine/step/forces/scheme.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/chart/validation/seed_mean.hpp"
-#include "engine/measure/segregation.hpp"
+#include "engine/measure/segregation/segregation.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/text/reader.hpp"
 

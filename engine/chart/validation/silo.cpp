@@ -5,7 +5,7 @@
 
 #include "engine/base/random.hpp"
 #include "engine/chart/bench.hpp"
-#include "engine/measure/energy.hpp"
+#include "engine/measure/energy/energy.hpp"
 
 namespace grainreel {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/base/nearest_image.hpp"
-#include "engine/measure/big_and_small.hpp"
 #include "engine/measure/no_value.hpp"
+#include "engine/measure/segregation/big_and_small.hpp"
 #include "engine/measure/surface/surface.hpp"
 #include "engine/state/container_faces.hpp"
 

@@ -1,7 +1,7 @@
 // What the grains hold, what moving walls have put in, and the rest of that balance.
 #pragma once
 
-#include "engine/measure/energy.hpp"
+#include "engine/measure/energy/energy.hpp"
 #include "engine/measure/observer.hpp"
 
 namespace grainreel::observers {

@@ -1,10 +1,10 @@
 // Where the energy goes, term by term: each is measured at the contacts, and none is the rest of the others.
-// The formulas are those of engine/measure/energy_balance.hpp.
+// The formulas are those of engine/measure/energy/energy_balance.hpp.
 #pragma once
 
 #include <optional>
 
-#include "engine/measure/energy_balance.hpp"
+#include "engine/measure/energy/energy_balance.hpp"
 #include "engine/measure/observer.hpp"
 
 namespace grainreel::observers {

@@ -7,7 +7,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/cli/estimate/cost_estimate.hpp"
-#include "render/study/members.hpp"
+#include "render/study/file/members.hpp"
 
 namespace grainreel {
 

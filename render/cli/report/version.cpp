@@ -21,7 +21,7 @@ extern "C" {
 }
 
 #include "build_info.hpp"
-#include "engine/output/netcdf_file.hpp"
+#include "engine/output/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
 
 namespace grainreel {

@@ -16,12 +16,12 @@
 #include "render/cli/report/result.hpp"
 #include "render/cli/verbs/verb.hpp"
 #include "render/run/stage_times.hpp"
-#include "render/study/child.hpp"
-#include "render/study/drawing.hpp"
-#include "render/study/page.hpp"
-#include "render/study/read_study.hpp"
-#include "render/study/runner.hpp"
-#include "render/study/table.hpp"
+#include "render/study/file/read_study.hpp"
+#include "render/study/members/child.hpp"
+#include "render/study/members/runner.hpp"
+#include "render/study/results/drawing.hpp"
+#include "render/study/results/page.hpp"
+#include "render/study/results/table.hpp"
 
 namespace grainreel {
 namespace {

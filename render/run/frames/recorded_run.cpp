@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/period_multiple.hpp"
+#include "engine/measure/bed/period_multiple.hpp"
 #include "engine/output/folder_lock.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "render/run/frames/choice.hpp"

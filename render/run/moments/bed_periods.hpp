@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/period_multiple.hpp"
+#include "engine/measure/bed/period_multiple.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/contacts_file.hpp"
-#include "engine/output/netcdf_header.hpp"
+#include "engine/output/netcdf/netcdf_header.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "engine/base/nearest_image.hpp"
 #include "engine/base/random.hpp"
-#include "engine/measure/segregation.hpp"
-#include "engine/measure/unlike_neighbours.hpp"
+#include "engine/measure/segregation/segregation.hpp"
+#include "engine/measure/segregation/unlike_neighbours.hpp"
 
 namespace grainreel {
 namespace {

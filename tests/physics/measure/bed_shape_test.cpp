@@ -6,7 +6,7 @@
 
 #include "engine/measure/bed/intruder.hpp"
 #include "engine/measure/bed/solid_fraction.hpp"
-#include "engine/measure/side_walls.hpp"
+#include "engine/measure/segregation/side_walls.hpp"
 
 namespace grainreel {
 namespace {

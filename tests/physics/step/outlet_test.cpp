@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-#include "engine/measure/energy_balance.hpp"
+#include "engine/measure/energy/energy_balance.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/run/surroundings.hpp"
 #include "engine/scene/text/reader.hpp"

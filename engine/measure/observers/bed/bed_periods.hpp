@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "engine/measure/bed/period_multiple.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/period_multiple.hpp"
 #include "engine/plan/rhythm.hpp"
 
 namespace grainreel::observers {

@@ -5,7 +5,7 @@
 #include "engine/measure/heights.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/segregation.hpp"
+#include "engine/measure/segregation/segregation.hpp"
 
 namespace grainreel::observers {
 

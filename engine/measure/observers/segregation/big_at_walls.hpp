@@ -1,10 +1,10 @@
 // How many of the big grains lie beside the left and right walls.
 #pragma once
 
-#include "engine/measure/big_and_small.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/side_walls.hpp"
+#include "engine/measure/segregation/big_and_small.hpp"
+#include "engine/measure/segregation/side_walls.hpp"
 
 namespace grainreel::observers {
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "engine/measure/big_and_small.hpp"
 #include "engine/measure/heights.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/segregation.hpp"
+#include "engine/measure/segregation/big_and_small.hpp"
+#include "engine/measure/segregation/segregation.hpp"
 
 namespace grainreel::observers {
 

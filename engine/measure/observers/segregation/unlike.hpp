@@ -1,10 +1,10 @@
 // Do grains of different species lie side by side as often as by chance?
 #pragma once
 
-#include "engine/measure/big_and_small.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/unlike_neighbours.hpp"
+#include "engine/measure/segregation/big_and_small.hpp"
+#include "engine/measure/segregation/unlike_neighbours.hpp"
 
 namespace grainreel::observers {
 

@@ -1,0 +1,150 @@
+#include "engine/measure/energy/energy_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/measure/energy/energy.hpp"
+
+namespace grainreel {
+
+EnergyBalance::EnergyBalance(const Surroundings& around, const Grains& grains, const StepLoop& loop,
+                             std::int64_t step, double step_length)
+    : around_(around), grains_(grains), loop_(loop), half_step_(0.5 * step_length) {
+    look(step);
+    const EnergyTerms now = terms_;
+    terms_ = {now.kinetic, now.rotational, now.gravitational, now.stored};
+    held_at_start_ = terms_.held();
+    work_at_start_ = now.wall_work;
+    came_at_start_ = traffic_.energy_in;
+    left_at_start_ = traffic_.energy_out;
+}
+
+void EnergyBalance::note(std::int64_t step) {
+    const Powers before = powers_;
+    look(step);
+    end_contacts(step);
+    terms_.damping += half_step_ * (before.damping + powers_.damping);
+}
+
+void EnergyBalance::look(std::int64_t step) {
+    const Kinetic kinetic = kinetic_energy(grains_);
+    terms_.kinetic = kinetic.translation;
+    terms_.rotational = kinetic.rotation;
+    terms_.gravitational = gravitational_energy(grains_, around_.gravity);
+    terms_.stored = 0;
+    powers_ = {};
+    const Pose pose = around_.motion.at(step);
+    loop_.visit_contacts(step, [&](const ContactView& c) {
+        add_contact(step, c);
+        terms_.stored += c.stored_energy;
+        powers_.damping += c.damping_power;
+        if (c.second >= 0) return;
+        const Vec3 on_wall = c.normal_force * c.normal + c.tangential;
+        powers_.walls -= on_wall.dot(around_.faces[-1 - c.second].velocity_at(pose));
+    });
+    // The grains' count has the last force for a whole step; half of that is still to come.
+    note_traffic();
+    terms_.wall_work = wall_work(grains_) + traffic_.work_out - half_step_ * powers_.walls - work_at_start_;
+}
+
+void EnergyBalance::note_traffic() {
+    const Traffic& now = loop_.traffic();
+    if (now.left != traffic_.left) {
+        present_ = grains_.id;
+        std::sort(present_.begin(), present_.end());
+    }
+    some_left_ = now.left != traffic_.left;
+    opened_ = now.openings != traffic_.openings;
+    traffic_ = now;
+    terms_.came = now.energy_in - came_at_start_;
+    terms_.left = now.energy_out - left_at_start_;
+}
+
+void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
+    Kept& kept = contacts_[key(c)];
+    terms_.latching += c.latched_energy - kept.latched;
+    add_friction(half_step_ * (kept.rubbing + c.rubbing_power) - (c.sideways_energy - kept.sideways));
+    kept = {step, c.latched_energy, c.sideways_energy, c.rubbing_power};
+}
+
+// What a tangential spring still held when its contact parted goes to friction. Where a grain has left, or
+// an outlet has opened below it, it went out with that. Rising keys make the sum the same whatever the map
+// has been through.
+void EnergyBalance::end_contacts(std::int64_t step) {
+    ended_.clear();
+    for (const auto& [key, kept] : contacts_)
+        if (kept.step != step) ended_.push_back(key);
+    std::sort(ended_.begin(), ended_.end());
+    for (const std::uint64_t key : ended_) {
+        const Kept& kept = contacts_.at(key);
+        const bool went_out = (some_left_ && !are_there(key)) || (opened_ && is_at_wall(key));
+        if (!went_out) add_friction(half_step_ * kept.rubbing + kept.sideways);
+        contacts_.erase(key);
+    }
+}
+
+// Everything saved but the contacts, in its order.
+template <class Balance, class Each>
+void EnergyBalance::transfer(Balance& balance, const Each& each) {
+    each(balance.powers_.walls), each(balance.powers_.damping);
+    EnergyTerms::each(balance.terms_, each);
+    each(balance.held_at_start_), each(balance.work_at_start_);
+    each(balance.came_at_start_), each(balance.left_at_start_);
+    each(balance.traffic_);
+}
+
+void EnergyBalance::save(std::ostream& out) const {
+    std::vector<std::uint64_t> keys;
+    for (const auto& one : contacts_) keys.push_back(one.first);
+    std::sort(keys.begin(), keys.end());
+    std::vector<Kept> kept;
+    for (const std::uint64_t key : keys) kept.push_back(contacts_.at(key));
+    const Writing each{out};
+    each(keys), each(kept);
+    transfer(*this, each);
+}
+
+void EnergyBalance::load(Bytes& in) {
+    std::vector<std::uint64_t> keys;
+    std::vector<Kept> kept;
+    const Reading each{in};
+    each(keys), each(kept);
+    transfer(*this, each);
+    const auto finite = [](const Kept& one) {
+        return one.step >= 0 && std::isfinite(one.latched) && std::isfinite(one.sideways) &&
+               std::isfinite(one.rubbing);
+    };
+    bool sound = keys.size() == kept.size() && std::is_sorted(keys.begin(), keys.end()) &&
+                 std::adjacent_find(keys.begin(), keys.end()) == keys.end() &&
+                 std::all_of(kept.begin(), kept.end(), finite) && std::isfinite(residual()) &&
+                 std::isfinite(powers_.walls + powers_.damping + work_at_start_ + came_at_start_ +
+                               left_at_start_ + terms_.given_back);
+    if (in.failed() || !sound) return in.fail();
+    contacts_.clear();
+    for (std::size_t k = 0; k < keys.size(); ++k) contacts_.emplace(keys[k], kept[k]);
+}
+
+void EnergyBalance::add_friction(double spent) {
+    terms_.friction += spent;
+    terms_.given_back += std::max(0.0, -spent);
+}
+
+bool EnergyBalance::are_there(std::uint64_t key) const {
+    const auto there = [&](std::uint64_t id) {
+        return std::binary_search(present_.begin(), present_.end(), static_cast<std::int32_t>(id));
+    };
+    const std::uint64_t second = key & 0xffffffff;
+    return there(key >> 32) && (is_at_wall(key) || there(second));
+}
+
+// Grains by id, for their indices change; walls behind all grains.
+std::uint64_t EnergyBalance::key(const ContactView& c) const {
+    const auto id = [&](std::int32_t index) { return static_cast<std::uint64_t>(grains_.id[index]); };
+    const std::uint64_t first = id(c.first);
+    if (c.second < 0)
+        return first << 32 | (std::uint64_t{1} << 31) | static_cast<std::uint64_t>(-1 - c.second);
+    const std::uint64_t second = id(c.second);
+    return std::min(first, second) << 32 | std::max(first, second);
+}
+
+}  // namespace grainreel

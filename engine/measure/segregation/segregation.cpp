@@ -1,0 +1,96 @@
+#include "engine/measure/segregation/segregation.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include "engine/measure/no_value.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Indices = std::span<std::int32_t>;
+
+// Longest edge of the box around the grains.
+int longest_axis(Indices grains, const std::vector<Vec3>& position) {
+    Vec3 low = position[grains[0]], high = low;
+    for (const std::int32_t i : grains) {
+        low = low.cwiseMin(position[i]);
+        high = high.cwiseMax(position[i]);
+    }
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    return axis;
+}
+
+// Sum over `samples` samples of (share - p)^2.
+double summed_variance(Indices grains, int samples, const std::vector<Vec3>& position,
+                       const std::vector<std::uint8_t>& marked, double p) {
+    if (samples == 1) {
+        double hits = 0;
+        for (const std::int32_t i : grains) hits += marked[i];
+        const double share = hits / static_cast<double>(grains.size());
+        return (share - p) * (share - p);
+    }
+    const int axis = longest_axis(grains, position);
+    const int left = samples / 2;
+    const auto middle = grains.size() * left / samples;
+    // The index settles ties, so that the cut does not depend on the order the grains come in.
+    std::nth_element(grains.begin(), grains.begin() + static_cast<std::ptrdiff_t>(middle), grains.end(),
+                     [&](std::int32_t a, std::int32_t b) {
+                         return std::pair(position[a][axis], a) < std::pair(position[b][axis], b);
+                     });
+    return summed_variance(grains.first(middle), left, position, marked, p) +
+           summed_variance(grains.subspan(middle), samples - left, position, marked, p);
+}
+
+}  // namespace
+
+Samples take_samples(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked) {
+    const double count = static_cast<double>(position.size());
+    const int samples = std::max(2, static_cast<int>(position.size()) / kLaceySample);
+    Samples taken;
+    taken.share = std::accumulate(marked.begin(), marked.end(), 0.0) / count;
+    taken.grains = count / samples;
+    if (count < samples) return taken;
+    std::vector<std::int32_t> grains(position.size());
+    std::iota(grains.begin(), grains.end(), 0);
+    taken.variance = summed_variance(grains, samples, position, marked, taken.share) / samples;
+    return taken;
+}
+
+double lacey_index(const Samples& samples) {
+    if (samples.rare_grains() < kLeastOfRareKind) return kNoValue;
+    const double segregated = samples.segregated_variance(), random = segregated / samples.grains;
+    return (segregated - samples.variance) / (segregated - random);
+}
+
+double intensity_of_segregation(const Samples& samples) {
+    const double segregated = samples.segregated_variance();
+    return segregated > 0 ? samples.variance / segregated : kNoValue;
+}
+
+double share_above(std::vector<double>& these, std::vector<double>& those) {
+    if (these.empty() || those.empty()) return kNoValue;
+    std::sort(these.begin(), these.end());
+    std::sort(those.begin(), those.end());
+    std::size_t lower = 0, not_higher = 0;  // of those, than the present one
+    double above = 0;
+    for (const double height : these) {
+        while (lower < those.size() && those[lower] < height) ++lower;
+        while (not_higher < those.size() && those[not_higher] <= height) ++not_higher;
+        above += 0.5 * static_cast<double>(lower + not_higher);
+    }
+    return above / (static_cast<double>(these.size()) * static_cast<double>(those.size()));
+}
+
+double bed_height(std::vector<double>& heights) {
+    if (heights.empty()) return 0;
+    const auto at =
+        heights.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(heights.size() - 1));
+    std::nth_element(heights.begin(), at, heights.end());
+    return *at;
+}
+
+}  // namespace grainreel
