@@ -96,6 +96,7 @@ TEST(NewScene, OverwritesNothing) {
 
 TEST(Doctor, FindsWhatFilmsNeed) {
     const Ended ended = run_program({"doctor"}, {});
+    EXPECT_EQ(ended.err, "") << "encoders that are tried say nothing";
     EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
     for (const char* words : {"ok       processors", "M grain-steps/s on one thread",
                               "ok       OpenGL by OSMesa", "H.264 in MP4", "Films can be made here."})

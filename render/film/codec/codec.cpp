@@ -121,6 +121,7 @@ const Codec& spool_of_rgb() {
 }
 
 OpenCodec open_codec(const Codec& codec, const CodecSettings& settings) {
+    quiet_ffmpeg();
     for (const EncoderSetup& setup : codec.encoders) {
         const AVCodec* encoder = avcodec_find_encoder_by_name(setup.name);
         if (!encoder) continue;

@@ -41,7 +41,6 @@ CodecSettings codec_settings(const EncoderSettings& settings) {
 
 Encoder::Encoder(const EncoderSettings& settings)
     : settings_(settings), conversion_(settings.width, settings.height, pixels_of(settings)) {
-    quiet_ffmpeg();
     const CodecSettings wanted = codec_settings(settings);
     if (wanted.width != settings.width || wanted.height != settings.height)
         notes_.push_back(fmt::format(
