@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Is an effect there, and gone when its cause is switched off?
+
+    tests/phenomena/check.py PROGRAM [NAME ...] [--jobs N] [--out FOLDER] [--list]
+
+Runs the quick form of each check in checks.py, or of those named, N at a time on one thread each. A check is one number of a run, and a range in which
+the number must lie. The control is the same run with the cause of the effect switched off, and its number must lie
+outside of that range. So a check that cannot fail does not pass. Exit status: 0 all hold, 1 one does not, 2 a mistake.
+"""
+import argparse
+import csv
+import math
+import os
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from checks import CHECKS
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+
+
+UNITS = ("_m", "_J", "_s", "_kg", "_kg/s", "_N", "_N.m", "_Hz")
+
+
+def name_of(head):
+    """The name of a column, without its unit."""
+    return next((head[: -len(unit)] for unit in UNITS if head.endswith(unit)), head)
+
+
+class Run:
+    """The rows of a run's measures.csv."""
+
+    def __init__(self, program, scene, settings, folder):
+        command = [program, "movie", str(SCENES / f"{scene}.toml"), "--no-film", "--quiet", "--threads", "1",
+                   "--out", str(folder), "--set", "output.trajectory=false"]
+        for setting in settings:
+            command += ["--set", setting]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        with open(folder / "measures.csv", newline="") as file:
+            self.rows = [{name_of(head): float(value) for head, value in row.items()} for row in csv.DictReader(file)]
+
+    def values(self, column, after=0.0):
+        """The numbers of a column, those from `after` seconds on, without gaps."""
+        values = [row[column] for row in self.rows if row["time"] >= after]
+        return [value for value in values if not math.isnan(value)]
+
+    def mean(self, column, after=0.0):
+        values = self.values(column, after)
+        return sum(values) / len(values) if values else math.nan
+
+    def end(self, column):
+        return self.rows[-1][column]
+
+
+def measured(check, program, folder, control):
+    """The check's number, or that of its control."""
+    runs = []
+    for i, settings in enumerate(check.runs):
+        settings = list(settings) + (list(check.control) if control else [])
+        runs.append(Run(program, check.scene, settings, folder / f"{check.name}-{'control' if control else 'run'}-{i}"))
+    return check.number(*runs)
+
+
+def holds(check, program, folder):
+    number = measured(check, program, folder, control=False)
+    off = measured(check, program, folder, control=True)
+    there, gone = check.accepts(number), not check.accepts(off)
+    print(f"{check.name}: {check.claim}\n"
+          f"  {check.what}: {number:.4g}, expected {check.expected()}: {'ok' if there else 'NOT SO'}\n"
+          f"  with {', '.join(check.control)}: {off:.4g}, expected outside of that: {'ok' if gone else 'NOT SO'}",
+          flush=True)
+    return there and gone
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program")
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="checks at a time")
+    parser.add_argument("--out", type=Path, help="keep the runs there")
+    parser.add_argument("--list", action="store_true", help="print the names and end")
+    options = parser.parse_args()
+    unknown = set(options.names) - {check.name for check in CHECKS}
+    if unknown:
+        print(f"no such check: {', '.join(sorted(unknown))}; --list prints their names", file=sys.stderr)
+        return 2
+    chosen = [check for check in CHECKS if check.name in options.names or not options.names]
+    if options.list:
+        print("\n".join(check.name for check in chosen))
+        return 0
+    with tempfile.TemporaryDirectory(prefix="phenomena-") as temporary:
+        folder = options.out or Path(temporary)
+        with ThreadPoolExecutor(max(1, options.jobs)) as pool:
+            results = list(pool.map(lambda check: holds(check, options.program, folder), chosen))
+    print(f"{sum(results)} of {len(results)} hold")
+    return 0 if all(results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

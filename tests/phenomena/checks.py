@@ -1,0 +1,106 @@
+"""The quick form of each phenomenon: one number, the range in which it must lie, and the control. See check.py.
+
+docs/phenomena.md has the numbers of the longer studies, and what is published. Ranges here are wide: they tell an effect
+from none, and a sign from the other one.
+"""
+import math
+from dataclasses import dataclass
+from typing import Callable
+
+DRAFT = "run.accuracy=draft"
+
+
+@dataclass
+class Check:
+    name: str
+    claim: str
+    scene: str  # of scenes/, without .toml
+    control: list  # settings that switch the cause off
+    what: str  # the number, in words
+    number: Callable  # of the runs
+    least: float = -math.inf
+    most: float = math.inf
+    runs: tuple = ((DRAFT,),)  # settings of each run
+
+    def accepts(self, number):
+        return self.least <= number <= self.most  # NaN is never accepted
+
+    def expected(self):
+        if math.isinf(self.least):
+            return f"at most {self.most:.4g}"
+        if math.isinf(self.most):
+            return f"at least {self.least:.4g}"
+        return f"{self.least:.4g} to {self.most:.4g}"
+
+
+SHORT = "run.duration=2.5 s"
+ON_EARTH = ("gravity=9.81", "drive.frequency=12 Hz", "run.duration=2 s", DRAFT)
+ON_THE_MOON = ("run.duration=4.922 s", DRAFT)
+
+
+def height_in_diameters(run, after):
+    """Mean height of the grains' centres above the floor; they have 2 mm."""
+    return run.mean("grains_height", after) / 0.002
+
+
+def highest_return(heights, radius):
+    """Of a ball's centre above the floor: the highest point after the first impact, over the first one."""
+    above = [height - radius for height in heights]
+    impact = next(i for i in range(1, len(above) - 1) if above[i - 1] >= above[i] < above[i + 1])
+    return max(above[impact:]) / above[0]
+
+
+CHECKS = [
+    Check(
+        name="bouncing_ball",
+        claim="a hardly elastic ball on a plate doubles its period above Gamma = 3.72 (Holmes 1982)",
+        scene="teaching_strobe",
+        runs=(("output.measures_interval=0.125 s",),),
+        control=["drive.g_level=2"],
+        what="difference of height from one period to the next, at one phase, in diameters of the ball",
+        number=lambda run: abs(run.values("ball_height")[-1] - run.values("ball_height")[-2]) / 0.03,
+        least=0.3,
+    ),
+    Check(
+        name="restitution",
+        claim="a ball whose restitution is e comes back to e^2 of its height",
+        scene="teaching_restitution",
+        control=["contact.pair[1].restitution=0.4"],
+        what="height of the first return over that of the drop, e = 0.7",
+        number=lambda run: highest_return(run.values("e = 0.7_height"), radius=0.006),
+        least=0.485,
+        most=0.495,
+        runs=((),),
+    ),
+    Check(
+        name="rolling",
+        claim="down a slope a ball that rolls has 5/7 = 0.714 of the way of one that slides",
+        scene="teaching_friction_and_rolling",
+        control=["contact.friction=0"],
+        what="way of the rolling ball over that of the sliding one",
+        number=lambda run: (run.end("friction_centre_y") + 0.18) / (run.end("no friction_centre_y") + 0.18),
+        least=0.712,
+        most=0.716,
+        runs=((),),
+    ),
+    Check(
+        name="row_of_balls",
+        claim="five impacts in a row pass on ((1 + e)/2)^10 = 0.951 of the energy at e = 0.99",
+        scene="teaching_row_of_balls",
+        control=["contact.restitution=0.7"],
+        what="kinetic energy after them over that before",
+        number=lambda run: run.values("kinetic", 0.3)[0] / run.values("kinetic")[0],
+        least=0.945,
+        most=0.957,
+        runs=((),),
+    ),
+    Check(
+        name="gas_cools",
+        claim="a gas of grains that is left alone cools",
+        scene="teaching_gas_cooling",
+        control=["contact.restitution=1"],
+        what="kinetic energy at 3 s over that at 1.5 s",
+        number=lambda run: run.end("kinetic") / run.values("kinetic", 1.5)[0],
+        most=0.3,
+    ),
+]
