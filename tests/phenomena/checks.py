@@ -93,6 +93,15 @@ CHECKS = [
         most=6,
     ),
     Check(
+        name="surface_waves",
+        claim="peaks and valleys change places every period (Melo, Umbanhowar & Swinney 1994)",
+        scene="surface_waves",
+        control=["drive.g_level=1.5"],
+        what="share of the surface that is inverted every period; by chance 0.125",
+        number=lambda run: run.mean("surface_half", 1.5),
+        least=0.5,
+    ),
+    Check(
         name="gravity_scales_out",
         claim="at equal Gamma and f sqrt(d/g) a bed on the Moon does what it does on Earth",
         scene="reduced_gravity",
