@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """How fast a flat-bottomed hopper empties through a slot, against the law of Beverloo for slots.
 
-    tests/hopper/slot_rate.py PROGRAM FOLDER [B/d ...]
+    tests/hopper/slot_rate.py [--depth L/d] PROGRAM FOLDER [B/d ...]
 
-The hopper is a box, B + 30 d wide, filled to 1.2 times its width, six grains deep and periodic in depth, so that
+The hopper is a box, B + 30 d wide, filled to 1.2 times its width, six grains deep (or L) and periodic in depth, so that
 no front and back walls hold grains back. For each slot of width B the program runs one discharge into FOLDER and
 writes outflow.csv; a run that is there already is used again. The rate is the slope of the mass that has left,
 between 15 % and 45 % of all. Printed are the rates, C of
@@ -12,13 +12,13 @@ between 15 % and 45 % of all. Printed are the rates, C of
 
 (Beverloo, Leniger & van de Velde 1961, Chem. Eng. Sci. 15, 260, with the exponent of a slot: Myers & Sellers 1978,
 in Nedderman 1992, Statics and Kinematics of Granular Materials, ch. 10: C = 1.03), with the bulk density rho_b of
-the bed at rest, and the exponent of (B - k d) that fits the rates best. It should be 1.5 within 0.1.
+the bed at rest, the exponent of (B - k d) that fits the rates best, and the k with which it is 1.5.
 """
+import argparse
 import csv
 import math
 import os
 import subprocess
-import sys
 
 D = 0.004  # m, mean diameter
 SOLID = 2500.0  # kg/m3
@@ -51,19 +51,19 @@ measures_interval = "0.05 s"
 """
 
 
-def scene_of(ratio):
-    width, depth = (ratio + 30) * D, 6 * D
+def scene_of(ratio, depth):
+    width = (ratio + 30) * D
     volume = math.pi / 6 * D**3
     count = int(0.6 * width * depth * 1.2 * width / volume)
     mass = count * volume * SOLID
     expected = 1.03 * 0.6 * SOLID * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5
-    return count, mass, width, depth, SCENE.format(
+    return mass, SCENE.format(
         ratio=ratio, count=count, low=0.9 * D, high=1.1 * D, solid=SOLID, width=width, depth=depth,
         height=2.2 * width, slot=ratio * D, exit=4 * D, duration=0.1 + 0.55 * mass / expected)
 
 
-def run(program, folder, ratio):
-    count, mass, width, depth, text = scene_of(ratio)
+def run(program, folder, ratio, depth):
+    mass, text = scene_of(ratio, depth)
     out = os.path.join(folder, f"slot_{ratio:g}")
     if not os.path.exists(os.path.join(out, "final.csv")):
         path = out + ".toml"
@@ -75,7 +75,7 @@ def run(program, folder, ratio):
     with open(os.path.join(out, "outflow.csv")) as file:
         for row in csv.DictReader(file):
             left.append((float(row["time_s"]), 4 / 3 * math.pi * float(row["radius"]) ** 3 * SOLID))
-    return rate_of(left, mass), depth
+    return rate_of(left, mass)
 
 
 def rate_of(left, mass):
@@ -92,24 +92,39 @@ def rate_of(left, mass):
     return (sum((t - mean_t) * (m - mean_m) for t, m in points) / sum((t - mean_t) ** 2 for t, _ in points))
 
 
+def exponent(points, k):
+    """Of (B - k d), by least squares of logarithms. points: (B/d, rate)."""
+    x, y = [math.log(b - k) for b, _ in points], [math.log(w) for _, w in points]
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
+
+
+def best_k(points):
+    """With which the exponent is 1.5, by bisection; it falls with k."""
+    low, high = 0.0, min(b for b, _ in points) - 0.01
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if exponent(points, middle) > 1.5 else (low, middle)
+    return (low + high) / 2
+
+
 def main():
-    if len(sys.argv) < 3:
-        raise SystemExit(__doc__)
-    program, folder = sys.argv[1:3]
-    ratios = [float(r) for r in sys.argv[3:]] or [6, 9, 14, 20]
-    os.makedirs(folder, exist_ok=True)
-    points = []
-    print("  B/d   W in kg/s       C")
-    for ratio in ratios:
-        rate, depth = run(program, folder, ratio)
-        bulk = 0.6 * SOLID
-        c = rate / (bulk * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5)
-        points.append((math.log(ratio - K), math.log(rate)))
-        print(f"{ratio:5g}  {rate:10.4f}  {c:6.3f}", flush=True)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--depth", type=float, default=6, help="of the hopper, in grain diameters [6]")
+    parser.add_argument("program")
+    parser.add_argument("folder")
+    parser.add_argument("ratios", type=float, nargs="*", default=[6, 9, 14, 20], metavar="B/d")
+    words = parser.parse_args()
+    os.makedirs(words.folder, exist_ok=True)
+    depth, points = words.depth * D, []
+    print("  B/d   W in kg/s       C   W/L in kg/(s m)")
+    for ratio in words.ratios:
+        rate = run(words.program, words.folder, ratio, depth)
+        c = rate / (0.6 * SOLID * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5)
+        points.append((ratio, rate))
+        print(f"{ratio:5g}  {rate:10.4f}  {c:6.3f}  {rate / depth:10.3f}", flush=True)
     if len(points) > 1:
-        x, y = (sum(p[i] for p in points) / len(points) for i in (0, 1))
-        slope = sum((a - x) * (b - y) for a, b in points) / sum((a - x) ** 2 for a, _ in points)
-        print(f"exponent of (B - {K} d): {slope:.3f}")
+        print(f"exponent of (B - {K} d): {exponent(points, K):.3f}; it is 1.5 with k = {best_k(points):.2f}")
 
 
 if __name__ == "__main__":
