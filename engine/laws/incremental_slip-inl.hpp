@@ -100,14 +100,16 @@ struct IncrementalSlip {
     }
 
   private:
-    // [..]^gamma of the law, its base held in [0, 1]; no room left to grow or shrink means no stiffness.
-    // `sign`: -1 while |T| shrinks, else 1.
+    // [..]^gamma of the law, its base held in [0, 1]. No room left to grow or shrink means no stiffness. T
+    // that stands before its turning point, because T* has grown with N, has all of it: otherwise a contact
+    // that turned at mu N and was then pressed harder would slide for ever. `sign`: -1 while |T| shrinks,
+    // else 1.
     template <class R>
     static HWY_INLINE R softening(const Parameters<R>& p, R sign, R turning_force, R old_size, R limit) {
         const R room = limit - sign * turning_force;
-        const R used = sign * (old_size - turning_force) / room;
-        const R base = larger(R(0), smaller(R(1), R(1) - used));
-        return select(room > R(0), power(base, p.gamma), R(0));
+        const R gone = sign * (old_size - turning_force);  // since the turning point
+        const R base = larger(R(0), smaller(R(1), R(1) - gone / room));
+        return select(gone < R(0), R(1), select(room > R(0), power(base, p.gamma), R(0)));
     }
 };
 

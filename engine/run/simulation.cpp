@@ -253,6 +253,8 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
             progress.steps = steps;
             return watcher(progress);
         };
+        // From here, for a law may act over a step with another force than it has at its end.
+        if (m.observers.need_wall_sums()) m.loop->tally_walls(wall_scale(m.scene, m.plan), -1);
         const SettleReport settled = settle(m.scene, m.plan, m.around, m.grains, *m.loop, watch);
         result.finished = settled.finished;
         result.settled = settled.settled;

@@ -165,7 +165,7 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
     check_grains_possible(scene, saved.grains);
     check_masses(scene, saved.grains);
     grains = std::move(saved.grains);
-    loop.load(in);
+    loop.load(in, saved.header.step);
     given.assign(scene.feeds.size(), 0);
     if (in.left() > 0) read_vector(in, given);
     if (!could_be_given(scene, given, loop.traffic())) throw damaged_checkpoint(scene);

@@ -57,8 +57,9 @@ class StepLoop {
     // From now on: nobody has come or left.
     void begin_account() { traffic_ = {.next_id = traffic_.next_id}; }
 
-    // From now on: sums up what grains do to the walls. The first forces are those at `step`, the present
-    // one. It changes nothing of the run, and costs it some percent of what its walls cost.
+    // From now on: sums up what grains do to the walls. The first forces are those of the last evaluation;
+    // where it was not tallied, those that contacts have at `step`, the present one. It changes nothing of
+    // the run, and costs it some percent of what its walls cost.
     void tally_walls(const WallScale& scale, std::int64_t step);
     // Likewise, and goes on where `before` stopped. Its vectors must be as long as there are faces and
     // slices.
@@ -72,7 +73,7 @@ class StepLoop {
     void save(std::ostream& out) const;
     // Reads what save() wrote. The grains must be in order already. The reading fails where the loop could
     // not have written what is read; no index is trusted.
-    void load(Bytes& in);
+    void load(Bytes& in, std::int64_t at_step);
     // Whether no step has been made since restart(). save() does not write this.
     bool is_fresh() const { return fresh_; }
     void set_fresh(bool fresh) { fresh_ = fresh; }

@@ -32,8 +32,8 @@ void StepLoop::save(std::ostream& out) const {
     if (traffic_.any()) write_value(out, traffic_);
 }
 
-void StepLoop::load(Bytes& in) {
-    lists_.load(in);
+void StepLoop::load(Bytes& in, std::int64_t at_step) {
+    lists_.load(in, around_.motion.at(at_step));
     if (!in.failed() && in.left() > 0) read_value(in, traffic_);
     if (in.failed() || !is_traffic_sound()) return in.fail();
     fresh_ = false;

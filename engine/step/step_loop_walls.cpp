@@ -4,6 +4,10 @@
 namespace grainreel {
 
 void StepLoop::tally_walls(const WallScale& scale, std::int64_t step) {
+    if (members_[0].walls.tally != nullptr) {
+        for (Member& m : members_) m.tally.begin_anew();
+        return;
+    }
     for (Member& m : members_) {
         m.tally.begin(around_.faces, scale);
         m.walls.tally = &m.tally;

@@ -195,6 +195,24 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
     }
 }
 
+// Also where the floor has moved farther than the lists reach since they were refreshed.
+TEST_F(Continuation, IsBitForBitWhereverTheFloorIs) {
+    const Scene scene = scene_of({"drive.g_level=5", "run.duration=0.5 s"});
+    const Plan plan = make_plan(scene);
+    Simulation whole(scene, plan, 1);
+    whole.pack();
+    for (int eighth = 1; eighth <= 24; ++eighth) {
+        const std::int64_t step = eighth * plan.clock.steps_per_period / 8 + 3;
+        whole.advance(step);
+        whole.save_checkpoint(here / "first.grs");
+        whole.advance(step + 40);
+        const Scene next = next_of({"drive.g_level=5", "run.duration=0.5 s"});
+        Simulation taken_up(next, make_plan(next), 1);
+        taken_up.advance(step + 40);
+        EXPECT_EQ(taken_up.state_hash(), whole.state_hash()) << "step " << step;
+    }
+}
+
 TEST_F(Continuation, RotationMayBeginOrEnd) {
     first(scene_of());
     Scene scene = next_of({"film.rotation=true"});

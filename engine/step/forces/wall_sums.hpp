@@ -62,6 +62,12 @@ class WallTally {
         set_share(1);
     }
 
+    // Forgets all evaluations but the last one, whose forces are still to act.
+    void begin_anew() {
+        sums_.assign(sums_.size(), {});
+        slices_.assign(slices_.size(), {});
+    }
+
     // Before the forces of an evaluation; share: of a step, that they act.
     void begin_evaluation(double share) {
         for (std::size_t f = 0; f < now_.size(); ++f)

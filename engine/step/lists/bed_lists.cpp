@@ -134,8 +134,8 @@ void BedLists::place_halos() {
     if (team_.size() > 1) reserve_copies(grains_, end_of_copies - grains());
 }
 
-Nearby BedLists::nearby(const Reach& reach) const {
-    return {grains_, lists_, around_.faces, reach.pose, reach.skin};
+Nearby BedLists::nearby(const Pose& now, double skin) const {
+    return {grains_, lists_, around_.faces, now, skin};
 }
 
 // Refreshes the contact lists. Between two rebuilds, this is the only time that a thread reads grains of
@@ -143,7 +143,8 @@ Nearby BedLists::nearby(const Reach& reach) const {
 void BedLists::refresh(int thread) {
     ThreadContacts& mine = contacts(thread);
     const double before = team_.busy(thread);
-    grainreel::refresh(rules_, nearby(life_.reach(thread)), mine);
+    const Reach& reach = life_.reach(thread);
+    grainreel::refresh(rules_, nearby(reach.pose, reach.skin), mine);
     if (team_.size() == 1) return;
     mine.list_foreign(rules_, grains_, shares_.now());
     team_.barrier(thread);

@@ -64,7 +64,7 @@ class BedLists {
     // Writes lists and histories, bit by bit. load() reads them. The reading fails where save() could not
     // have written what is read, with these grains and faces; no index is trusted.
     void save(std::ostream& out) const;
-    void load(Bytes& in);
+    void load(Bytes& in, const Pose& now);
 
     std::int64_t rebuilds() const { return rebuilds_; }
     std::int64_t refreshes() const { return refreshes_; }
@@ -81,7 +81,8 @@ class BedLists {
     };
 
     std::int32_t grains() const { return static_cast<std::int32_t>(grains_.size()); }
-    Nearby nearby(const Reach& reach) const;
+    // Of grains and walls as they are now.
+    Nearby nearby(const Pose& now, double skin) const;
     void search(int thread, const Pose& pose);
     void join_parts(const TeamMember& me);
     void hand_over(const TeamMember& me);

@@ -59,7 +59,7 @@ void BedLists::save(std::ostream& out) const {
     transfer(*this, kept, steps, life_.reach(0), Writing{out});
 }
 
-void BedLists::load(Bytes& in) {
+void BedLists::load(Bytes& in, const Pose& now) {
     std::vector<KeptContacts> kept(rules_.groups.size());
     Reach reach;
     std::int32_t steps = 0;
@@ -77,7 +77,7 @@ void BedLists::load(Bytes& in) {
     grains_.rounded.resize(rules_.rounds ? grains_.size() : 0);
     place_halos();
     for (Thread& thread : threads_) {
-        list_candidates(rules_, nearby(reach), thread.contacts);
+        list_candidates(rules_, nearby(now, reach.skin), thread.contacts);
         if (team_.size() > 1) thread.contacts.list_foreign(rules_, grains_, shares_.now());
     }
 }

@@ -129,9 +129,10 @@ class ContactTable {
         cursor_ += found;
         return found || holds_late(i, j);
     }
-    bool holds_late(std::int32_t i,
-                    std::int32_t j) const {  // there are such only after a checkpoint is loaded
-        for (std::int32_t c = sorted_; c < size_; ++c) {
+    // There are late contacts only after a checkpoint is loaded. The empty places before them hold any
+    // bodies.
+    bool holds_late(std::int32_t i, std::int32_t j) const {
+        for (std::int32_t c = late(); c < size_; ++c) {
             if (first_[c] == i && second_[c] == j) return true;
         }
         return false;

@@ -242,12 +242,14 @@ double rise_at_rest(const std::vector<std::string>& sets, double share) {
     return rise / (start - lowest);
 }
 
-// The energy never rises beyond an error of the step that shrinks with its square.
+// The energy never rises beyond an error of the step that shrinks with its square, and that of rounding.
 TEST(EnergyAtRest, RisesByTheStepsErrorOnly) {
+    const double rounding = tested_precision() == Precision::mixed ? 5e-5 : 0;
     for (const char* set : {"run.contact_corrections=true", "run.contact_corrections=false",
                             "contact.friction_law=\"linear-spring\"", "contact.friction=0"}) {
         for (const double share : {1.0, 0.5, 0.25})
-            EXPECT_LT(rise_at_rest({set}, share), 3e-4 * share * share) << set << ", step x " << share;
+            EXPECT_LT(rise_at_rest({set}, share), 3e-4 * share * share + rounding)
+                << set << ", step x " << share;
     }
     for (const char* law : {"contact.law=\"spring-dashpot\"", "contact.law=\"hertz\""})
         EXPECT_LT(rise_at_rest({law, "contact.friction=0"}, 1), 1e-12);

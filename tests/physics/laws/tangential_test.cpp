@@ -96,6 +96,19 @@ TEST(IncrementalSlip, NeverPassesCoulombsLimit) {
     }
 }
 
+// It slides, its normal force falls while it turns back, and it slips forward again: T* is mu N. Pressed
+// harder, T* grows with N and T does not, so that there is room to take hold.
+TEST(IncrementalSlip, TakesHoldAgainWhenPressedHarderAfterATurnAtTheLimit) {
+    Sheared s(1.0);
+    const double limit = kFriction * kNormal, slip = 1e-3 * limit / s.parameters.stiffness;
+    s.slip(100 * limit / s.parameters.stiffness, 57);
+    s.slip(-slip, 1, 0.5 * kNormal);
+    EXPECT_NEAR(s.slip(slip, 1, 0.5 * kNormal), 0.5 * limit, 1e-12);
+    EXPECT_NEAR(s.history.turning_ratio, kFriction, 1e-12);
+    EXPECT_NEAR(s.slip(slip, 1), (0.5 + 1e-3) * limit, 1e-9 * limit) << "with all of K0";
+    EXPECT_GT(s.slip(2000 * slip, 2000), 0.99 * limit);
+}
+
 TEST(IncrementalSlip, IsLinearAndUncappedWithInfiniteFriction) {
     const PairPlan plan = walton_braun_pair(0.8, INFINITY);
     Sheared s(1.0 / 3.0);

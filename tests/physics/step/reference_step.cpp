@@ -237,7 +237,8 @@ Vec3 ReferenceStep::slip_force(const PairPlan& p, Memory& m, const Vec3& slip, d
     const double ratio = turns ? m.turning_ratio : std::clamp(m.turning_ratio, -p.friction, p.friction);
     const double turning = turns ? size : ratio * std::max(0.0, normal), sign = shrinks ? -1 : 1;
     const double room = limit - sign * turning;
-    const double base = room > 0 ? std::clamp(1 - sign * (size - turning) / room, 0.0, 1.0) : 0;
+    const double gone = sign * (size - turning);
+    const double base = gone < 0 ? 1 : room > 0 ? std::clamp(1 - gone / room, 0.0, 1.0) : 0;
     const double parallel = size + p.tangential_stiffness * std::pow(base, p.gamma) * along;
     m.turning_ratio = normal > 0 ? ratio : 0;
     m.shrinks = shrinks;

@@ -402,7 +402,7 @@ TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
         on.loop = std::make_unique<StepLoop>(on.plan, on.around, on.grains, *on.team);
         const std::string bytes = lists.str();
         Bytes in(bytes);
-        on.loop->load(in);
+        on.loop->load(in, other.step);
         ASSERT_FALSE(in.failed());
         ASSERT_EQ(in.left(), 0u);
         EXPECT_EQ(on.loop->traffic().came, 6);
@@ -411,7 +411,7 @@ TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
         EXPECT_EQ(state_of(on), state_of(whole)) << threads << " threads";
         // Half an account is none.
         Bytes cut(std::string_view(bytes).substr(0, bytes.size() - 8));
-        on.loop->load(cut);
+        on.loop->load(cut, other.step);
         EXPECT_TRUE(cut.failed());
     }
 }
