@@ -108,11 +108,12 @@ def grainreel(program, folder, name, ratio, outlet, start, duration):
     return out
 
 
-def write_data(path, grains, width, depth):
+def write_data(path, grains, width, depth, duration):
+    bottom = -(9.81 / 2 * duration**2 + 1)  # farther than a grain falls
     top = max(float(g["z"]) for g in grains) + 0.05
     with open(path, "w") as file:
         file.write(f"slot hopper\n\n{len(grains)} atoms\n1 atom types\n\n"
-                   f"{-depth / 2} {depth / 2} xlo xhi\n{-width / 2 - D} {width / 2 + D} ylo yhi\n-3 {top} zlo zhi\n\nAtoms\n\n")
+                   f"{-depth / 2} {depth / 2} xlo xhi\n{-width / 2 - D} {width / 2 + D} ylo yhi\n{bottom} {top} zlo zhi\n\nAtoms\n\n")
         for i, g in enumerate(grains, 1):
             x = (float(g["x"]) + depth / 2) % depth - depth / 2
             file.write(f"{i} 1 {2 * float(g['radius'])!r} {SOLID} {x!r} {g['y']} {g['z']}\n")
@@ -126,7 +127,7 @@ def lammps(folder, ratio, duration, grains):
     out = os.path.join(folder, "lammps.txt")
     if os.path.exists(out):
         return out
-    write_data(os.path.join(folder, "start.data"), grains, width, depth)
+    write_data(os.path.join(folder, "start.data"), grains, width, depth, duration)
     script = os.path.join(folder, "slot.lammps")
     with open(script, "w") as file:
         file.write(LAMMPS.format(
