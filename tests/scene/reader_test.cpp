@@ -268,5 +268,18 @@ TEST(Reader, AnOutletIsSetByItsWidthWhateverTheSceneSays) {
             .container.outlet);
 }
 
+// A species may be there for the walls alone.
+TEST(Reader, ASpeciesOfGluedGrainsNeedsNoCount) {
+    std::string text = wedge_text;
+    text.insert(text.find("[contact]"), "[[species]]\nname = \"rough\"\ndiameter = \"4 mm\"\ndensity = 1\n");
+    EXPECT_THROW(read_scene_text(text, "test.toml"), UserError);
+    const Scene scene =
+        read_scene_text(text, "test.toml", {"container.wall_grains={species=\"rough\", faces=[\"floor\"]}"});
+    EXPECT_EQ(scene.grains(), 110);
+    ASSERT_TRUE(scene.container.wall_grains);
+    EXPECT_EQ(scene.container.wall_grains->species, 2u);
+    EXPECT_EQ(scene.container.wall_grains->spacing, 0.004);
+}
+
 }  // namespace
 }  // namespace grainreel
