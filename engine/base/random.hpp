@@ -16,8 +16,9 @@ enum class Stream : std::uint64_t {
     velocities = 3,
     rain_species = 4,
     rain_places = 5,
-    feed_sizes = 6,  // by feed and grain
-    feed_places = 7  // by feed, grain and step
+    feed_sizes = 6,   // by feed and grain
+    feed_places = 7,  // by feed, grain and step
+    wall_grains = 8
 };
 
 class Random {

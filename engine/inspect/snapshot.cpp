@@ -33,9 +33,7 @@ std::string name_of_body(const Snapshot& snapshot, std::int32_t id) {
         if (!place) return "unknown";
         return snapshot.scene.species.at(static_cast<std::size_t>(snapshot.frame.species[*place])).name;
     }
-    std::vector<Face> faces = container_faces(snapshot.scene.container, snapshot.scene.drive);
-    const std::vector<Face> planes = free_faces(snapshot.scene.walls);
-    faces.insert(faces.end(), planes.begin(), planes.end());
+    const std::vector<Face> faces = faces_of(snapshot.scene);
     const auto face = static_cast<std::size_t>(-1 - static_cast<std::int64_t>(id));
     return face < faces.size() ? faces[face].name : fmt::format("wall {}", face);
 }

@@ -78,6 +78,10 @@ HealthLimits health_limits(const Scene& scene, const Plan& plan) {
                 std::min(limits.safe_speed, speed_for(limits.overlap * smaller, pair, effective_mass));
         };
         take(radius, plan.wall[a], mass);
+        if (!plan.glued.empty()) {
+            const Species& glued = scene.species[scene.container.wall_grains->species];
+            take(std::min(radius, 0.5 * glued.diameter.smallest), plan.glued[a], mass);
+        }
         for (std::size_t b = 0; b <= a; ++b) {
             const double other = largest_mass(scene.species[b]);
             take(std::min(radius, 0.5 * scene.species[b].diameter.smallest), plan.between(a, b),

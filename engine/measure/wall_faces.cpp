@@ -59,15 +59,15 @@ std::vector<std::string> face_names(const Scene& scene) {
         for (int number = 2; !taken.insert(part).second; ++number) part = fmt::format("{}_{}", first, number);
         names.push_back(part);
     };
-    for (const Face& face : container_faces(scene.container, scene.drive)) add(face.name);
-    for (const FreeWall& wall : scene.walls) add(wall.name);
+    for (const Face& face : faces_of(scene)) add(face.name);
     return names;
 }
 
 WallScale wall_scale(const Scene& scene, const Plan& plan) {
     double stiffest = 0;
-    for (const PairPlan& wall : plan.wall)
-        stiffest = std::max({stiffest, wall.loading_stiffness, wall.unloading_stiffness});
+    for (const std::vector<PairPlan>* walls : {&plan.wall, &plan.glued})
+        for (const PairPlan& wall : *walls)
+            stiffest = std::max({stiffest, wall.loading_stiffness, wall.unloading_stiffness});
     WallScale scale;
     scale.force = std::exp2(std::floor(std::log2(stiffest * largest_radius(scene))) - 48);
     scale.length = std::exp2(std::ceil(std::log2(extent_of(scene).size().norm())));

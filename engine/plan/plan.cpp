@@ -11,6 +11,7 @@
 #include "engine/plan/drive_clock.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/rain_plan.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainreel {
 namespace {
@@ -19,6 +20,20 @@ constexpr double most_steps = 9e15;  // up to there a double counts exactly, and
 constexpr double most_records =
     1e9;  // of a file: 400 GB of measures, and NetCDF numbers no more than twice that
 constexpr double frames_without_drive = 1.0 / 30, rows_without_drive = 0.01;  // s
+
+// A glued grain is as heavy as its wall. Its contacts have the numbers of the pair of species, but for the
+// stiffness, which an effective mass up to twice as large may demand.
+void plan_glued(const Scene& scene, const BedPlan& bed, Plan& plan) {
+    if (!scene.container.wall_grains) return;
+    const std::size_t species = scene.container.wall_grains->species;
+    const Species glued = glued_species(scene);
+    for (std::size_t a = 0; a < scene.species.size(); ++a) {
+        const Species& first = scene.species[a];
+        plan.glued.push_back(plan_pair(scene, bed, scene.between(a, species), first, &glued));
+        plan.expected_overlap =
+            std::max(plan.expected_overlap, expected_overlap(scene, bed, plan.glued.back(), first, &glued));
+    }
+}
 
 void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
     const auto keep_overlap = [&](const PairPlan& pair, const Species& a, const Species* b) {
@@ -36,6 +51,7 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
         plan.wall.push_back(plan_pair(scene, bed, scene.contact.wall[a], first, nullptr));
         keep_overlap(plan.wall.back(), first, nullptr);
     }
+    plan_glued(scene, bed, plan);
 }
 
 // `seconds` in steps; `key` is the place to complain about.
@@ -113,7 +129,7 @@ void plan_outlet(const Scene& scene, Plan& plan) {
     if (!scene.container.outlet) return;
     const double opens = scene.container.outlet->opens;
     plan.opens = count_steps(scene, opens, plan.clock.step, "container.outlet.opens");
-    plan.traffic = true;
+    plan.traffic = !scene.container.tray;
     if (*plan.opens >= plan.steps)
         throw UserError(
             fmt::format("{}: the outlet opens at {:.4g} s, but the run ends at {:.4g} s; open it "
@@ -132,8 +148,10 @@ void check_start_file(const Scene& scene) {
 }
 
 bool any_contact(const Plan& plan, bool (*is)(const PairPlan&)) {
-    return std::any_of(plan.grain.begin(), plan.grain.end(), is) ||
-           std::any_of(plan.wall.begin(), plan.wall.end(), is);
+    const auto any = [&](const std::vector<PairPlan>& pairs) {
+        return std::any_of(pairs.begin(), pairs.end(), is);
+    };
+    return any(plan.grain) || any(plan.wall) || any(plan.glued);
 }
 }  // namespace
 

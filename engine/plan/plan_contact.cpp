@@ -285,6 +285,9 @@ BedPlan plan_bed(const Scene& scene) {
     } else if (!drive.present) {
         bed.impact_speed = fall;  // all that one can know of a bed that starts from a file
     }
+    if (scene.container.tray)
+        bed.impact_speed =
+            std::max(bed.impact_speed, std::sqrt(2 * bed.gravity * scene.container.tray->depth));
     if (!scene.feeds.empty())
         bed.impact_speed = std::max(bed.impact_speed, fastest_fed(scene) + drive.top_speed());
     return bed;

@@ -33,17 +33,24 @@ double tangential_stiffness(const PairPlan& pair) {
     return pair.friction > 0 ? pair.tangential_stiffness : 0;
 }
 
-// omega^2 of the fastest mode of a grain among twelve others, three of them walls at most: 8 K2 / m without
-// friction, 40 K0 / m with spin coupled in (Gerschgorin's bound of the stiffness matrix).
+// omega^2 of the fastest mode of a grain among twelve others, three of them walls at most, or six of them
+// parts of rough walls: 8 K2 / m without friction, 40 K0 / m with spin coupled in (Gerschgorin's bound of the
+// stiffness matrix).
 double bed_frequency(const Plan& plan, std::size_t species, double mass) {
     double unloading = 0, tangential = 0;
     for (std::size_t other = 0; other < plan.wall.size(); ++other) {
         unloading = std::max(unloading, plan.between(species, other).unloading_stiffness);
         tangential = std::max(tangential, tangential_stiffness(plan.between(species, other)));
     }
-    const PairPlan& wall = plan.wall[species];
-    const double normal = 0.75 * unloading + 0.25 * std::max(unloading, wall.unloading_stiffness);
-    const double sideways = 0.75 * tangential + 0.25 * std::max(tangential, tangential_stiffness(wall));
+    double at_wall = plan.wall[species].unloading_stiffness;
+    double along_wall = tangential_stiffness(plan.wall[species]);
+    if (!plan.glued.empty()) {
+        at_wall = std::max(at_wall, plan.glued[species].unloading_stiffness);
+        along_wall = std::max(along_wall, tangential_stiffness(plan.glued[species]));
+    }
+    const double walls = plan.glued.empty() ? 0.25 : 0.5;
+    const double normal = (1 - walls) * unloading + walls * std::max(unloading, at_wall);
+    const double sideways = (1 - walls) * tangential + walls * std::max(tangential, along_wall);
     return std::sqrt(std::max(8 * normal, 40 * sideways) / mass);
 }
 
@@ -86,20 +93,20 @@ StepChoice plan_step(const Scene& scene, const Plan& plan) {
         }
     };
     const double limit = stable_step(plan.integrator);
+    const auto demand_of = [&](const PairPlan& pair, const std::string& name) {
+        const int steps = scene.run.steps_per_contact.value_or(
+            steps_per_contact(pair.model.normal, pair.restitution, scene.run.accuracy));
+        demand(pair.contact_time / steps, fmt::format("{} steps in a contact {}", steps, name));
+        const double unloading = std::sqrt(pair.unloading_stiffness / pair.effective_mass);
+        const double sideways = std::sqrt(3.5 * tangential_stiffness(pair) / pair.effective_mass);
+        demand(share_of(pair_share, unloading), "unloading of a contact " + name);
+        demand(share_of(pair_share, sideways), "tangential spring of a contact " + name);
+        choice.stable = std::min(choice.stable, share_of(limit, std::max(unloading, sideways)));
+    };
     const std::size_t count = plan.wall.size();
     for (std::size_t a = 0; a < count; ++a) {
-        for (std::size_t b = a; b <= count; ++b) {
-            const PairPlan& pair = pair_of(plan, a, b);
-            const std::string name = pair_name(scene, a, b);
-            const int steps = scene.run.steps_per_contact.value_or(
-                steps_per_contact(pair.model.normal, pair.restitution, scene.run.accuracy));
-            demand(pair.contact_time / steps, fmt::format("{} steps in a contact {}", steps, name));
-            const double unloading = std::sqrt(pair.unloading_stiffness / pair.effective_mass);
-            const double sideways = std::sqrt(3.5 * tangential_stiffness(pair) / pair.effective_mass);
-            demand(share_of(pair_share, unloading), "unloading of a contact " + name);
-            demand(share_of(pair_share, sideways), "tangential spring of a contact " + name);
-            choice.stable = std::min(choice.stable, share_of(limit, std::max(unloading, sideways)));
-        }
+        for (std::size_t b = a; b <= count; ++b) demand_of(pair_of(plan, a, b), pair_name(scene, a, b));
+        if (!plan.glued.empty()) demand_of(plan.glued[a], scene.species[a].name + "-glued grain");
         const Species& species = scene.species[a];
         const double mass = species.density * std::numbers::pi / 6 * std::pow(species.diameter.smallest, 3);
         const double dense = bed_frequency(plan, a, mass);

@@ -203,7 +203,7 @@ void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, cons
                      "drifts backwards at times, which friction takes for a turn of the slip: tangential "
                      "velocities are off by several per cent at any step; take velocity-verlet");
     if (!scene.run.step && !scene.run.steps_per_contact) return;
-    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall}) {
+    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall, &plan.glued}) {
         for (const PairPlan& pair : *pairs) {
             const int wanted = steps_per_contact(pair.model.normal, pair.restitution, scene.run.accuracy);
             const double actual = pair.contact_time / plan.clock.step;

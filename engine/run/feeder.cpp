@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
-#include "engine/start/diameters.hpp"
+#include "engine/scene/diameters.hpp"
 #include "engine/start/free_places.hpp"
 
 namespace grainreel {

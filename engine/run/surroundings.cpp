@@ -19,8 +19,8 @@ double smallest_radius(const Scene& scene) {
 
 Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
     Surroundings around;
-    around.faces = container_faces(scene.container, scene.drive);
-    for (const Face& face : free_faces(scene.walls)) around.faces.push_back(face);
+    around.faces = faces_of(scene);
+    around.glued = glue_grains(scene, around.faces);
     around.motion = WallMotion(scene.drive, plan.clock);
     around.gravity = scene.gravity;
     around.period = period_of_depth(scene.container);
@@ -30,7 +30,7 @@ Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
 
 void open_outlet(const Scene& scene, Surroundings& around) {
     open_outlet(scene.container, around.faces);
-    around.exits = {exit_below(-scene.container.outlet->exit_depth)};
+    if (!scene.container.tray) around.exits = {exit_below(-scene.container.outlet->exit_depth)};
 }
 
 }  // namespace grainreel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace grainreel {
@@ -49,6 +50,12 @@ double total_mass(const Scene& scene) {
     return mass;
 }
 
+Species glued_species(const Scene& scene) {
+    Species species = scene.species[scene.container.wall_grains->species];
+    species.density = std::numeric_limits<double>::infinity();
+    return species;
+}
+
 double fill_height(const Scene& scene, double solid_fraction) {
     const Container& c = scene.container;
     const double volume = std::min(solid_volume(scene) / solid_fraction, c.volume());
@@ -68,8 +75,10 @@ Extent extent_of(const Scene& scene) {
     const Container& c = scene.container;
     if (c.shape != Container::Shape::none) {
         const double x = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
-        const double low = c.outlet ? -c.outlet->exit_depth : 0.0;
-        return {Vec3(-x, -c.half_width, low), Vec3(x, c.half_width, c.height)};
+        const double y = std::max(c.half_width, c.tray ? c.tray->half_width : 0.0);
+        const double low = c.tray ? -c.tray->depth : c.outlet ? -c.outlet->exit_depth : 0.0;
+        const double out = c.shape == Container::Shape::cylinder ? y : x;
+        return {Vec3(-out, -y, low), Vec3(out, y, c.height)};
     }
     const Vec3 margin = largest_diameter(scene) * Vec3::Ones();
     if (scene.start.grains.empty()) {
@@ -91,6 +100,20 @@ Extent extent_of(const Scene& scene) {
         }
     }
     return {extent.low - margin, extent.high + margin};
+}
+
+Container tray_container(const Scene& scene) {
+    const Container& above = scene.container;
+    const double lowest =
+        scene.drive.present ? 2 * scene.drive.largest_amplitude() * std::abs(scene.drive.direction.z()) : 0;
+    Container tray;
+    tray.shape = above.shape == Container::Shape::cylinder ? above.shape : Container::Shape::box;
+    tray.half_width = above.tray->half_width;
+    tray.depth = above.depth;
+    tray.periodic_depth = above.periodic_depth;
+    tray.height = above.tray->depth - lowest;
+    tray.lid = false;
+    return tray;
 }
 
 double bed_width(const Scene& scene) {

@@ -12,6 +12,10 @@ double solid_volume(const Scene& scene);   // m3
 double mean_diameter(const Scene& scene);  // m
 double total_mass(const Scene& scene);     // kg
 
+// The species of the grains that are glued to walls, as heavy as these: of infinite density. Only where there
+// are some.
+Species glued_species(const Scene& scene);
+
 // m, how high the container is filled when the grains lie at this solid fraction; its height at most.
 double fill_height(const Scene& scene, double solid_fraction);
 
@@ -30,5 +34,9 @@ struct Extent {
     }
 };
 Extent extent_of(const Scene& scene);
+
+// The tray below an outlet as a container, open above, whose floor lies that deep below that of the scene's
+// container at rest. Only where there is one. It ends where the container's floor comes at its lowest.
+Container tray_container(const Scene& scene);
 
 }  // namespace grainreel

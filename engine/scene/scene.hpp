@@ -101,6 +101,24 @@ struct Outlet {
     bool operator==(const Outlet&) const = default;
 };
 
+// Stands still below an outlet and catches what flows out, so that nothing leaves the run. Its cross-section
+// is that of a box as deep as the container, or round below a cylinder.
+struct Tray {
+    double depth = 0;       // m, of its floor below the container's floor at rest
+    double half_width = 0;  // m, along y; the radius of a round one
+    bool operator==(const Tray&) const = default;
+};
+
+// A layer of grains glued to faces of the container, which makes these rough. They are parts of the container
+// and do not count as grains.
+struct WallGrains {
+    std::size_t species = 0;
+    std::vector<std::string> faces;  // names of faces of the container at rest: "floor", "left slant"
+    double spacing = 0;              // m, between neighbours in the layer
+    double disorder = 0.2;           // over the spacing, how far each is moved at random, at most
+    bool operator==(const WallGrains&) const = default;
+};
+
 struct Container {
     enum class Shape { wedge, box, cylinder, none };
     Shape shape = Shape::wedge;  // none: empty space; the sizes then are those of what is looked at
@@ -110,7 +128,9 @@ struct Container {
     double half_angle = 0;       // rad, slanted walls against the vertical; wedge only
     double slant_height = 0;     // m, H: height of the slanted part; wedge only
     bool lid = true;
-    std::optional<Outlet> outlet;         // empty: a closed floor
+    std::optional<Outlet> outlet;  // empty: a closed floor
+    std::optional<Tray> tray;      // only below an outlet
+    std::optional<WallGrains> wall_grains;
     bool periodic_depth = false;          // no front and back walls: what leaves at one enters at the other
     double floor_half_width() const;      // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
     double volume() const;                // m3, floor to height

@@ -15,13 +15,16 @@ constexpr double kGap = 1e-3;  // over the radius
 FreePlaces::FreePlaces(const Surroundings& around, const Pose& pose, const Grains& grains, const Vec3& low,
                        const Vec3& high, double largest)
     : around_(around), pose_(pose), low_(low), high_(high) {
-    for (const Place& place : grains.place) {
+    const auto take = [&](const Place& place) {
         const double reach = place.radius + largest * (1 + kGap);
         const Vec3& centre = place.position;
         const bool outside = centre.y() < low.y() - reach || centre.y() > high.y() + reach ||
                              centre.z() < low.z() - reach || centre.z() > high.z() + reach;
         if (!outside) near_.push_back(place);
-    }
+    };
+    for (const Place& place : grains.place) take(place);
+    for (std::size_t g = 0; g < around.glued.size(); ++g)
+        take({around.glued.centre(g, around.faces, pose), around.glued.place[g].radius});
 }
 
 bool FreePlaces::is_free(const Vec3& place, double radius) const {

@@ -7,7 +7,8 @@
 
 #include "engine/base/random.hpp"
 #include "engine/plan/free_space.hpp"
-#include "engine/start/diameters.hpp"
+#include "engine/scene/diameters.hpp"
+#include "engine/step/grid/glued_search.hpp"
 
 namespace grainreel {
 
@@ -15,16 +16,41 @@ namespace {
 
 constexpr double kLooseFraction = 1.0 / 3;  // solid share of the space the centres are drawn in
 
-Vec3 random_centre(const Container& c, const FreeSpace& space, double bottom, double top, double margin,
-                   Random& random) {
-    const double half_depth = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
-    for (;;) {
-        const double z = random.between(bottom, top);
-        const Vec3 centre(random.between(-half_depth, half_depth),
-                          random.between(-c.half_width, c.half_width), z);
-        if (space.holds(centre, margin)) return centre;
+constexpr int kMostDraws = 1000;  // of a place outside all glued grains, which may cover a thin layer
+
+// The free space, less the glued grains.
+class Room {
+  public:
+    explicit Room(const Scene& scene)
+        : space(scene),
+          faces_(container_faces(scene.container, scene.drive)),
+          glued_(glue_grains(scene, faces_)),
+          search_(glued_, faces_, period_of_depth(scene.container)) {}
+
+    Vec3 random_centre(const Container& c, double bottom, double top, double margin, Random& random) const {
+        const double half_depth = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
+        for (int draws = 1;; ++draws) {
+            const double z = random.between(bottom, top);
+            const Vec3 centre(random.between(-half_depth, half_depth),
+                              random.between(-c.half_width, c.half_width), z);
+            if (!space.holds(centre, margin)) continue;
+            if (draws > kMostDraws || is_clear(centre, margin)) return centre;
+        }
     }
-}
+
+    const FreeSpace space;
+
+  private:
+    bool is_clear(const Vec3& centre, double margin) const {
+        bool clear = true;
+        search_.near(centre, margin, Pose(), [&](std::int32_t, double) { clear = false; });
+        return clear;
+    }
+
+    const std::vector<Face> faces_;
+    const GluedGrains glued_;
+    const GluedSearch search_;
+};
 
 double mean_diameter(const Species& s) {
     return 0.5 * (s.diameter.smallest + s.diameter.largest);
@@ -45,7 +71,8 @@ Grains place_in_layers(const Scene& scene) {
     });
     double all = 0;
     for (const Species& s : scene.species) all += solid_volume(s);
-    const FreeSpace space(scene);
+    const Room room(scene);
+    const FreeSpace& space = room.space;
     const double filled = std::min(1.0, all / kLooseFraction / space.volume());
     std::vector<double> bottom(scene.species.size()), top(scene.species.size());
     double share = 0;
@@ -64,7 +91,7 @@ Grains place_in_layers(const Scene& scene) {
         for (std::int64_t k = 0; k < species.count; ++k) {
             const double radius = 0.5 * draw_diameter(species.diameter, diameters);
             const double margin = std::min(0.25 * radius, 0.25 * (top[s] - bottom[s]));
-            const Vec3 centre = random_centre(scene.container, space, bottom[s], top[s], margin, centres);
+            const Vec3 centre = room.random_centre(scene.container, bottom[s], top[s], margin, centres);
             grains.add(id++, static_cast<std::int32_t>(s), centre, radius, species.density);
         }
     }

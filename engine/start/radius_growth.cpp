@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/step/grid/glued_search.hpp"
 #include "engine/step/grid/neighbours.hpp"
 
 namespace grainreel {
@@ -25,7 +26,7 @@ constexpr double kRestitution = 0.3;  // a plastic contact law lets the crowd co
 Plan growth_plan(const Plan& plan) {
     Plan growth = plan;
     growth.integrator = Integrator::velocity_verlet;
-    for (auto* table : {&growth.grain, &growth.wall}) {
+    for (auto* table : {&growth.grain, &growth.wall, &growth.glued}) {
         for (PairPlan& pair : *table) {
             pair.model = {NormalForce::walton_braun, TangentialLaw::none, false};
             pair.restitution = kRestitution;
@@ -38,7 +39,7 @@ Plan growth_plan(const Plan& plan) {
 // s: a stable step for the stiff, plastic contacts (physics of Verlet, dt < 2/w; here with twelve contacts).
 double growth_step(const Plan& growth, const Grains& grains) {
     double stiffest = 0;
-    for (const auto* table : {&growth.grain, &growth.wall}) {
+    for (const auto* table : {&growth.grain, &growth.wall, &growth.glued}) {
         for (const PairPlan& pair : *table) stiffest = std::max(stiffest, pair.unloading_stiffness);
     }
     double lightest = std::numeric_limits<double>::infinity();
@@ -67,12 +68,16 @@ void first_radii(Growing& g, double reach) {
     put_in_order({alone, 0}, cells, g.grains, reach, g.around.period, new_index);
     list_pairs(cells, g.grains, reach, g.around.period, 0, static_cast<std::int32_t>(g.grains.size()), list);
     std::vector<double> allowed(g.grains.size());
+    const GluedSearch glued(g.around.glued, g.around.faces, g.around.period);
     for (std::size_t i = 0; i < allowed.size(); ++i) {
         allowed[i] = g.wanted_of(i) * kInflation;
         for (const Face& face : g.around.faces) {
             const double distance = distance_to(face, Vec3::Zero(), g.grains.place[i].position).distance;
             allowed[i] = std::min(allowed[i], std::max(distance, 0.1 * g.wanted_of(i)));
         }
+        glued.near(g.grains.place[i].position, allowed[i], Pose(), [&](std::int32_t, double gap) {
+            allowed[i] = std::min(allowed[i], std::max(gap, 0.1 * g.wanted_of(i)));
+        });
     }
     for (std::size_t i = 0; i + 1 < list.start.size(); ++i) {
         for (std::int32_t slot = list.start[i]; slot < list.start[i + 1]; ++slot) {

@@ -12,7 +12,7 @@
 #include "engine/plan/free_space.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/start/diameters.hpp"
+#include "engine/scene/diameters.hpp"
 #include "engine/start/free_places.hpp"
 
 namespace grainreel {

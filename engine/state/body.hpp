@@ -27,6 +27,8 @@ struct BodyPose {
 
 // The numbers of a scene's bodies: these two, whatever the container, then its planes in their order.
 constexpr std::int32_t kContainerBody = 0, kFloorBody = 1, kFirstPlaneBody = 2;
+// Of a tray, which stands still. It has no pose in files.
+constexpr std::int32_t kTrayBody = -1;
 
 // How a body moves: with the drive or not, and at a steady velocity on top of it.
 struct Body {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/state/tray_faces.hpp"
+
 namespace grainreel {
 
 namespace {
@@ -72,6 +74,13 @@ std::vector<Face> free_faces(const std::vector<FreeWall>& walls) {
         faces.push_back(plane(walls[w].name, walls[w].point, walls[w].normal));
         faces.back().body = bodies[kFirstPlaneBody + w];
     }
+    return faces;
+}
+
+std::vector<Face> faces_of(const Scene& scene) {
+    std::vector<Face> faces = container_faces(scene.container, scene.drive);
+    for (const std::vector<Face>& more : {free_faces(scene.walls), tray_faces(scene)})
+        faces.insert(faces.end(), more.begin(), more.end());
     return faces;
 }
 

@@ -59,6 +59,10 @@ std::vector<Face> container_faces(const Container& container, const Drive& drive
 // The scene's own planes, [[wall]].
 std::vector<Face> free_faces(const std::vector<FreeWall>& walls);
 
+// All faces of a scene at rest, in the order of their numbers: those of the container, of the planes, and of
+// the tray below an outlet.
+std::vector<Face> faces_of(const Scene& scene);
+
 // 0 when the depth is not periodic.
 double period_of_depth(const Container& container);
 

@@ -10,6 +10,7 @@ namespace grainreel {
 struct ContactView {
     std::int32_t first;      // index of a grain
     std::int32_t second;     // index of a grain, or -1 - face
+    std::int32_t glued;      // which glued grain of that face; -1 for the face itself and for a grain
     Vec3 normal;             // unit, from first to second
     double overlap;          // m
     double smaller_radius;   // m

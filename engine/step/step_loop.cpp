@@ -78,8 +78,8 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
         send_ahead(member, goes_on, kicks);
         // From here to the formula of a contact law: add_contact_forces() -> the law's kernel
         // (docs/architecture.md, "One step").
-        add_contact_forces({rules_, grains_, mine.walls, times}, grains_, contacts, mine.memory, mine.ahead,
-                           mine.clock);
+        add_contact_forces({rules_, grains_, mine.walls, around_.glued, times}, grains_, contacts,
+                           mine.memory, mine.ahead, mine.clock);
     }
     end_run(member, step, kicks);
     mine.reached = evaluations.step_number();
@@ -171,7 +171,7 @@ void StepLoop::restart() {
         copy_foreign(member);
         Vanguard none;
         CostClock idle;
-        add_contact_forces({rules_, grains_, walls, {}}, grains_, lists_.contacts(member),
+        add_contact_forces({rules_, grains_, walls, around_.glued, {}}, grains_, lists_.contacts(member),
                            members_[member].memory, none, idle);
     });
     lists_.clear_counts();

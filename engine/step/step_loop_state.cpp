@@ -13,7 +13,7 @@ void StepLoop::visit_contacts(std::int64_t at_step,
     WallState walls;
     const Pose pose = around_.motion.at(at_step);
     walls.set(around_.faces, pose, pose, 0);
-    const ForceInput in{rules_, grains_, walls, {}};
+    const ForceInput in{rules_, grains_, walls, around_.glued, {}};
     std::vector<ContactView> late;
     const auto keep = [&](const ContactView& seen) { late.push_back(seen); };
     for (std::size_t g = 0; g < rules_.groups.size(); ++g) {
@@ -21,7 +21,8 @@ void StepLoop::visit_contacts(std::int64_t at_step,
         for (int m = 0; m < team_.size(); ++m) view_contacts(in, g, lists_.contacts(m), visit, keep);
         // Threads own stretches of the grains, so those in order are in order on any number of them.
         std::sort(late.begin(), late.end(), [](const ContactView& a, const ContactView& b) {
-            return a.first != b.first ? a.first < b.first : a.second > b.second;
+            if (a.first != b.first) return a.first < b.first;
+            return a.second != b.second ? a.second > b.second : a.glued < b.glued;
         });
         for (const ContactView& seen : late) visit(seen);
     }

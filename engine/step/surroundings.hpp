@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/state/container_faces.hpp"
+#include "engine/state/glued_grains.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "engine/step/traffic.hpp"
 
@@ -12,6 +13,7 @@ namespace grainreel {
 // The step loop reads them and never changes them.
 struct Surroundings {
     std::vector<Face> faces;
+    GluedGrains glued;  // to these faces
     WallMotion motion;
     Vec3 gravity{0, 0, 0};    // m/s2
     double period = 0;        // m, of x; 0 for none

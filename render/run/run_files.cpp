@@ -33,7 +33,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
     : clock_(plan.clock),
       field_times_(plan.fields),
       measures_(folder / "measures.csv", simulation.measured()) {
-    if (plan.opens) outflow_.emplace(folder / "outflow.csv");
+    if (plan.opens && !scene.container.tray) outflow_.emplace(folder / "outflow.csv");
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (const auto sets = simulation.field_sets(); !sets.empty())
         fields_.emplace(folder / "fields.nc", sets, scene.title, program_version);

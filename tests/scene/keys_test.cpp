@@ -63,11 +63,13 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string fields = wedge_text + "[output.fields]\ngrid = \"yz\"\n";
     const std::string outlet =
         with(wedge_text, "height = \"180 mm\"\n", "height = \"180 mm\"\noutlet = { width = \"20 mm\" }\n");
+    const std::string rough = with(wedge_text, "height = \"180 mm\"\n",
+                                   "height = \"180 mm\"\nwall_grains = { faces = [\"floor\"] }\n");
     const std::string fed = wedge_text + "[[feed]]\nrate = 10\n";
     const std::string staged = wedge_text + "[[drive.stage]]\nfrom = 1\n";
     const std::string captioned = wedge_text + "[[film.caption]]\nfrom = 1\ntext = \"a\"\n";
-    const std::string cases[] = {wedge_text, box,    locked, motion, from_file, exact,
-                                 layers,     fields, outlet, fed,    staged,    captioned};
+    const std::string cases[] = {wedge_text, box,    locked, motion, from_file, exact,    layers,
+                                 fields,     outlet, rough,  fed,    staged,    captioned};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

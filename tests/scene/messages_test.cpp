@@ -184,6 +184,24 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { width = 0.02, opens = \"1000 s\" }",
              "23:26: the outlet opens at 1000 s, but the run ends at 2 s; open it earlier or lengthen "
              "run.duration"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\ntray = { depth = 0.1 }",
+             "23:1: 'tray' is of no use below a closed floor; add 'outlet', or remove it"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\noutlet = { width = 0.02 }\ntray = { width = 0.05 }",
+             "24:10: 'width' of 0.05 m is less than that of the container's floor, 0.0590442 m; widen it"},
+        Case{"height = \"180 mm\"",
+             "height = \"180 mm\"\noutlet = { width = 0.02 }\ntray = { depth = 0.011 }",
+             "24:10: 'depth' of 0.011 m leaves 0.00720046 m below the floor where that is lowest, less than "
+             "the "
+             "largest grain, 0.01 m; deepen it"},
+        Case{"height = \"180 mm\"", "height = \"180 mm\"\nwall_grains = { species = \"big\", faces = [] }",
+             "23:34: 'faces' names no face; write for example [\"floor\"]"},
+        Case{"height = \"180 mm\"",
+             "height = \"180 mm\"\nwall_grains = { species = \"big\", faces = [\"wall\"] }",
+             "23:34: 'faces' names \"wall\", which is no face of this container; there is floor, lid, "
+             "left_wall, right_wall, left_slant, right_slant, back, front"},
+        Case{"height = \"180 mm\"",
+             "height = \"180 mm\"\nwall_grains = { faces = [\"floor\"], spacing = 1e-6 }",
+             "23:36: 'spacing' of 1e-06 m makes up to 2.3e+10 glued grains, more than 1e+06; widen it"},
         Case{"slant_height =", "floor_width = \"20 mm\"\nslant_height =",
              "19:1: 'floor_width' is of no use here: 'slant_height' is given; remove it"}));
 
@@ -400,6 +418,15 @@ TEST(Messages, NameTheOptionThatWasTyped) {
         of("--max-size", "film.max_size=10"),
         "--max-size: 'max_size' must be a size in kB, MB, GB, KiB, MiB or GiB, but is \"10\"; write for "
         "example \"10 MB\"");
+}
+
+TEST(Messages, GluedGrainsLargerThanTheRoom) {
+    EXPECT_EQ(
+        complaint(wedge_text, {"species.big.diameter=30 mm",
+                               "container.wall_grains={species=\"big\", faces=[\"back\", \"front\"]}"}),
+        "--set container.wall_grains: 'species' glues grains of up to 0.03 m, larger than the room: they "
+        "leave 0.015 m along container.depth, less than the largest grain, 0.03 m; use smaller ones, or a "
+        "larger container");
 }
 
 TEST(Messages, CommandLine) {

@@ -250,5 +250,36 @@ TEST(Reader, ShippedScenesAreRight) {
     EXPECT_EQ(scene.name, "wedge_segregation");
 }
 
+// "closed" and a table are two kinds of value of one key.
+TEST(Reader, AnOutletIsSetByItsWidthWhateverTheSceneSays) {
+    const std::string height = "height = \"180 mm\"\n";
+    for (const char* says :
+         {"", "outlet = \"closed\"\n", "outlet = { width = 0.03 }\n", "[container.outlet]\nwidth = 0.03\n"}) {
+        std::string text = wedge_text;
+        text.insert(text.find(height) + height.size(), says);
+        const Scene scene = read_scene_text(text, "test.toml",
+                                            {"container.outlet.width=20 mm", "container.outlet.opens=0.5 s"});
+        ASSERT_TRUE(scene.container.outlet) << says;
+        EXPECT_EQ(scene.container.outlet->half_width, 0.01) << says;
+        EXPECT_EQ(scene.container.outlet->opens, 0.5) << says;
+    }
+    EXPECT_FALSE(
+        read_scene_text(wedge_text, "test.toml", {"container.outlet.width=20 mm", "container.outlet=closed"})
+            .container.outlet);
+}
+
+// A species may be there for the walls alone.
+TEST(Reader, ASpeciesOfGluedGrainsNeedsNoCount) {
+    std::string text = wedge_text;
+    text.insert(text.find("[contact]"), "[[species]]\nname = \"rough\"\ndiameter = \"4 mm\"\ndensity = 1\n");
+    EXPECT_THROW(read_scene_text(text, "test.toml"), UserError);
+    const Scene scene =
+        read_scene_text(text, "test.toml", {"container.wall_grains={species=\"rough\", faces=[\"floor\"]}"});
+    EXPECT_EQ(scene.grains(), 110);
+    ASSERT_TRUE(scene.container.wall_grains);
+    EXPECT_EQ(scene.container.wall_grains->species, 2u);
+    EXPECT_EQ(scene.container.wall_grains->spacing, 0.004);
+}
+
 }  // namespace
 }  // namespace grainreel

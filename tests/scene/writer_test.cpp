@@ -93,6 +93,10 @@ TEST(Writer, ResolvedScenesReadBackBitByBit) {
     expect_round_trip(read_text(
         wedge_text, {"container.floor_width=57.3 mm", "container.outlet={width=\"21.7 mm\", opens=0.317}"}));
     expect_round_trip(read_text(box_text, {"container.outlet={diameter=\"7.3 mm\", exit_depth=\"1 cm\"}"}));
+    expect_round_trip(
+        read_text(box_text, {"container.outlet={width=\"7.3 mm\"}", "container.tray={depth=0.0123}"}));
+    expect_round_trip(read_text(wedge_text, {"container.wall_grains={species=\"small\", spacing=0.0071, "
+                                             "faces=[\"left_slant\", \"floor\"], disorder=0.13}"}));
 }
 
 TEST(Writer, WhatTheFilmShowsReadsBackBitByBit) {

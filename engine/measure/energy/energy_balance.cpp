@@ -137,12 +137,16 @@ bool EnergyBalance::are_there(std::uint64_t key) const {
     return there(key >> 32) && (is_at_wall(key) || there(second));
 }
 
-// Grains by id, for their indices change; walls behind all grains.
+// Grains by id, for their indices change; walls behind all grains. A grain may touch several glued grains of
+// one face: these stand behind the faces.
 std::uint64_t EnergyBalance::key(const ContactView& c) const {
     const auto id = [&](std::int32_t index) { return static_cast<std::uint64_t>(grains_.id[index]); };
     const std::uint64_t first = id(c.first);
-    if (c.second < 0)
-        return first << 32 | (std::uint64_t{1} << 31) | static_cast<std::uint64_t>(-1 - c.second);
+    if (c.second < 0) {
+        const auto part = c.glued < 0 ? static_cast<std::uint64_t>(-1 - c.second)
+                                      : around_.faces.size() + static_cast<std::uint64_t>(c.glued);
+        return first << 32 | (std::uint64_t{1} << 31) | part;
+    }
     const std::uint64_t second = id(c.second);
     return std::min(first, second) << 32 | std::max(first, second);
 }

@@ -13,6 +13,8 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/outlet_keys.hpp"
+#include "engine/scene/chapters/tray_keys.hpp"
+#include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/drive/stage_keys.hpp"
 #include "engine/scene/film/measure_columns.hpp"
 #include "engine/scene/keys/key_path.hpp"
@@ -221,6 +223,8 @@ void check_scene(const Scene& scene) {
     check_gravity(scene);
     check_drive(scene);
     check_outlet(scene);
+    check_tray(scene);
+    check_wall_grains(scene);
     check_film(scene);
 }
 

@@ -8,6 +8,8 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/outlet_keys.hpp"
+#include "engine/scene/chapters/tray_keys.hpp"
+#include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {
@@ -122,6 +124,8 @@ const KeyTable<C>& container_table() {
             .useless_for(without_container)
             .placed_at(of_all),
         outlet_key().useless_for(without_container).placed_at(of_all),
+        tray_key().useless_for(without_container).placed_at(of_all),
+        wall_grains_key().useless_for(without_container).placed_at(of_all),
         flag("periodic_depth", &C::periodic_depth, initial(),
              "No front and back walls: what leaves at one enters at the other.")
             .useless_for(not_of_wedge_or_box)

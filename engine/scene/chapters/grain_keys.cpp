@@ -3,6 +3,7 @@
 
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {
@@ -72,7 +73,8 @@ void read_grains(Document& document, Scene& scene) {
         ++scene.species[scene.start.grains.back().species].count;
     }
     for (std::size_t s = 0; s < scene.species.size(); ++s)
-        if (scene.species[s].count == 0 && !is_fed(document, s, scene.species[s].name))
+        if (scene.species[s].count == 0 && !is_fed(document, s, scene.species[s].name) &&
+            !is_glued(document, s, scene.species[s].name))
             document.fail(fmt::format("species[{}].name", s),
                           fmt::format("\"{}\" has no grain among those listed; add one or remove the species",
                                       excerpt(scene.species[s].name)));

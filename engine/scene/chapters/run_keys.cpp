@@ -81,12 +81,6 @@ const KeyTable<Run>& run_table() {
     return table;
 }
 
-std::string names_text(const std::vector<std::string>& names) {
-    std::vector<std::string> words;
-    for (const std::string& name : names) words.push_back(quoted(name));
-    return words.empty() ? "" : toml_list(words);
-}
-
 const char* without_trajectory(const Output& output) {
     return output.trajectory ? nullptr : "no trajectory is kept";
 }

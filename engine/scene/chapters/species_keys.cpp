@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/film/colours.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
@@ -73,7 +74,9 @@ std::string diameter_text(const Species& species, const Scene& scene) {
 void read_count(Document& document, const Scene& scene, const std::string& path, Species& species) {
     if (document.size("grain") > 0) return document.refuse(path, "the grains are listed one by one");
     const auto count = document.integer(path);
-    if (!count && !is_fed(document, scene.species.size(), species.name)) document.fail_missing(path);
+    const std::size_t number = scene.species.size();
+    if (!count && !is_fed(document, number, species.name) && !is_glued(document, number, species.name))
+        document.fail_missing(path);
     species.count = count.value_or(0);
 }
 
@@ -109,7 +112,7 @@ BoundKey<Species> diameter_key() {
 
 BoundKey<Species> count_key() {
     return bound_by<Species>(
-        integer("count", 1, most_grains, note("required, but for [[grain]] and [[feed]]"),
+        integer("count", 1, most_grains, note("required, but for [[grain]], [[feed]] and `wall_grains`"),
                 "How many grains there are at the start."),
         read_count, [](const Species& species, const Scene& scene) {
             return scene.start.grains.empty() && species.count > 0 ? as_toml(species.count) : "";

@@ -76,12 +76,14 @@ toml::node* Document::step_into(toml::node& node, const std::string& part, const
                                 excerpt(part), array->size()));
 }
 
-// The table that the last of `parts` lies in, made where it is missing, and its path with indices.
+// The table that the last of `parts` lies in, and its path with indices. It is made where it is missing, and
+// where there is a value that may be a table but is none.
 std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::string>& parts,
                                                          const Location& by) {
     toml::node* node = &root_;
     std::string path;
     for (std::size_t i = 0; i + 1 < parts.size() && node != nullptr; ++i) {
+        toml::table* const parent = node->as_table();
         toml::node* inner = step_into(*node, parts[i], by.file);
         if (const toml::array* array = node->as_array()) {
             std::size_t index = 0;
@@ -92,6 +94,12 @@ std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::
         }
         node = inner;
         written_.try_emplace(path, by);
+        const bool is_word = !node->is_table() && !node->is_array();
+        if (is_word && parent != nullptr && is_table_path(path, *keys_)) {  // outlet = "closed"
+            parent->insert_or_assign(parts[i], toml::table{});
+            node = parent->get(parts[i]);
+            written_[path] = by;
+        }
     }
     if (node == nullptr || !node->is_table())
         throw UserError(

@@ -33,6 +33,12 @@ std::string toml_list(const std::vector<std::string>& values) {
     return fmt::format("[{}]", fmt::join(values, ", "));
 }
 
+std::string names_text(const std::vector<std::string>& names) {
+    std::vector<std::string> words;
+    for (const std::string& name : names) words.push_back(quoted(name));
+    return words.empty() ? "" : toml_list(words);
+}
+
 // A phase beyond one turn needs its unit, without which the reader takes it for a mistake.
 std::string as_toml(double value, Dimension dimension) {
     const bool many_turns = dimension == Dimension::phase && std::abs(value) > 1;

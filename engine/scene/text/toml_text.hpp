@@ -18,6 +18,7 @@ std::string toml_number(double value);
 std::string quoted(const std::string& text);
 // "[1.0, 2.0]" of values that are TOML already.
 std::string toml_list(const std::vector<std::string>& values);
+std::string names_text(const std::vector<std::string>& names);  // likewise of words; "" of none
 
 // In the dimension's unit, "" for what is not there.
 std::string as_toml(double value, Dimension dimension = Dimension::number);

@@ -15,7 +15,7 @@ namespace {
 void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded, bool sorted,
                const ChunkMemory& memory, Grains& grains) {
     const ChunkOfContacts forces{chunk.first_at,
-                                 chunk.second_at,
+                                 group.of_glued ? memory.face : chunk.second_at,
                                  chunk.count,
                                  &memory.touch,
                                  &memory.force,

@@ -1,6 +1,7 @@
 // What the forces of one step are computed from.
 #pragma once
 
+#include "engine/state/glued_grains.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/forces/walls.hpp"
 #include "engine/step/lists/contact_rules.hpp"
@@ -20,6 +21,7 @@ struct ForceInput {
     const ContactRules& rules;
     const Grains& grains;
     const WallState& walls;
+    const GluedGrains& glued;
     ForceTimes times;
 };
 

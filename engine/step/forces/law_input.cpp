@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/step/forces/contact_geometry.hpp"
+#include "engine/step/forces/glued_geometry.hpp"
 
 namespace grainreel {
 
@@ -22,6 +23,15 @@ const std::int32_t* kinds_of(const ForceInput& in, const ContactGroup& group, co
     return kind;
 }
 
+// The geometry of each contact.
+void touch(const ForceInput& in, const ContactGroup& group, const GeometryInput& geometry,
+           ChunkMemory& memory) {
+    if (group.of_pairs) return touch_pairs(geometry, in.rules.period, memory.touch);
+    if (!group.of_glued) return touch_walls(geometry, in.walls, memory.touch);
+    find_faces(in.glued, geometry.second, geometry.count, memory.face);
+    touch_glued(geometry, {in.glued, in.walls, in.rules.period}, memory.face, memory.touch);
+}
+
 }  // namespace
 
 LawInput law_input(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded,
@@ -38,10 +48,9 @@ LawInput law_input(const ForceInput& in, const ContactGroup& group, const Chunk&
                                  group.law->uses_mass,
                                  group.law->uses_radius || group.rolling,
                                  rounded};
-    TouchChunk& touch = memory.touch;
-    group.of_pairs ? touch_pairs(geometry, in.rules.period, touch) : touch_walls(geometry, in.walls, touch);
-    touch.touching &= bits_of_first(chunk.count);  // without the copies that fill the last block
-    return {chunk.count,          &touch,         kinds_of(in, group, chunk, memory.kind),
+    touch(in, group, geometry, memory);
+    memory.touch.touching &= bits_of_first(chunk.count);  // without the copies that fill the last block
+    return {chunk.count,          &memory.touch,  kinds_of(in, group, chunk, memory.kind),
             &group.parameters,    in.times.since, in.times.ahead,
             group.history_size(), &memory.rolling};
 }

@@ -23,6 +23,7 @@ struct ChunkMemory {
     ForceChunk force;
     RollingChunk rolling;
     std::int32_t kind[kChunk] = {};  // of the chunk's contacts, where there are several
+    std::int32_t face[kChunk] = {};  // of glued grains: on which they stand
     Ahead ahead;
 };
 

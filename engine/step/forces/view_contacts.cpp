@@ -18,10 +18,13 @@ ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk
     const Place& one = in.grains.place[first];
     ContactView v{};
     v.first = first;
-    v.second = group.of_pairs ? second : -1 - second;
+    v.glued = group.of_glued ? second : -1;
+    v.second = group.of_pairs ? second : -1 - (group.of_glued ? in.glued.face[second] : second);
     v.normal = vector(of.touch.normal);
     v.overlap = of.touch.overlap[at];
-    v.smaller_radius = group.of_pairs ? std::min(one.radius, in.grains.place[second].radius) : one.radius;
+    v.smaller_radius = one.radius;
+    if (group.of_pairs) v.smaller_radius = std::min(one.radius, in.grains.place[second].radius);
+    if (group.of_glued) v.smaller_radius = std::min(one.radius, in.glued.place[second].radius);
     v.normal_force = of.force.normal[at];
     v.tangential = group.law->rubs ? vector(of.force.tangential) : Vec3::Zero();
     const Vec3 turning = v.normal.cross(v.tangential);

@@ -30,12 +30,13 @@ struct NeighbourList {
 
 struct WallNeighbour {
     std::int32_t grain;
-    std::int32_t face;
+    std::int32_t face;  // or the number of a glued grain
 };
 
 struct NeighbourLists {
     NeighbourList pairs;
     std::vector<WallNeighbour> walls;  // by rising grain, then face
+    std::vector<WallNeighbour> glued;  // by rising grain, then glued grain
 };
 
 // Wraps positions into the period, puts the grains in spatial order and lays the cells over them. Sets

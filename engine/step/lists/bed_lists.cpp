@@ -1,6 +1,7 @@
 #include "engine/step/lists/bed_lists.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/ticks.hpp"
 #include "engine/step/lists/candidates.hpp"
@@ -13,6 +14,7 @@ BedLists::BedLists(const ContactRules& rules, const Surroundings& around, Grains
       around_(around),
       grains_(grains),
       team_(team),
+      glued_(around.glued, around.faces, around.period),
       life_(around, team.size()),
       shares_(team),
       threads_(team.size()) {}
@@ -86,30 +88,39 @@ void BedLists::search(int thread, const Pose& pose) {
                alone ? lists_.pairs : mine.pairs);
     list_walls(grains_, around_.faces, pose, life_.next_skin(), begin, end,
                alone ? lists_.walls : mine.walls_near);
+    glued_.list(grains_, pose, life_.next_skin(), begin, end, alone ? lists_.glued : mine.glued_near);
     shares_.searched(thread, static_cast<double>(ticks() - since + 1));
 }
 
 // Joins what the threads have found. Each thread copies its own part.
 void BedLists::join_parts(const TeamMember& me) {
     NeighbourList& all = lists_.pairs;
-    std::size_t pairs = 0, walls = 0, pairs_before = 0, walls_before = 0;
+    std::size_t pairs = 0, pairs_before = 0;
     std::int32_t farthest = 0;
     for (int t = 0; t < team_.size(); ++t) {
-        if (t == me.member) pairs_before = pairs, walls_before = walls;
+        if (t == me.member) pairs_before = pairs;
         pairs += threads_[t].pairs.size();
-        walls += threads_[t].walls_near.size();
         farthest = std::max(farthest, threads_[t].pairs.farthest_partner);
     }
     if (me.leads()) {
         all.resize(grains_.size(), pairs);
         all.farthest_partner = farthest;
-        lists_.walls.resize(walls);
+        lists_.walls.resize(found_before(team_.size(), &Thread::walls_near));
+        lists_.glued.resize(found_before(team_.size(), &Thread::glued_near));
     }
     me.wait();
     const Thread& mine = threads_[me.member];
     all.put(mine.pairs, shares_.search_begin(me.member), pairs_before);
-    std::copy(mine.walls_near.begin(), mine.walls_near.end(),
-              lists_.walls.begin() + static_cast<std::ptrdiff_t>(walls_before));
+    for (const auto& [part, whole] :
+         {std::pair{&Thread::walls_near, &lists_.walls}, {&Thread::glued_near, &lists_.glued}})
+        std::copy((mine.*part).begin(), (mine.*part).end(), whole->begin() + found_before(me.member, part));
+}
+
+// How many wall neighbours of one sort the threads before this one have found.
+std::ptrdiff_t BedLists::found_before(int thread, std::vector<WallNeighbour> Thread::*part) const {
+    std::ptrdiff_t count = 0;
+    for (int t = 0; t < thread; ++t) count += std::ssize(threads_[t].*part);
+    return count;
 }
 
 // Hands the contacts over to those who own their grains from now on.
@@ -135,7 +146,7 @@ void BedLists::place_halos() {
 }
 
 Nearby BedLists::nearby(const Pose& now, double skin) const {
-    return {grains_, lists_, around_.faces, now, skin};
+    return {grains_, lists_, around_.faces, around_.glued, now, skin};
 }
 
 // Refreshes the contact lists. Between two rebuilds, this is the only time that a thread reads grains of

@@ -16,6 +16,7 @@
 #include "engine/state/grains.hpp"
 #include "engine/step/evaluation.hpp"
 #include "engine/step/grid/cells.hpp"
+#include "engine/step/grid/glued_search.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/candidates.hpp"
 #include "engine/step/lists/list_life.hpp"
@@ -77,7 +78,7 @@ class BedLists {
         ThreadContacts contacts;
         std::vector<KeptContacts> leaving;  // for other threads, by group
         NeighbourList pairs;                // its part of the search, where there are several threads
-        std::vector<WallNeighbour> walls_near;
+        std::vector<WallNeighbour> walls_near, glued_near;
     };
 
     std::int32_t grains() const { return static_cast<std::int32_t>(grains_.size()); }
@@ -85,6 +86,7 @@ class BedLists {
     Nearby nearby(const Pose& now, double skin) const;
     void search(int thread, const Pose& pose);
     void join_parts(const TeamMember& me);
+    std::ptrdiff_t found_before(int thread, std::vector<WallNeighbour> Thread::*part) const;
     void hand_over(const TeamMember& me);
     void place_halos();
     void refresh(int thread);
@@ -99,6 +101,7 @@ class BedLists {
     Grains& grains_;
     Team& team_;
     Cells cells_;
+    GluedSearch glued_;
     NeighbourLists lists_;
     ListLife life_;
     WorkShares shares_;

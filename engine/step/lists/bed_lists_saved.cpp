@@ -49,6 +49,7 @@ void BedLists::transfer(Lists& lists, Kept& kept, std::int32_t& steps, ReachType
     each(lists.lists_.pairs.start), each(lists.lists_.pairs.partner);
     each(lists.lists_.pairs.farthest_partner);
     each(lists.lists_.walls);
+    if (!lists.around_.glued.empty()) each(lists.lists_.glued);
     ListLife::transfer(lists.life_, each);
     each(reach);
 }
@@ -85,11 +86,12 @@ void BedLists::load(Bytes& in, const Pose& now) {
 // Of what load() read: whether the loop could have made it, with these grains and faces.
 bool BedLists::is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const {
     constexpr std::int32_t kMostSteps = 1'000'000'000;  // without a refresh, even of a bed at rest
-    const auto faces = static_cast<std::int32_t>(around_.faces.size());
-    bool sound = steps >= 0 && steps <= kMostSteps && are_sound(lists_, grains(), faces) &&
+    const WallParts walls{static_cast<std::int32_t>(around_.faces.size()),
+                          static_cast<std::int32_t>(around_.glued.size())};
+    bool sound = steps >= 0 && steps <= kMostSteps && are_sound(lists_, grains(), walls) &&
                  life_.is_sound(grains(), reach);
     for (std::size_t g = 0; sound && g < kept.size(); ++g)
-        sound = are_sound(kept[g], rules_, g, grains_, faces, steps);
+        sound = are_sound(kept[g], rules_, g, grains_, walls, steps);
     return sound;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/nearest_image.hpp"
 #include "engine/step/grid/large_bed.hpp"
 #include "engine/step/lists/near_pairs.hpp"
 
@@ -44,12 +45,26 @@ void list_near_walls(const ContactRules& rules, const Nearby& nearby, ThreadCont
     }
 }
 
+void list_near_glued(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
+    const std::vector<WallNeighbour>& list = nearby.lists.glued;
+    const std::int32_t last = first_wall_slot(list, contacts.end);
+    for (std::int32_t at = first_wall_slot(list, contacts.begin); at < last; ++at) {
+        const auto [grain, glued] = list[at];
+        const Place& place = nearby.grains.place[grain];
+        Vec3 apart = nearby.glued.centre(glued, nearby.faces, nearby.pose) - place.position;
+        apart.x() = wrapped(apart.x(), rules.period);
+        if (apart.norm() < place.radius + nearby.glued.place[glued].radius + nearby.skin)
+            contacts.tables[rules.group_of_glued[nearby.grains.species[grain]]].offer(grain, glued);
+    }
+}
+
 }  // namespace
 
 void list_candidates(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
     for (ContactTable& table : contacts.tables) table.begin_candidates();
     list_near_pairs(rules, nearby, contacts);
     list_near_walls(rules, nearby, contacts);
+    list_near_glued(rules, nearby, contacts);
     for (ContactTable& table : contacts.tables) table.end_candidates();
     for (std::size_t g = 0; g < contacts.tables.size(); ++g)
         if (rules.groups[g].of_pairs && !is_large_bed(nearby.grains))

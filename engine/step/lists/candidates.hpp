@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "engine/state/glued_grains.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
 
 namespace grainreel {
@@ -13,6 +14,7 @@ struct Nearby {
     const Grains& grains;
     const NeighbourLists& lists;
     const std::vector<Face>& faces;
+    const GluedGrains& glued;
     const Pose& pose;
     double skin;  // m; pairs that are closer than this become candidates
 };

@@ -76,6 +76,9 @@ ContactRules::ContactRules(const Plan& plan, double period_of_x)
     rounds = std::any_of(groups.begin(), groups.end(),
                          [](const ContactGroup& group) { return group.number_size() == sizeof(float); });
     group_of_wall = add_groups(plan.wall, false, groups);
+    const std::size_t before_glued = groups.size();
+    group_of_glued = add_groups(plan.glued, false, groups);
+    for (std::size_t g = before_glued; g < groups.size(); ++g) groups[g].of_glued = true;
 }
 
 }  // namespace grainreel

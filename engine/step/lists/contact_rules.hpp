@@ -11,12 +11,14 @@
 namespace grainreel {
 
 // A group of contacts that follow one law. It may hold several kinds of contact. A kind of contact between
-// grains is a pair of species, numbered first x species + second. A kind of contact with walls is a species.
+// grains is a pair of species, numbered first x species + second. A kind of contact with walls, or with
+// grains glued to them, is a species.
 struct ContactGroup {
     ContactModel model;
     const LawKernel* law;
     const LawKernel* rolling;  // nullptr: no resistance to rolling
     bool of_pairs;
+    bool of_glued;  // of grains with glued grains
     LawParameters parameters, rolling_parameters;
     std::vector<std::int32_t> row;  // where each kind stands in the parameters
 
@@ -27,8 +29,8 @@ struct ContactGroup {
 };
 
 struct ContactRules {
-    std::vector<ContactGroup> groups;                        // those of pairs first
-    std::vector<std::int32_t> group_of_pair, group_of_wall;  // the group of each kind
+    std::vector<ContactGroup> groups;  // those of pairs first, those of glued grains last
+    std::vector<std::int32_t> group_of_pair, group_of_wall, group_of_glued;  // the group of each kind
     std::int32_t species;
     LeverArms arms;
     double period;  // m, of x; 0 for none

@@ -120,6 +120,7 @@ void leave_out(std::vector<WallNeighbour>& walls, const std::vector<std::int32_t
 void leave_out(const std::vector<std::int32_t>& index, NeighbourLists& lists) {
     leave_out(lists.pairs, index);
     leave_out(lists.walls, index);
+    leave_out(lists.glued, index);
 }
 
 }  // namespace grainreel

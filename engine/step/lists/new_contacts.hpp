@@ -6,6 +6,7 @@
 
 #include "engine/step/forces/contact_geometry.hpp"
 #include "engine/step/forces/force_input.hpp"
+#include "engine/step/forces/glued_geometry.hpp"
 #include "engine/step/grid/large_bed.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
 
@@ -17,10 +18,15 @@ void add_new_contacts(const ForceInput& in, std::size_t group, ThreadContacts& c
 // One bit for each of `count` candidates, at most kChunk: whether its bodies touch.
 inline std::uint64_t which_touch(const ForceInput& in, const ContactGroup& group, const Halo::Bodies& bodies,
                                  int count) {
-    const std::uint64_t touching =
-        group.of_pairs ? near_pairs(in.grains, bodies.first, bodies.second, count, in.rules.period, 0)
-                       : touching_walls(in.grains, bodies.first, bodies.second, count, in.walls);
-    return touching & bits_of_first(count);
+    const auto touching = [&] {
+        if (group.of_pairs)
+            return near_pairs(in.grains, bodies.first, bodies.second, count, in.rules.period, 0);
+        if (group.of_glued)
+            return touching_glued(in.grains, bodies.first, bodies.second, count,
+                                  {in.glued, in.walls, in.rules.period});
+        return touching_walls(in.grains, bodies.first, bodies.second, count, in.walls);
+    };
+    return touching() & bits_of_first(count);
 }
 
 }  // namespace grainreel

@@ -27,17 +27,21 @@ bool is_sound(const NeighbourList& list, std::int32_t grains) {
     return list.farthest_partner == farthest;
 }
 
-}  // namespace
-
-bool are_sound(const NeighbourLists& lists, std::int32_t grains, std::int32_t faces) {
+bool is_sound(const std::vector<WallNeighbour>& list, std::int32_t grains, std::int32_t parts) {
     const auto inside = [&](const WallNeighbour& w) {
-        return within(w.grain, grains) && within(w.face, faces);
+        return within(w.grain, grains) && within(w.face, parts);
     };
     const auto before = [](const WallNeighbour& a, const WallNeighbour& b) {
         return a.grain != b.grain ? a.grain < b.grain : a.face < b.face;
     };
-    return is_sound(lists.pairs, grains) && std::all_of(lists.walls.begin(), lists.walls.end(), inside) &&
-           std::is_sorted(lists.walls.begin(), lists.walls.end(), before);
+    return std::all_of(list.begin(), list.end(), inside) && std::is_sorted(list.begin(), list.end(), before);
+}
+
+}  // namespace
+
+bool are_sound(const NeighbourLists& lists, std::int32_t grains, const WallParts& walls) {
+    return is_sound(lists.pairs, grains) && is_sound(lists.walls, grains, walls.faces) &&
+           is_sound(lists.glued, grains, walls.glued);
 }
 
 ContactOrder order_of(const KeptContacts& kept, std::size_t c) {
@@ -45,9 +49,11 @@ ContactOrder order_of(const KeptContacts& kept, std::size_t c) {
 }
 
 bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t g, const Grains& grains,
-               std::int32_t faces, std::int32_t steps) {
+               const WallParts& walls, std::int32_t steps) {
     const ContactGroup& group = rules.groups[g];
     const auto count = static_cast<std::int32_t>(grains.size());
+    const std::int32_t others = group.of_pairs ? count : group.of_glued ? walls.glued : walls.faces;
+    const std::vector<std::int32_t>& at_walls = group.of_glued ? rules.group_of_glued : rules.group_of_wall;
     const std::size_t size = kept.size();
     if (kept.second.size() != size || kept.tag.size() != size ||
         kept.history.size() != size * static_cast<std::size_t>(group.history_size()))
@@ -56,12 +62,10 @@ bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t 
         return false;
     for (std::size_t c = 0; c < size; ++c) {
         const std::int32_t i = kept.first[c], j = kept.second[c];
-        if (!within(i, count) || !within(j, group.of_pairs ? count : faces) || (group.of_pairs && j <= i))
-            return false;
+        if (!within(i, count) || !within(j, others) || (group.of_pairs && j <= i)) return false;
         const std::int32_t s = grains.species[i];
-        const std::int32_t its_group = group.of_pairs
-                                           ? rules.group_of_pair[s * rules.species + grains.species[j]]
-                                           : rules.group_of_wall[s];
+        const std::int32_t its_group =
+            group.of_pairs ? rules.group_of_pair[s * rules.species + grains.species[j]] : at_walls[s];
         if (its_group != static_cast<std::int32_t>(g) || order_of(kept, c).began > steps) return false;
         if (c > 0 && !(order_of(kept, c - 1) < order_of(kept, c))) return false;
     }

@@ -9,13 +9,18 @@
 
 namespace grainreel {
 
+// How many there are.
+struct WallParts {
+    std::int32_t faces, glued;
+};
+
 // Every index must be in its range and in its order, and no partner farther away than the list says.
-bool are_sound(const NeighbourLists& lists, std::int32_t grains, std::int32_t faces);
+bool are_sound(const NeighbourLists& lists, std::int32_t grains, const WallParts& walls);
 
 // Contacts of the g-th group. Their bodies must exist and follow the group's law. They must stand in the
 // order in which they are computed. Tags are ages, of at most `steps`.
 bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t g, const Grains& grains,
-               std::int32_t faces, std::int32_t steps);
+               const WallParts& walls, std::int32_t steps);
 
 // The place of a contact in that order.
 struct ContactOrder {

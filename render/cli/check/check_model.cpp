@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/chart/accuracy/promised_error.hpp"
+#include "engine/scene/bed.hpp"
 #include "render/cli/check/check_parts.hpp"
 
 namespace grainreel {
@@ -73,6 +74,10 @@ void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
                 row(scene.species[a].name + " - " + scene.species[b].name, plan.between(a, b),
                     scene.species[a], &scene.species[b]);
         row(scene.species[a].name + " - wall", plan.wall[a], scene.species[a], nullptr);
+        if (!plan.glued.empty()) {
+            const Species glued = glued_species(scene);
+            row(scene.species[a].name + " - glued", plan.glued[a], scene.species[a], &glued);
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/state/glued_grains.hpp"
 #include "render/cli/check/check_parts.hpp"
 
 namespace grainreel {
@@ -45,6 +46,14 @@ std::string container_text(const Container& c) {
     }
     return fmt::format("cylinder, diameter {}, height {}, {}", metres_text(2 * c.half_width),
                        metres_text(c.height), top);
+}
+
+std::string rough_text(const Scene& scene) {
+    const WallGrains& layer = *scene.container.wall_grains;
+    const Species& species = scene.species[layer.species];
+    const std::size_t count = glue_grains(scene, container_faces(scene.container, scene.drive)).size();
+    return fmt::format("{} {} of {} glued to {}", grouped(static_cast<std::int64_t>(count)), species.name,
+                       diameter_text(species.diameter), fmt::join(layer.faces, ", "));
 }
 
 std::string wall_text(const FreeWall& wall) {
@@ -113,6 +122,10 @@ void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
                                   s.fed > 0 ? fmt::format(", {} of them fed", grouped(s.fed)) : ""));
     for (const Feed& feed : scene.feeds) list.line("feed", feed_text(scene, feed));
     list.line("container", container_text(scene.container));
+    if (scene.container.wall_grains) list.line("", rough_text(scene));
+    if (const auto& tray = scene.container.tray)
+        list.line("", fmt::format("tray {} below the floor, width {}", metres_text(tray->depth),
+                                  metres_text(2 * tray->half_width)));
     for (const FreeWall& wall : scene.walls) list.line("", wall_text(wall));
     if (scene.start.method != Start::Method::grains)
         list.line("bed",

@@ -65,6 +65,14 @@ std::vector<Vec3> corners_of(const Scene& scene, const FramedPart& part) {
     return prism_corners(scene.container, top);
 }
 
+std::vector<Vec3> tray_corners(const Scene& scene) {
+    const Container tray = tray_container(scene);
+    const bool round = tray.shape == Container::Shape::cylinder;
+    std::vector<Vec3> corners = round ? cylinder_corners(tray, 1e300) : prism_corners(tray, 1e300);
+    for (Vec3& corner : corners) corner.z() -= scene.container.tray->depth;
+    return corners;
+}
+
 // What falls through an outlet, as far as it stays in the run.
 void add_stream(const Container& container, std::vector<Vec3>& corners) {
     const Outlet& outlet = *container.outlet;
@@ -99,7 +107,10 @@ Vec3 framed_middle(const Scene& scene) {
 
 std::vector<Vec3> framing_points(const Scene& scene, double azimuth, const FramedPart& part) {
     std::vector<Vec3> corners = corners_of(scene, part);
-    if (scene.container.outlet) add_stream(scene.container, corners);
+    if (scene.container.tray)
+        for (const Vec3& corner : tray_corners(scene)) corners.push_back(corner);
+    else if (scene.container.outlet)
+        add_stream(scene.container, corners);
     if (!part.cut && part.top > scene.container.height) corners.emplace_back(0, 0, part.top);
     std::vector<Vec3> points;
     const Vec3 stroke = drawn_stroke(scene);

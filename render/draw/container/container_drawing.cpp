@@ -34,6 +34,13 @@ void draw_ghost(const Scene& scene, const Sketch& lab, Shapes& on) {
         draw_prism_ghost(scene.container, floor_only, lab, on);
 }
 
+void draw_at(const Container& container, const Sketches& sketches, ContainerShapes& shapes) {
+    if (container.shape == Container::Shape::cylinder)
+        draw_cylinder(container, sketches, shapes);
+    else if (container.shape != Container::Shape::none)
+        draw_prism(container, sketches, shapes);
+}
+
 }  // namespace
 
 View frame_container(const Scene& scene, const PictureLayout& layout) {
@@ -48,11 +55,11 @@ void draw_container(const Scene& scene, const Views& views, const Frame& frame, 
     const Sketches sketches{{views, palette, picture_height, frame.container().place},
                             {views, palette, picture_height, frame.floor().place},
                             {views, palette, picture_height, Vec3(0, 0, 0)}};
-    const Container container = container_at(scene.container, frame.time);
-    if (container.shape == Container::Shape::cylinder)
-        draw_cylinder(container, sketches, shapes);
-    else if (container.shape != Container::Shape::none)
-        draw_prism(container, sketches, shapes);
+    if (scene.container.tray) {
+        const Sketch below{views, palette, picture_height, Vec3(0, 0, -scene.container.tray->depth)};
+        draw_at(tray_container(scene), {below, below, below}, shapes);
+    }
+    draw_at(container_at(scene.container, frame.time), sketches, shapes);
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {  // inside, so over the container's far walls
         const Vec3 offset = frame.body(kFirstPlaneBody + w).place;
         draw_free_wall(scene.walls[w], scene, {views, palette, picture_height, offset}, shapes);

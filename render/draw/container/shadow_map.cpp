@@ -29,12 +29,16 @@ void mean_of_five(const std::array<const float*, 5>& of, float* out) {
 
 ShadowMap::ShadowMap(const Scene& scene)
     : container_(scene.container),
-      low_plate_(-1.4 * drawn_thickness(scene.container)),
+      foot_(scene.container.tray ? tray_container(scene) : scene.container),
+      low_plate_(-1.4 * drawn_thickness(foot_)),
       cells_(kSide * kSide) {
     const double stroke =
         scene.drive.present ? drive_peaks(scene.drive).offset * std::abs(scene.drive.direction.z()) : 0;
     height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
-    if (container_.outlet) height_ = std::min(height_, -container_.outlet->exit_depth);
+    if (container_.tray)
+        height_ = low_plate_ - container_.tray->depth - 0.15 * drawn_thickness(foot_);
+    else if (container_.outlet)
+        height_ = std::min(height_, -container_.outlet->exit_depth);
 }
 
 Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {
@@ -46,7 +50,7 @@ Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {
 // Around the foot and as far as the container's whole height throws.
 void ShadowMap::place(const Vec3& to_key) {
     const double reach =
-        std::max(floor_reach(container_), std::hypot(container_.half_width, 0.5 * container_.depth));
+        std::max(floor_reach(foot_), std::hypot(container_.half_width, 0.5 * container_.depth));
     low_ = {0, 0};
     side_ = kSide;  // one cell a metre: fall() then is in metres
     const Eigen::Vector2d tip = fall({0, 0, container_.height}, to_key);
@@ -57,13 +61,14 @@ void ShadowMap::place(const Vec3& to_key) {
     low_ = middle.array() - 0.5 * side_;
 }
 
-// The floor's plate, dense at its foot.
+// The floor's plate, dense at its foot; that of a tray where there is one.
 void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
-    const double half = outer_floor_half_width(container_), cell = side_ / kSide;
-    const bool round = container_.shape == Container::Shape::cylinder;
-    const double half_depth = round ? half : 0.5 * container_.depth;
+    const double half = outer_floor_half_width(foot_), cell = side_ / kSide;
+    const bool round = foot_.shape == Container::Shape::cylinder;
+    const double half_depth = round ? half : 0.5 * foot_.depth;
+    const Vec3 place = container_.tray ? Vec3(0, 0, -container_.tray->depth) : frame.floor().place;
     for (const double z : {low_plate_, 0.5 * low_plate_, 0.0}) {
-        const Eigen::Vector2d at = fall(Vec3(0, 0, z) + frame.floor().place, to_key);
+        const Eigen::Vector2d at = fall(Vec3(0, 0, z) + place, to_key);
         for (int j = 0; j < kSide; ++j)
             for (int i = 0; i < kSide; ++i) {
                 const double x = (i + 0.5 - at.x()) * cell, y = (j + 0.5 - at.y()) * cell;

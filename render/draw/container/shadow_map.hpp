@@ -34,6 +34,7 @@ class ShadowMap {
     Eigen::Vector2d fall(const Vec3& point, const Vec3& to_key) const;
 
     const Container container_;
+    const Container foot_;  // what stands on the ground: the container, or the tray below it
     double height_ = 0, low_plate_ = 0;
     Eigen::Vector2d low_{0, 0};
     double side_ = 1;

@@ -13,19 +13,19 @@ namespace {
 constexpr Colour pale_grain{0.93, 0.93, 0.93};  // sRGB
 constexpr int smooth_steps = 1024;              // of a colour map: finer than 8 bits
 
-Albedo linear(const Colour& colour) {
+}  // namespace
+
+Albedo to_albedo(const Colour& colour) {
     return {static_cast<float>(to_linear(colour.red)), static_cast<float>(to_linear(colour.green)),
             static_cast<float>(to_linear(colour.blue))};
 }
-
-}  // namespace
 
 GrainColours::GrainColours(const Scene& scene)
     : quantities_(scene, scene.film.shows.colour.by), by_species_(!scene.film.shows.colour.of_grains()) {
     if (by_species_) {
         const bool pale = scene.film.shows.colour.of_field();
         for (const Species& species : scene.species)
-            steps_.push_back(linear(pale ? mix(species.colour, pale_grain, 0.8) : species.colour));
+            steps_.push_back(to_albedo(pale ? mix(species.colour, pale_grain, 0.8) : species.colour));
         return;
     }
     const ColourScale scale(scene.film.shows.colour);
@@ -33,11 +33,11 @@ GrainColours::GrainColours(const Scene& scene)
     high_ = scale.high();
     banded_ = scale.bands() > 0;
     const int count = banded_ ? scale.bands() : smooth_steps;
-    for (int i = 0; i < count; ++i) steps_.push_back(linear(scale.at_share(i / (count - 1.0))));
+    for (int i = 0; i < count; ++i) steps_.push_back(to_albedo(scale.at_share(i / (count - 1.0))));
 }
 
 Albedo GrainColours::of_value(double value) const {
-    if (std::isnan(value)) return linear(neutral_grain);
+    if (std::isnan(value)) return to_albedo(neutral_grain);
     const auto count = static_cast<double>(steps_.size());
     const double share = (value - low_) / (high_ - low_);
     const double step = banded_ ? std::floor(share * count) : std::round(share * (count - 1));

@@ -11,6 +11,7 @@
 namespace grainreel {
 
 using Albedo = std::array<float, 3>;  // linear light
+Albedo to_albedo(const Colour& colour);
 
 // Of grains whose quantity is unknown, and of the legend's when colours say something else than the species.
 inline constexpr Colour neutral_grain{0.62, 0.62, 0.62};  // sRGB

@@ -7,6 +7,7 @@ namespace grainreel {
 
 SpherePainter::SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts)
     : grain_colours_(scene),
+      glued_(scene),
       team_(team),
       layer_(width, height),
       look_(scene.film.look),
@@ -32,6 +33,19 @@ void SpherePainter::take(const View& view, const Frame& frame) {
     open_bed(view, frame);
     mark_rotation(view, frame);
     mark_painted(frame);
+    add_glued(view, frame);
+}
+
+// Grains glued to walls come behind all others, so that these keep their places.
+void SpherePainter::add_glued(const View& view, const Frame& frame) {
+    for (const GluedSpheres::Seen& seen : glued_.seen(view, frame)) {
+        const Vec3 at = view.to_view(seen.centre);
+        spheres_.spheres.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()),
+                                    static_cast<float>(at.z()), static_cast<float>(seen.radius)});
+        spheres_.albedo.push_back(glued_.colour());
+        if (!spheres_.poles.empty()) spheres_.poles.push_back({});  // one colour all over
+        if (!painted_.empty()) spheres_.painted.push_back(0);
+    }
 }
 
 // The planes of the cut, which go with the container, in view coordinates.

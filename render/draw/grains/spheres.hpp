@@ -6,6 +6,7 @@
 #include "engine/scene/scene.hpp"
 #include "render/draw/camera/view.hpp"
 #include "render/draw/container/container_drawing.hpp"
+#include "render/draw/grains/glued_spheres.hpp"
 #include "render/draw/grains/grain_colours.hpp"
 #include "render/spheres/light/sphere_layer.hpp"
 
@@ -32,11 +33,13 @@ class SpherePainter {
     const std::vector<WallPixel>& wall_pixels() const { return layer_.wall_order().pixels(); }
 
   private:
+    void add_glued(const View& view, const Frame& frame);
     void open_bed(const View& view, const Frame& frame);
     void mark_rotation(const View& view, const Frame& frame);
     void mark_painted(const Frame& frame);
 
     GrainColours grain_colours_;
+    GluedSpheres glued_;
     Team& team_;
     std::vector<std::uint8_t> painted_;  // by species; empty: all of them
     SphereLayer layer_;

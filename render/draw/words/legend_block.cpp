@@ -48,6 +48,15 @@ class Entries {
     Entries measured() const { return {{nullptr, writer_.type, writer_.palette}, scene_, wrap_}; }
 
   private:
+    // Of a container that empties, those that there were. A species may be there for the walls alone.
+    std::string numbers_of(const Species& species) const {
+        const std::string wide = diameter_text(species.diameter);
+        if (species.all() == 0) return fmt::format("{}, glued to walls", wide);
+        const Container& container = scene_.container;
+        return fmt::format("{} × {}{}", species.all(), wide,
+                           container.outlet && !container.tray ? " at the start" : "");
+    }
+
     // A ball of the species' colour and relative size, its name, and how many there are.
     TextSize entry(std::size_t i, std::size_t shown, double x, double y, double wrap) const {
         const double indent = icon_ + 0.5 * writer_.type.gap;
@@ -65,10 +74,7 @@ class Entries {
         }
         const Species& species = scene_.species[i];
         line(species.name, writer_.main(), writer_.palette.ink);
-        // Of a container that empties, those that there were.
-        line(fmt::format("{} × {}{}", species.all(), diameter_text(species.diameter),
-                         scene_.container.outlet ? " at the start" : ""),
-             writer_.minor(), writer_.palette.faint_ink);
+        line(numbers_of(species), writer_.minor(), writer_.palette.faint_ink);
         const bool by_species = scene_.film.shows.colour.by == GrainValue::species;
         const double share =
             std::max(0.25, species.diameter.largest / std::max(largest_diameter(scene_), 1e-30));

@@ -188,6 +188,12 @@ TextSize exaggeration_block(const Writer& writer, const Film& film, double x, do
 
 namespace {
 
+std::int64_t count_in_tray(const Frame& frame) {
+    const double floor = frame.floor().place.z();
+    return std::count_if(frame.position.begin(), frame.position.end(),
+                         [&](const Vec3& at) { return at.z() < floor; });
+}
+
 // Time first, then the lines below it.
 std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
     std::vector<std::string> lines{time_text(frame.time, scene.run.duration)};
@@ -198,7 +204,9 @@ std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
         lines.push_back(fmt::format("cycle {}", shown.cycle));
         lines.push_back(fmt::format("phase {:.2f}", shown.phase));
     }
-    if (scene.container.outlet)
+    if (scene.container.tray)
+        lines.push_back(fmt::format("{} of {} in the tray", count_in_tray(frame), frame.size()));
+    else if (scene.container.outlet)
         lines.push_back(fmt::format("{} of {} left", scene.grains() - static_cast<std::int64_t>(frame.size()),
                                     scene.grains()));
     return lines;

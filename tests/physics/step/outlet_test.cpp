@@ -200,6 +200,22 @@ TEST(Outlet, FrictionGoesOnFromTheFloorToItsEdge) {
     EXPECT_NEAR(w.energy(), before, of_rounding(1e-5, 1e-3) * std::abs(before));
 }
 
+// An open floor has two faces: what comes from below, in a tray that is full, bounces off it as what comes
+// from above. It comes back with -e v, and no floor lets it through.
+TEST(Outlet, TheFloorIsAWallFromBelowToo) {
+    const double e = 0.7, speed = 0.4, natural = std::sqrt(sphere_mass() / kStiffness);
+    for (const double side : {1.0, -1.0}) {
+        World w = make_world(walton_braun_pair(e, 0.3), natural / 200);
+        w.around.faces = open_faces(container_with(Container::Shape::box, Outlet::Shape::slot));
+        w.grains.add(0, 0, Vec3(0, 0.03, side * 1.05 * kRadius), kRadius, kDensity);
+        w.grains.motion[0].velocity = Vec3(0, 0, -side * speed);
+        w.start();
+        w.run(static_cast<std::int64_t>((0.1 * kRadius / speed + 4 * natural) / w.plan.clock.step));
+        EXPECT_NEAR(w.velocity(0).z(), side * e * speed, of_rounding(2e-3, 4e-3) * speed) << side;
+        EXPECT_GT(side * w.position(0).z(), kRadius) << side;
+    }
+}
+
 // A ball rests on the floor where the outlet opens. From then on it falls freely: the last force of the floor
 // does not act for half a step more.
 TEST(Outlet, TheGateDoesNotPushAnyMoreOnceItIsOpen) {

@@ -12,7 +12,7 @@
 namespace grainreel::observers {
 
 // What has left is what there was when the drive started less what is there. That is not known by species
-// once other grains come in: then all is NaN.
+// once other grains come in: then all is NaN. A grain that has fallen below the floor into a tray has left.
 class Outflow final : public Observer {
   public:
     static constexpr const char* instrument = "outflow";
@@ -76,13 +76,17 @@ class Outflow final : public Observer {
     static std::vector<double> masses(const Moment& m) {
         std::vector<std::vector<double>> of(m.scene.species.size());
         for (std::size_t i = 0; i < m.grains.size(); ++i)
-            of[static_cast<std::size_t>(m.grains.species[i])].push_back(m.grains.mass(i));
+            if (!is_in_tray(m, i))
+                of[static_cast<std::size_t>(m.grains.species[i])].push_back(m.grains.mass(i));
         std::vector<double> sums;
         for (std::vector<double>& all : of) {
             std::sort(all.begin(), all.end());
             sums.push_back(total(all));
         }
         return sums;
+    }
+    static bool is_in_tray(const Moment& m, std::size_t i) {
+        return m.scene.container.tray && m.grains.place[i].position.z() < m.floor_height();
     }
     static double total(const std::vector<double>& masses) {
         return std::accumulate(masses.begin(), masses.end(), 0.0);

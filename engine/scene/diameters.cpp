@@ -1,4 +1,4 @@
-#include "engine/start/diameters.hpp"
+#include "engine/scene/diameters.hpp"
 
 namespace grainreel {
 

@@ -1,0 +1,86 @@
+// Glued grains and the tray in the picture.
+#include <gtest/gtest.h>
+
+#include "engine/state/glued_grains.hpp"
+#include "render/draw/grains/glued_spheres.hpp"
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+Scene rough(std::vector<std::string> faces) {
+    Scene scene = wedge();
+    WallGrains layer;
+    layer.species = 1;
+    layer.faces = std::move(faces);
+    layer.spacing = 0.01;
+    scene.container.wall_grains = layer;
+    return scene;
+}
+
+std::size_t seen_of(const Scene& scene) {
+    return GluedSpheres(scene).seen(view_of(scene), Frame()).size();
+}
+
+// Those between the eye and the bed would hide it.
+TEST(GluedSpheres, AreSeenWhereTheEyeLooksAtTheInnerSide) {
+    const auto all = [](const Scene& scene) {
+        return glue_grains(scene, container_faces(scene.container, scene.drive)).size();
+    };
+    for (const char* face : {"left slant", "right slant", "left wall", "back", "floor"}) {
+        const Scene scene = rough({face});
+        EXPECT_GT(all(scene), 10u);
+        EXPECT_EQ(seen_of(scene), all(scene)) << face;
+    }
+    EXPECT_EQ(seen_of(rough({"front"})), 0u);
+    EXPECT_EQ(seen_of(rough({"back", "front"})), seen_of(rough({"back"})));
+}
+
+TEST(GluedSpheres, MoveWithTheirWall) {
+    for (const bool floor : {false, true}) {
+        const Scene scene = rough({floor ? "floor" : "back"});
+        Frame frame;
+        (floor ? frame.floor() : frame.container()).place = Vec3(0, 0, 0.013);
+        const GluedSpheres spheres(scene);
+        const auto before = spheres.seen(view_of(scene), Frame()), now = spheres.seen(view_of(scene), frame);
+        ASSERT_EQ(now.size(), before.size());
+        for (std::size_t k = 0; k < now.size(); ++k)
+            EXPECT_LT((now[k].centre - before[k].centre - Vec3(0, 0, 0.013)).norm(), 1e-12);
+    }
+}
+
+// They are in the picture, and not in the colour of their species.
+TEST(GluedSpheres, AreDrawn) {
+    const Scene scene = rough({"back"});
+    Scene plain = scene;
+    plain.container.wall_grains.reset();
+    Renderer with(scene, 1), without(plain, 1);
+    const Picture a = with.draw(Frame(), "", 0), b = without.draw(Frame(), "", 0);
+    const View view = with.view();
+    std::size_t differ = 0, checked = 0;
+    for (const GluedSpheres::Seen& one : GluedSpheres(scene).seen(view, Frame())) {
+        const Eigen::Vector2d at = view.project(one.centre);
+        const int x = view.port.x + static_cast<int>(at.x()), y = view.port.y + static_cast<int>(at.y());
+        if (x < 0 || y < 0 || x >= a.width || y >= a.height) continue;
+        ++checked;
+        differ += difference(a, b, x, y) > 20;
+    }
+    EXPECT_GT(checked, 50u);
+    EXPECT_GT(differ, checked * 9 / 10);
+}
+
+TEST(Framing, HasAllOfTheTray) {
+    Scene scene = wedge();
+    scene.container.outlet = Outlet{Outlet::Shape::slot, 0.02, 0, 0.05};
+    scene.container.tray = Tray{0.2, 0.1};
+    const View view = view_of(scene);
+    for (const double side : {-1.0, 1.0}) {
+        const Eigen::Vector2d at = view.project(Vec3(0.02, side * 0.1, -0.2));
+        EXPECT_GT(at.x(), 0);
+        EXPECT_LT(at.x(), view.port.width);
+        EXPECT_LT(at.y(), view.port.height);
+    }
+}
+
+}  // namespace
+}  // namespace grainreel::test
