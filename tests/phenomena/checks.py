@@ -33,7 +33,6 @@ class Check:
         return f"{self.least:.4g} to {self.most:.4g}"
 
 
-SHORT = "run.duration=2.5 s"
 ON_EARTH = ("gravity=9.81", "drive.frequency=12 Hz", "run.duration=2 s", DRAFT)
 ON_THE_MOON = ("run.duration=4.922 s", DRAFT)
 
@@ -51,16 +50,6 @@ def highest_return(heights, radius):
 
 
 CHECKS = [
-    Check(
-        name="convection_box",
-        claim="a bed in a box sinks along rough walls (Knight et al. 1996)",
-        scene="convection_box",
-        runs=((SHORT, DRAFT),),
-        control=["contact.wall.friction=0"],
-        what="flow along left and right wall, diameters a period",
-        number=lambda run: (run.mean("flow_left", 1) + run.mean("flow_right", 1)) / 2 / 0.002,
-        most=-0.04,
-    ),
     Check(
         name="bed_takes_off",
         claim="the floor bears less than a tenth of a bed from sin(2 pi p) = 0.9/Gamma on, as of a block",
