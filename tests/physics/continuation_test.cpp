@@ -174,6 +174,9 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
     take(walton + "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n");
     take(walton + "[[feed]]\nrate = 5\ncount = 3\nuntil = 1\n");
     take(walton + "[[drive.stage]]\nfrom = 0\nkind = \"taps\"\ninterval = 0.1\n");
+    take(changed("height = \"40 mm\"\n",
+                 "height = \"40 mm\"\noutlet = { width = \"12 mm\" }\ntray = { depth = \"30 mm\" }\n"
+                 "wall_grains = { species = \"big\", faces = [\"left_wall\"] }\n"));
 
     const auto compared = deciding_differences("", all);
     const auto is_compared = [&](const std::string& key) {
