@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/base/vector.hpp"
@@ -16,6 +17,12 @@ class MeasureTable;  // engine/measure/measure_table.hpp
 struct Touch {
     std::int32_t first, second;  // ids; second is -1 - face for a wall
     double force;                // N, normal
+};
+
+// What has left a run.
+struct FlowedOut {
+    std::int64_t grains = 0;
+    double mass = 0;  // kg
 };
 
 struct Frame {
@@ -48,6 +55,8 @@ struct Frame {
     // film asks for it.
     std::shared_ptr<const MeasureTable> measures;
     std::size_t measure_rows = 0;
+
+    std::optional<FlowedOut> flowed_out;  // since the run began; empty unless the film asks for it
 
     // Earlier moments over which the picture is exposed, besides this one; by rising time. Their own lists
     // are empty.

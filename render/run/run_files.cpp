@@ -32,7 +32,8 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
                    const Simulation& simulation, const std::string& program_version)
     : clock_(plan.clock),
       field_times_(plan.fields),
-      measures_(folder / "measures.csv", simulation.measured()) {
+      measures_(folder / "measures.csv", simulation.measured()),
+      departed_(scene) {
     if (plan.opens && !scene.container.tray) outflow_.emplace(folder / "outflow.csv");
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (const auto sets = simulation.field_sets(); !sets.empty())
@@ -54,7 +55,14 @@ void RunFiles::add_fields(const Simulation& simulation) {
 }
 
 void RunFiles::add_departures(Simulation& simulation) {
-    if (outflow_) outflow_->write(simulation.take_departures(), clock_);
+    if (!outflow_) return;
+    const std::vector<Departure> gone = simulation.take_departures();
+    for (const Departure& one : gone) departed_.add(clock_.time(one.step), one.species, one.radius);
+    outflow_->write(gone, clock_);
+}
+
+std::optional<FlowedOut> RunFiles::flowed_out(double time) const {
+    return outflow_ ? std::optional(departed_.until(time)) : std::nullopt;
 }
 
 std::optional<std::int64_t> RunFiles::outflow_rows() const {

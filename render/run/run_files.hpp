@@ -15,6 +15,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/run/moments/outflow_record.hpp"
 
 namespace grainreel {
 
@@ -39,6 +40,8 @@ class RunFiles {
     // The rows again, for those who draw them; null unless the film has plots.
     std::shared_ptr<const MeasureTable> measures() const { return table_; }
     std::optional<std::int64_t> outflow_rows() const;
+    // How much of outflow.csv until a time (s) that the run has reached; none without such a file.
+    std::optional<FlowedOut> flowed_out(double time) const;
     bool has_contacts() const { return contacts_.has_value(); }
     const std::optional<Measures>& first_measures() const { return first_; }
     const std::optional<Measures>& last_measures() const { return last_; }
@@ -51,6 +54,7 @@ class RunFiles {
     std::optional<FieldsWriter> fields_;
     MeasuresWriter measures_;
     std::optional<OutflowWriter> outflow_;  // where grains may leave
+    OutflowRecord departed_;
     std::shared_ptr<MeasureTable> table_;
     std::optional<Measures> first_, last_;
 };

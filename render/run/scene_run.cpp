@@ -60,6 +60,9 @@ class SceneRun::Parts final : public PartSupply {
         const std::shared_ptr<const MeasureTable> table = run_.files_->measures();
         return {table, table->rows()};
     }
+    std::optional<FlowedOut> flowed_out(const Frame& frame) const override {
+        return run_.files_->flowed_out(frame.time);
+    }
 
   private:
     const SceneRun& run_;

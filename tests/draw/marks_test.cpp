@@ -7,7 +7,6 @@
 #include "engine/measure/measure_table.hpp"
 #include "render/draw/grains/shown_grains.hpp"
 #include "render/draw/marks/trails.hpp"
-#include "render/draw/marks/velocity_field.hpp"
 #include "render/draw/plots/plot.hpp"
 #include "render/draw/words/overlay.hpp"
 #include "support.hpp"
@@ -185,40 +184,10 @@ TEST(Plots, RowsWithoutAValueLeaveAGap) {
     EXPECT_EQ(drawn_plot({{0, none}, {1, none}}, 0.5), drawn_plot({}, 0.5));
 }
 
-TEST(Arrows, AreTheMeanOfARotation) {
-    Scene scene = wedge();
-    scene.film.shows.arrows = {6, 0.1, false};
-    Frame frame = frame_of({});
-    std::vector<Ball> balls;
-    for (int k = 0; k < 4000; ++k) {
-        const double y = -0.07 + 0.14 * std::fmod(k * 0.618034, 1), z = 0.15 * std::fmod(k * 0.754878, 1);
-        balls.push_back({{0.03 * std::sin(k), y, z}, 0.001 + 0.001 * (k % 3), k % 2});
-    }
-    frame = frame_of(balls);
-    const Vec3 turning(7, 0, 0), axis(0, 0.01, 0.08);
-    for (std::size_t i = 0; i < frame.size(); ++i)
-        frame.velocity[i] = turning.cross(frame.position[i] - axis);
-    const std::vector<FieldCell> cells = velocity_field(scene, frame);
-    EXPECT_GT(cells.size(), 20u);
-    int grains = 0;
-    for (const FieldCell& cell : cells) {
-        EXPECT_LT((cell.velocity - turning.cross(cell.centre_of_mass - axis)).norm(), 1e-12);
-        EXPECT_LT((cell.centre_of_mass - cell.middle).cwiseAbs().tail<2>().maxCoeff(),
-                  0.5 * field_cell_size(scene));
-        grains += cell.grains;
-    }
-    EXPECT_GT(grains, 3900);
-    // Over a period: displacements times the frequency.
-    scene.film.shows.arrows.period = true;
-    EXPECT_TRUE(velocity_field(scene, frame).empty());
-    frame.displacement.assign(frame.size(), Vec3(0, 0.001, 0));
-    for (const FieldCell& cell : velocity_field(scene, frame))
-        EXPECT_LT((cell.velocity - Vec3(0, 0.001 * 20, 0)).norm(), 1e-12);
-}
-
 TEST(Arrows, PointTheirWay) {
     Scene scene = wedge(960, 540);
     scene.film.shows.arrows = {1, 0.1, false};
+    scene.species = {species("small", 3, 2e-4, blue)};
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     Frame frame = frame_of({{{0, 0, 0.07}, 1e-4, 0}, {{0, 0, 0.075}, 1e-4, 0}, {{0, 0, 0.08}, 1e-4, 0}});
@@ -269,6 +238,7 @@ struct MarkedBed {
         scene.film.words = WordPlace::none;
         FilmShows& shows = scene.film.shows;
         shows.arrows = {6, 0.1, false};
+        shows.streamlines = {8, 0.1, false};
         shows.trails = {{0, 1}, {}, 1};
         shows.force_chains = true;
         shows.highlighted = {3, 17, 60, 90};

@@ -8,6 +8,7 @@
 #include "engine/plan/reach.hpp"
 #include "render/draw/camera/framing.hpp"
 #include "render/draw/plots/panel_plots.hpp"
+#include "render/draw/plots/plot.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel {
@@ -149,7 +150,8 @@ TEST(SideBySide, PlotsAreThoseOfTheirPanelOnOneSpan) {
     const TypeScale type = panel_type(film_of(960, 540));
     PanelPlots plots(panels, drawing.layout(), type, make_palette({1, 1, 1}));
     plots.take({with_rows({0, 1, 0.5}), with_rows({0.2, 0.4, 0.5})});
-    const Plot &first = plots.all()[0].plot, &second = plots.all()[1].plot;
+    const auto& first = dynamic_cast<const Plot&>(*plots.all()[0].plot);
+    const auto& second = dynamic_cast<const Plot&>(*plots.all()[1].plot);
     for (const double value : {0.0, 0.3, 1.0}) EXPECT_EQ(first.y_of(value), second.y_of(value));
     EXPECT_GT(second.y_of(0.9), second.y_of(1.0));  // not cut off where its own rows end
     for (const double time : {0.0, 0.7}) EXPECT_EQ(first.x_of(time), second.x_of(time));

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/scene/bed.hpp"
 #include "engine/scene/film/grain_values.hpp"
 #include "tests/scene/scene_text.hpp"
 
@@ -105,6 +106,36 @@ TEST(Look, PlotsAreColumnsOfMeasures) {
                 testing::HasSubstr("only 3 fit"));
     EXPECT_THAT(complaint("[film.arrows]\nspeed = 1\n"), testing::HasSubstr("lacks 'grid'"));
     EXPECT_THAT(complaint("[film.trails]\nduration = 1\n"), testing::HasSubstr("need 'species' or 'grains'"));
+}
+
+TEST(Look, ProfilesStandInPlaceOfColumns) {
+    const auto plots = [](const std::string& more) { return read_text(wedge_text + more).film.shows.plots; };
+    const FilmPlot share = plots("[[film.plot]]\nprofile = \"share\"\n").at(0);
+    EXPECT_EQ(share.profile, ProfileOf::share);
+    EXPECT_FALSE(share.across);
+    EXPECT_EQ(share.label, "share of the solid volume");
+    const FilmPlot flow = plots("[[film.plot]]\nprofile = \"vertical-velocity\"\nover = \"width\"\n").at(0);
+    EXPECT_TRUE(flow.across);
+    EXPECT_TRUE(flow.period);
+    EXPECT_EQ(flow.dimension, Dimension::speed);
+    expect_complaint({"film.plot=[{profile=\"share\", y=\"lacey\"}]"}, "a plot with a 'profile' shows that");
+    expect_complaint({"film.plot=[{over=\"width\", y=\"lacey\"}]"}, "there is no 'profile'");
+    expect_complaint({"film.plot=[{profile=\"share\", of=\"now\"}]"}, "only profiles of velocities");
+    expect_complaint({"film.plot=[{profile=\"speed\"}]"}, "solid-fraction");
+    expect_complaint({"film.plot=[{}]"}, "lacks 'y'");
+}
+
+TEST(Look, WallForcesAreMeasuredAndScaledByTheWeight) {
+    const Scene scene = read_text(wedge_text, {"film.wall_forces=true"});
+    EXPECT_NEAR(scene.film.shows.wall_forces.scale,
+                total_mass(scene) * scene.gravity.norm() * scene.drive.g_level(scene.gravity.norm()), 1e-12);
+    EXPECT_THAT(scene.output.instruments, testing::Contains("walls"));
+    EXPECT_EQ(read_text(wedge_text, {"film.wall_forces=true", "film.wall_force_scale=\"3 N\""})
+                  .film.shows.wall_forces.scale,
+              3);
+    expect_complaint({"film.wall_force_scale=3"}, "it belongs to wall_forces = true");
+    expect_complaint({"film.outflow=true"}, "there is no [container.outlet]");
+    expect_complaint({"film.streamlines.speed=1"}, "lacks 'grid'");
 }
 
 TEST(Look, ArrowsOfAPeriodScaleWithDiameterAndFrequency) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Draws the pictures of docs/guide/gallery.md: one run of the default scene, drawn again and again.
+# Draws the pictures of docs/guide/gallery.md: two runs, of the default scene and of a hopper, drawn again and
+# again.
 #   docs/figures/gallery/make.sh [GRAINREEL] [FOLDER FOR RUNS]
-# Takes half a minute. Each picture's command is printed before it runs.
+# Takes a minute. Each picture's command is printed before it runs.
 set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../.." && pwd)
 grainreel=${1:-$root/build/release/grainreel} work=${2:-$root/output/gallery}
@@ -9,15 +10,17 @@ here=$root/docs/figures/gallery
 mkdir -p "$work"
 
 run() { echo "grainreel $*"; "$grainreel" "$@" --quiet --force > /dev/null; }
-# NAME then options of `render`, at 5 s of the run.
+# NAME then options of `render`, at 5 s of the wedge's run or at 0.5 s of the hopper's.
 picture() {
     local name=$1
     shift
-    run render "$work/wedge" --at 5 --size "${size:-640x480}" "${view[@]}" --out "$here/$name.png" "$@"
+    run render "$work/${of:-wedge}" --at "${at:-5}" --size "${size:-640x480}" "${view[@]}" --out "$here/$name.png" "$@"
 }
 
 run movie "$root/scenes/wedge_segregation.toml" --no-film --duration 6 --set output.contacts=true \
-    --set film.rotation=true --out "$work/wedge"
+    --set 'output.instruments=["walls"]' --set film.rotation=true --out "$work/wedge"
+run movie "$root/scenes/hopper_discharge.toml" --no-film --duration 0.6 --set output.trajectory_interval=0.02 \
+    --out "$work/hopper"
 still=(--set film.rotation=false)
 view=(--set film.camera.azimuth=20 --set film.camera.elevation=10 --set 'film.plot=[]')
 
@@ -38,6 +41,11 @@ for by in speed vertical-velocity start-height displacement rise spin kinetic-en
     picture "$by" "${still[@]}" --set film.colour.by=$by
 done
 picture arrows "${still[@]}" --set film.arrows.grid=10
+picture streamlines "${still[@]}" --set film.streamlines.grid=10 --set film.periods=4
+picture wall_forces "${still[@]}" --set film.wall_forces=true
+picture profiles "${still[@]}" --set film.periods=4 \
+    --set 'film.plot=[{profile="share"}, {profile="vertical-velocity", over="width"}]'
+of=hopper at=0.5 picture outflow --set 'film.arrows={grid=12, of="now"}' --set 'film.plot=[{profile="solid-fraction"}]'
 picture force_chains "${still[@]}" --set film.force_chains=true --set 'film.ghost=["small", "big"]'
 picture text "${still[@]}" --set 'film.text="big above small {big_above_small}\nkinetic energy {kinetic:mJ}"'
 picture plots "${still[@]}" --set 'film.plot=[{y="height_difference"}, {y="big_above_small"}]'

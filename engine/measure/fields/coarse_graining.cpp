@@ -40,11 +40,10 @@ void add_to(double* cell, const std::array<double, Width>& numbers, double weigh
 
 }  // namespace
 
-CoarseGraining::CoarseGraining(const Scene& scene, int phases)
-    : grid_(make_field_grid(scene, scene.output.fields)),
+CoarseGraining::CoarseGraining(const Scene& scene, const FieldOutput& fields, int phases)
+    : grid_(make_field_grid(scene, fields)),
       shares_(inside_shares(grid_, scene)),
-      footprint_(grid_,
-                 FieldKernel(scene.output.fields.kernel, scene.output.fields.width, grid_.dimensions())),
+      footprint_(grid_, FieldKernel(fields.kernel, fields.width, grid_.dimensions())),
       species_(scene.species.size()) {
     const auto cells = static_cast<std::size_t>(grid_.cells());
     motion_.assign(static_cast<std::size_t>(phases), CellValues(cells * motion_width));

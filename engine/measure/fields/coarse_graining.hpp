@@ -43,7 +43,9 @@ struct CoarseFields {
 class CoarseGraining {
   public:
     // phases: of the drive, that are kept apart; 1 without a drive.
-    CoarseGraining(const Scene& scene, int phases);
+    CoarseGraining(const Scene& scene, const FieldOutput& fields, int phases);
+    // As the scene's fields.nc has them.
+    CoarseGraining(const Scene& scene, int phases) : CoarseGraining(scene, scene.output.fields, phases) {}
 
     const FieldGrid& grid() const { return grid_; }
     const std::vector<double>& shares() const { return shares_; }  // of each cell that are inside

@@ -43,21 +43,52 @@ struct GrainColouring {
     bool operator==(const GrainColouring&) const = default;
 };
 
-// A column of measures.csv against time, beside the grains.
+// What a profile shows: means over the container of the picture's moment.
+enum class ProfileOf {
+    nothing,
+    solid_fraction,       // of each species
+    share,                // of each species in the solid volume there
+    horizontal_velocity,  // m/s, along y
+    vertical_velocity,    // m/s, along z
+};
+
+// A plot beside the grains: a column of measures.csv against time, or a profile.
 struct FilmPlot {
     std::string column;                          // as in the file: "height_difference", "centre_z_m"
     std::string label;                           // in words, without the unit
-    std::optional<std::array<double, 2>> range;  // SI; grows with the data when empty
+    std::optional<std::array<double, 2>> range;  // SI; of a column: grows with the data when empty
     Dimension dimension = Dimension::number;
+    ProfileOf profile = ProfileOf::nothing;  // in place of a column
+    bool across = false;                     // of a profile: against the place across, else against height
+    bool period = false;                     // of velocities: over the last period of the drive
+    bool is_profile() const { return profile != ProfileOf::nothing; }
+    bool of_velocity() const {
+        return profile == ProfileOf::horizontal_velocity || profile == ProfileOf::vertical_velocity;
+    }
     bool operator==(const FilmPlot&) const = default;
 };
 
-// The grains' mean velocity, cell by cell of the y-z plane.
+// The grains' mean velocity in the y-z plane: an arrow in each cell.
 struct FilmArrows {
     int across = 0;      // cells across the container's width; 0: no arrows
     double speed = 0;    // m/s, of an arrow as long as a cell is wide
     bool period = true;  // over the last period of the drive, else of this moment
     bool operator==(const FilmArrows&) const = default;
+};
+
+// The same velocity as pieces of streamlines.
+struct FilmStreamlines {
+    int across = 0;      // lines across the container's width; 0: none
+    double speed = 0;    // m/s, from which on lines have their full width
+    bool period = true;  // as of arrows
+    bool operator==(const FilmStreamlines&) const = default;
+};
+
+// Arrows of the mean force on each wall since the row of measures before.
+struct FilmWallForces {
+    bool wanted = false;
+    double scale = 0;  // N, of an arrow a quarter as long as the container is wide
+    bool operator==(const FilmWallForces&) const = default;
 };
 
 // Where grains have come from.
@@ -89,8 +120,11 @@ struct FilmShows {
     std::vector<LiveWords> live_words;      // what it says
     std::vector<FilmPlot> plots;
     FilmArrows arrows;
+    FilmStreamlines streamlines;
     FilmTrails trails;
     bool force_chains = false;  // lines between grains that touch, as wide as they push
+    FilmWallForces wall_forces;
+    bool outflow = false;  // how much has flowed out through the outlet
     bool operator==(const FilmShows&) const = default;
 };
 
@@ -100,12 +134,18 @@ inline bool shows_value(const FilmShows& look, GrainValue value) {
 }
 inline bool needs_displacement(const FilmShows& look) {
     return shows_value(look, GrainValue::displacement) || shows_value(look, GrainValue::rise) ||
-           (look.arrows.across > 0 && look.arrows.period);
+           (look.arrows.across > 0 && look.arrows.period) ||
+           (look.streamlines.across > 0 && look.streamlines.period) ||
+           std::any_of(look.plots.begin(), look.plots.end(),
+                       [](const FilmPlot& plot) { return plot.of_velocity() && plot.period; });
 }
 // ... Frame::measures, ...
 inline bool needs_measures(const FilmShows& look) {
-    return !look.plots.empty() || std::any_of(look.live_words.begin(), look.live_words.end(),
-                                              [](const LiveWords& part) { return !part.column.empty(); });
+    return look.wall_forces.wanted ||
+           std::any_of(look.plots.begin(), look.plots.end(),
+                       [](const FilmPlot& plot) { return !plot.is_profile(); }) ||
+           std::any_of(look.live_words.begin(), look.live_words.end(),
+                       [](const LiveWords& part) { return !part.column.empty(); });
 }
 // ... Frame::touches.
 inline bool needs_touches(const FilmShows& look) {

@@ -95,4 +95,27 @@ std::array<double, 2> usual_range(GrainValue value, const Scene& scene) {
     return {0, 0};
 }
 
+double usual_flow_speed(const Scene& scene, bool period) {
+    if (period) return 0.2 * smallest_diameter(scene) * scene.drive.highest_frequency();
+    const auto& outlet = scene.container.outlet;
+    const double fall = outlet ? std::sqrt(2 * outlet->half_width * scene.gravity.norm()) : 0;
+    return std::max(fall, usual_range(GrainValue::speed, scene)[1]);
+}
+
+std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& plot) {
+    const double speed = usual_flow_speed(scene, plot.period);
+    switch (plot.profile) {
+        case ProfileOf::solid_fraction:
+            return {0, 0.8};
+        case ProfileOf::share:
+            return {0, 1};
+        case ProfileOf::horizontal_velocity:
+        case ProfileOf::vertical_velocity:
+            return {-speed, speed};
+        case ProfileOf::nothing:
+            break;
+    }
+    return {0, 0};
+}
+
 }  // namespace grainreel

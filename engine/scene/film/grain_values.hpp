@@ -58,5 +58,10 @@ std::string fitting_unit(double value, Dimension dimension);
 // Low and high of the colours when the scene does not say: of the whole film, from the scene alone, so that a
 // colour means the same in every frame. {0, 0} when the scene gives no scale.
 std::array<double, 2> usual_range(GrainValue value, const Scene& scene);
+// m/s, of a fast circulation: a grain's diameter in five periods. Of velocities of a moment: the drive's
+// speed, or that of a fall from the outlet's half-width if it is larger. 0 when the scene gives no scale.
+double usual_flow_speed(const Scene& scene, bool period);
+// The values' axis of a profile that has no range of its own.
+std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& plot);
 
 }  // namespace grainreel

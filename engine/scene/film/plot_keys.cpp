@@ -1,4 +1,4 @@
-// The keys of [[film.plot]], [film.arrows] and [film.trails].
+// The keys of [[film.plot]], [film.arrows], [film.streamlines] and [film.trails].
 #include <fmt/format.h>
 
 #include "engine/base/utf8.hpp"
@@ -16,7 +16,50 @@ using namespace keys;
 constexpr std::size_t most_plots = 3;  // beside the grains
 constexpr double usual_trail_periods = 10;
 
+const Words<bool> velocity_spans{{"period", true}, {"now", false}};
+
+const Words<ProfileOf> profile_words{{"solid-fraction", ProfileOf::solid_fraction},
+                                     {"share", ProfileOf::share},
+                                     {"horizontal-velocity", ProfileOf::horizontal_velocity},
+                                     {"vertical-velocity", ProfileOf::vertical_velocity}};
+
+const char* usual_label(ProfileOf profile) {
+    switch (profile) {
+        case ProfileOf::solid_fraction:
+            return "solid fraction";
+        case ProfileOf::share:
+            return "share of the solid volume";
+        case ProfileOf::horizontal_velocity:
+            return "horizontal velocity";
+        case ProfileOf::vertical_velocity:
+            return "vertical velocity";
+        case ProfileOf::nothing:
+            break;
+    }
+    return "";
+}
+
+void read_profile(Document& document, const Scene& scene, const std::string& path, FilmPlot& plot) {
+    const auto word = document.text(path);
+    if (!word) return;
+    for (const auto& [said, value] : profile_words)
+        if (*word == said) plot.profile = value;
+    plot.label = usual_label(plot.profile);
+    plot.dimension = plot.of_velocity() ? Dimension::speed : Dimension::number;
+    plot.period = plot.of_velocity() && scene.drive.present;
+}
+
+const char* without_profile(const FilmPlot& plot) {
+    return plot.is_profile() ? nullptr : "it is a profile's, and there is no 'profile'";
+}
+
+const char* without_velocity(const FilmPlot& plot) {
+    return plot.of_velocity() ? nullptr : "only profiles of velocities have it";
+}
+
 void read_column(Document& document, const Scene& scene, const std::string& path, FilmPlot& plot) {
+    if (plot.is_profile()) return;
+    if (!document.has(path)) document.fail_missing(path);
     const std::string name = document.required_text(path);
     const std::vector<MeasureColumn>& columns = scene.measurable.columns;
     const MeasureColumn* column = find_column(columns, name);
@@ -36,13 +79,34 @@ void read_range(Document& document, const Scene&, const std::string& path, FilmP
 
 const KeyTable<FilmPlot>& plot_table() {
     using P = FilmPlot;
+    static const Words<bool> directions{{"height", false}, {"width", true}};
     static const KeyTable<P> table{
-        bound_by<P>(entry("y", KeyKind::text, required(),
+        bound_by<P>(
+            of_choices(
+                entry("profile", KeyKind::choice, note("none"),
+                      "In place of `y`, of each picture's own moment: by species, or a mean velocity."),
+                all_of(profile_words)),
+            read_profile,
+            [](const P& plot, const Scene&) {
+                return plot.is_profile() ? quoted(word_of(plot.profile, profile_words)) : "";
+            }),
+        choice("over", &P::across, directions, note("height"),
+               "Of a profile: over the height above the floor, or over the width across.")
+            .useless_for(without_profile),
+        choice("of", &P::period, velocity_spans, note("period with a drive, else now"),
+               "Of a profile of velocities: as in [film.arrows].")
+            .useless_for(without_velocity),
+        bound_by<P>(entry("y", KeyKind::text, note("required, or `profile`"),
                           "A column of measures.csv, drawn against time: height_difference, lacey, kinetic."),
-                    read_column, [](const P& plot, const Scene&) { return quoted(plot.column); }),
+                    read_column,
+                    [](const P& plot, const Scene&) { return plot.is_profile() ? "" : quoted(plot.column); })
+            .useless_for([](const P& plot) {
+                return plot.is_profile() ? "a plot with a 'profile' shows that" : nullptr;
+            }),
         text("label", &P::label, note("by the column"), "Above the plot."),
         bound_by<P>(
-            entry("range", KeyKind::interval, note("grows with the data"), "Of the vertical axis."),
+            entry("range", KeyKind::interval, note("grows with the data; of a profile: by the scene"),
+                  "Of the values' axis."),
             read_range,
             [](const P& plot, const Scene&) {
                 return plot.range ? toml_list({as_toml((*plot.range)[0]), as_toml((*plot.range)[1])}) : "";
@@ -51,26 +115,36 @@ const KeyTable<FilmPlot>& plot_table() {
     return table;
 }
 
-// A grain's diameter in five periods is a fast circulation.
-void usual_speed(FilmArrows& arrows, const Scene& scene) {
-    arrows.speed = arrows.period ? 0.1 * usual_range(GrainValue::displacement, scene)[1] * 2 *
-                                       scene.drive.highest_frequency()
-                                 : usual_range(GrainValue::speed, scene)[1];
-}
-
 const KeyTable<FilmArrows>& arrow_table() {
     using A = FilmArrows;
-    static const Words<bool> spans{{"period", true}, {"now", false}};
     static const KeyTable<A> table{
         integer("grid", &A::across, 2, 100, note("required in this table"),
                 "Cells across the container's width; one arrow each: the grains' mean velocity."),
-        choice("of", &A::period, spans, note("period with a drive, else now"),
+        choice("of", &A::period, velocity_spans, note("period with a drive, else now"),
                "Of the last period of the drive, or of this moment.")
             .usually([](A& arrows, const Scene& scene) { arrows.period = scene.drive.present; }),
         quantity("speed", &A::speed, Dimension::speed, positive,
-                 note("a diameter in five periods; of now: the drive's"),
+                 note("a diameter in five periods; of now: the drive's, or a fall's at an outlet"),
                  "Of an arrow as long as a cell is wide.")
-            .usually(usual_speed),
+            .usually(
+                [](A& arrows, const Scene& scene) { arrows.speed = usual_flow_speed(scene, arrows.period); }),
+    };
+    return table;
+}
+
+const KeyTable<FilmStreamlines>& streamline_table() {
+    using S = FilmStreamlines;
+    static const KeyTable<S> table{
+        integer("grid", &S::across, 2, 100, note("required in this table"),
+                "Lines across the container's width: pieces of streamlines of the grains' mean velocity."),
+        choice("of", &S::period, velocity_spans, note("period with a drive, else now"),
+               "As in [film.arrows].")
+            .usually([](S& lines, const Scene& scene) { lines.period = scene.drive.present; }),
+        quantity("speed", &S::speed, Dimension::speed, positive,
+                 note("a diameter in five periods; of now: the drive's, or a fall's at an outlet"),
+                 "From which on lines have their full width; slower ones are thinner.")
+            .usually(
+                [](S& lines, const Scene& scene) { lines.speed = usual_flow_speed(scene, lines.period); }),
     };
     return table;
 }
@@ -90,15 +164,20 @@ const KeyTable<FilmTrails>& trail_table() {
     return table;
 }
 
-void read_arrows(Document& document, Scene& scene) {
-    FilmArrows& arrows = scene.film.shows.arrows;
-    if (!document.is_table("film.arrows")) return;
-    if (!document.has("film.arrows.grid")) document.fail_missing("film.arrows.grid");
-    arrow_table().read(document, scene, "film.arrows", arrows);
-    if (arrows.period && !scene.drive.present)
-        document.fail("film.arrows.of",
-                      "is \"period\", but nothing oscillates; add [drive] or write \"now\"");
-    if (arrows.speed <= 0) document.fail("film.arrows", "need a 'speed': this scene gives no scale for it");
+void check_period(const Document& document, const Scene& scene, const std::string& path, bool period) {
+    if (period && !scene.drive.present)
+        document.fail(path, "is \"period\", but nothing oscillates; add [drive] or write \"now\"");
+}
+
+// Arrows or streamlines.
+template <class Marks>
+void read_flow(Document& document, const Scene& scene, const std::string& path, const KeyTable<Marks>& table,
+               Marks& marks) {
+    if (!document.is_table(path)) return;
+    if (!document.has(path + ".grid")) document.fail_missing(path + ".grid");
+    table.read(document, scene, path, marks);
+    check_period(document, scene, path + ".of", marks.period);
+    if (marks.speed <= 0) document.fail(path, "needs a 'speed': this scene gives no scale for it");
 }
 
 void read_trails(Document& document, Scene& scene) {
@@ -116,6 +195,7 @@ void list_plots(Keys& all) {
 
 void list_arrows_and_trails(Keys& all) {
     arrow_table().list(all, "film.arrows");
+    streamline_table().list(all, "film.streamlines");
     trail_table().list(all, "film.trails");
 }
 
@@ -124,13 +204,20 @@ void read_plots(Document& document, Scene& scene) {
     if (count > most_plots)
         document.fail("film.plot", fmt::format("are {}, but only {} fit beside the grains; remove some",
                                                count, most_plots));
-    for (std::size_t i = 0; i < count; ++i)
-        plot_table().read(document, scene, fmt::format("film.plot[{}]", i),
-                          scene.film.shows.plots.emplace_back());
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string path = fmt::format("film.plot[{}]", i);
+        const FilmPlot& plot = scene.film.shows.plots.emplace_back();
+        plot_table().read(document, scene, path, scene.film.shows.plots.back());
+        check_period(document, scene, path + ".of", plot.period);
+        if (plot.is_profile() && !plot.range && !(usual_profile_range(scene, plot)[1] > 0))
+            document.fail(path, "needs a 'range': this scene gives no scale for it");
+    }
 }
 
 void read_arrows_and_trails(Document& document, Scene& scene) {
-    read_arrows(document, scene);
+    FilmShows& shows = scene.film.shows;
+    read_flow(document, scene, "film.arrows", arrow_table(), shows.arrows);
+    read_flow(document, scene, "film.streamlines", streamline_table(), shows.streamlines);
     read_trails(document, scene);
 }
 
@@ -146,6 +233,10 @@ void write_arrows_and_trails(SceneText& out, const Scene& scene) {
     if (shows.arrows.across > 0) {
         out.table("film.arrows");
         arrow_table().write(out, scene, shows.arrows);
+    }
+    if (shows.streamlines.across > 0) {
+        out.table("film.streamlines");
+        streamline_table().write(out, scene, shows.streamlines);
     }
     if (!shows.trails.wanted()) return;
     out.table("film.trails");

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
+#include "engine/scene/bed.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/film/grain_values.hpp"
 #include "engine/scene/film/live_text.hpp"
@@ -62,6 +64,33 @@ void read_words(Document& document, const Scene& scene, const std::string& path,
     }
 }
 
+// The weight of all grains, or what the floor presses them up with at the drive's strongest, if that is more.
+double usual_wall_force(const Scene& scene) {
+    const double gravity = scene.gravity.norm(), weight = total_mass(scene) * gravity;
+    return scene.drive.present ? weight * std::max(1.0, scene.drive.strongest_g_level(gravity)) : weight;
+}
+
+void read_wall_force_scale(Document& document, const Scene& scene, const std::string& path,
+                           FilmShows& shows) {
+    FilmWallForces& forces = shows.wall_forces;
+    if (!forces.wanted) return document.refuse(path, "it belongs to wall_forces = true");
+    forces.scale = usual_wall_force(scene);
+    keys::read_value(document, path, forces.scale);
+    if (!(forces.scale > 0) || !std::isfinite(forces.scale))
+        document.fail(document.has(path) ? path : "film.wall_forces",
+                      "needs a 'wall_force_scale': this scene gives no scale for forces");
+}
+
+void read_outflow(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
+    const bool leave = scene.container.outlet.has_value() && !scene.container.tray;
+    shows.outflow = leave;
+    keys::read_value(document, path, shows.outflow);
+    if (shows.outflow && !leave)
+        document.fail(path, scene.container.tray
+                                ? "counts what leaves the run, but the tray catches it"
+                                : "counts what flows out, but there is no [container.outlet]");
+}
+
 const KeyTable<FilmShows>& mark_table() {
     using S = FilmShows;
     static const KeyTable<S> table{
@@ -77,6 +106,28 @@ const KeyTable<FilmShows>& mark_table() {
             }),
         flag("force_chains", &S::force_chains, initial(),
              "Lines between grains that touch, as wide as they push."),
+        bound_by<S>(
+            entry("wall_forces", KeyKind::flag, literal("false"),
+                  "Arrows of the mean force on each wall since the row of measures before."),
+            [](Document& document, const Scene&, const std::string& path, S& shows) {
+                keys::read_value(document, path, shows.wall_forces.wanted);
+            },
+            [](const S& shows, const Scene&) { return as_toml(shows.wall_forces.wanted); })
+            .owns({"wall_force_scale"}),
+        bound_by<S>(quantity("wall_force_scale", Dimension::force, positive,
+                             note("the weight of all grains, times the drive's strongest Γ above 1"),
+                             "Of an arrow a quarter as long as the container is wide."),
+                    read_wall_force_scale,
+                    [](const S& shows, const Scene&) {
+                        return shows.wall_forces.wanted ? as_toml(shows.wall_forces.scale, Dimension::force)
+                                                        : "";
+                    }),
+        bound_by<S>(entry("outflow", KeyKind::flag, note("true with an outlet and no tray"),
+                          "How many grains and how much mass have flowed out, on the frame."),
+                    read_outflow,
+                    [](const S& shows, const Scene& scene) {
+                        return scene.container.outlet ? as_toml(shows.outflow) : "";
+                    }),
     };
     return table;
 }

@@ -32,12 +32,14 @@ void check_instruments(const Document& document, const Scene& scene) {
 // What the film shows is measured.
 void take_instruments_of_film(Scene& scene) {
     std::vector<std::string>& taken = scene.output.instruments;
+    const auto take_instrument = [&](const std::string& name) {
+        if (std::find(taken.begin(), taken.end(), name) == taken.end()) taken.push_back(name);
+    };
     const auto take = [&](const std::string& name) {
         for (const MeasureColumn& column : scene.measurable.columns)
-            if (column.name == name && !column.instrument.empty() &&
-                std::find(taken.begin(), taken.end(), column.instrument) == taken.end())
-                taken.push_back(column.instrument);
+            if (column.name == name && !column.instrument.empty()) take_instrument(column.instrument);
     };
+    if (scene.film.shows.wall_forces.wanted) take_instrument("walls");
     for (const FilmPlot& plot : scene.film.shows.plots) take(plot.column);
     for (const LiveWords& words : scene.film.shows.live_words) take(words.column);
 }

@@ -7,12 +7,10 @@
 #include <optional>
 
 #include "engine/scene/film/grain_values.hpp"
-#include "render/draw/marks/velocity_field.hpp"
 
 namespace grainreel {
 namespace {
 
-constexpr double longest_arrow = 1.5;   // cells
 constexpr double weakest_force = 0.02;  // of the widest; weaker ones are left out
 
 // Place of a grain in the frame, whose ids rise; none when it is not there.
@@ -26,11 +24,8 @@ std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
 
 bool has_marks(const FilmShows& look) {
     return look.colour.of_field() || look.force_chains || look.trails.wanted() || look.arrows.across > 0 ||
-           !look.highlighted.empty() || look.highlight_if.wanted();
-}
-
-double arrow_scale(const Scene& scene) {
-    return field_cell_size(scene) / scene.film.shows.arrows.speed;
+           look.streamlines.across > 0 || look.wall_forces.wanted || !look.highlighted.empty() ||
+           look.highlight_if.wanted();
 }
 
 double widest_force(const Scene& scene) {
@@ -45,9 +40,11 @@ Marks::Marks(const Scene& scene, const Palette& palette)
     : scene_(scene),
       palette_(palette),
       pen_(std::max(1.0, scene.film.height / 540.0)),
+      flow_(scene, palette),
       trails_(scene),
       condition_(scene, scene.film.shows.highlight_if.of) {
     if (scene.film.shows.colour.of_field()) field_.emplace(scene);
+    if (scene.film.shows.wall_forces.wanted) wall_forces_.emplace(scene, palette);
 }
 
 void Marks::start_from(const Frame& frame) {
@@ -65,7 +62,8 @@ void Marks::draw(const View& view, const Frame& frame, const SeenShare& seen, Sh
     if (look.force_chains) draw_chains(view, frame, on);
     remember(frame);
     if (look.trails.wanted()) draw_trails(view, on);
-    if (look.arrows.across > 0) draw_arrows(view, frame, on);
+    flow_.draw(view, frame, on);
+    if (wall_forces_) wall_forces_->draw(view, frame, on);
     if (!look.highlighted.empty() || look.highlight_if.wanted()) draw_rings(view, frame, seen, on);
 }
 
@@ -100,26 +98,6 @@ void Marks::draw_trails(const View& view, Shapes& on) const {
                         {outline ? palette_.background : palette_.accent, 1});
             }
         }
-    }
-}
-
-void Marks::draw_arrows(const View& view, const Frame& frame, Shapes& on) const {
-    const double scale = arrow_scale(scene_), longest = longest_arrow * field_cell_size(scene_);
-    for (const FieldCell& cell : velocity_field(scene_, frame)) {
-        Vec3 along = scale * Vec3(0, cell.velocity.y(), cell.velocity.z());
-        if (along.norm() > longest) along *= longest / along.norm();
-        const Pixel tail = view.project(cell.middle - 0.5 * along);
-        const Pixel tip = view.project(cell.middle + 0.5 * along);
-        const double length = (tip - tail).norm();
-        if (length < 1) continue;
-        const Pixel ahead = (tip - tail) / length, aside(-ahead.y(), ahead.x());
-        const double head = std::min(5 * pen_, 0.5 * length);
-        const Pixel neck = tip - head * ahead;
-        const std::vector<Pixel> corners{tip, neck + 0.45 * head * aside, neck - 0.45 * head * aside};
-        on.line(corners, true, 2 * pen_, {palette_.background, 1});
-        outlined(on, {tail, neck}, false, 1.4 * pen_, palette_.ink);
-        on.polygon(corners, {palette_.ink, 1});
-        on.line(corners, true, 0.5 * pen_, {palette_.ink, 1});
     }
 }
 

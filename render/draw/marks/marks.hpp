@@ -1,5 +1,5 @@
-// What is drawn over the grains: a field, velocity arrows, trails, lines of force, rings around chosen
-// grains.
+// What is drawn over the grains: a field, lines of force, trails, arrows and streamlines of the flow, forces
+// on walls, rings around chosen grains.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,15 @@
 #include "render/draw/camera/view.hpp"
 #include "render/draw/grains/quantities.hpp"
 #include "render/draw/marks/field_layer.hpp"
+#include "render/draw/marks/flow_marks.hpp"
 #include "render/draw/marks/trails.hpp"
+#include "render/draw/marks/wall_force_marks.hpp"
 #include "render/draw/picture/canvas.hpp"
 #include "render/draw/picture/palette.hpp"
 
 namespace grainreel {
 
 bool has_marks(const FilmShows& look);
-// m an arrow is long for each m/s.
-double arrow_scale(const Scene& scene);
 // N of a contact whose line is as wide as lines of force get.
 double widest_force(const Scene& scene);
 double widest_line(int picture_height);  // pixels
@@ -39,7 +39,6 @@ class Marks {
   private:
     void draw_chains(const View& view, const Frame& frame, Shapes& on) const;
     void draw_trails(const View& view, Shapes& on) const;
-    void draw_arrows(const View& view, const Frame& frame, Shapes& on) const;
     void draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
     void draw_ring(const View& view, const Vec3& at, double radius, double strength, Shapes& on) const;
     // A line on a wider one of the background's colour, so that it reads on any grain.
@@ -50,6 +49,8 @@ class Marks {
     const Palette palette_;
     const double pen_;  // pixels
     std::optional<FieldLayer> field_;
+    FlowMarks flow_;
+    std::optional<WallForceMarks> wall_forces_;
     Trails trails_;
     Quantities condition_;  // of which some grains are ringed
 };

@@ -1,6 +1,8 @@
 #include "render/draw/marks/velocity_field.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
@@ -8,7 +10,9 @@
 namespace grainreel {
 namespace {
 
-constexpr int least_grains = 3;  // fewer are no mean
+constexpr double least_grains = 3;    // fewer are no mean
+constexpr double most_cells = 20000;  // of the picture
+constexpr double pi = std::numbers::pi;
 
 // Hz: one over how long the drive's last period was.
 double periods_a_second(const Scene& scene, const Frame& frame) {
@@ -17,48 +21,72 @@ double periods_a_second(const Scene& scene, const Frame& frame) {
     return 1 / (schedule.times().time(frame.cycles) - schedule.times().time(frame.cycles - 1));
 }
 
-}  // namespace
-
-double field_cell_size(const Scene& scene) {
-    return extent_of(scene).size().y() / scene.film.shows.arrows.across;
+FieldOutput resolution(const Scene& scene, double width) {
+    FieldOutput fields;
+    const Vec3 size = extent_of(scene).size();
+    fields.grid = FieldOutput::Grid::yz;
+    fields.width = width;
+    fields.cell = std::max(0.5 * width, std::sqrt(size.y() * size.z() / most_cells));
+    return fields;
 }
 
-std::vector<FieldCell> velocity_field(const Scene& scene, const Frame& frame) {
-    const FilmArrows& arrows = scene.film.shows.arrows;
-    if (arrows.period && frame.displacement.size() != frame.size()) return {};
-    const double side = field_cell_size(scene);
-    const Extent extent = extent_of(scene);
-    const int across = arrows.across, upward = static_cast<int>(std::ceil(extent.size().z() / side));
-    std::vector<FieldCell> cells(static_cast<std::size_t>(across) * upward);
-    std::vector<double> mass(cells.size(), 0);
-    const double frequency = arrows.period ? periods_a_second(scene, frame) : 0;
+}  // namespace
+
+FieldState field_state_of(const Scene& scene, const Frame& frame, bool period) {
+    FieldState state;
+    if (period && frame.displacement.size() != frame.size()) return state;
+    const double frequency = period ? periods_a_second(scene, frame) : 0;
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        const Vec3 at = frame.position[i] - frame.container().place - extent.low;
-        const int column = static_cast<int>(std::floor(at.y() / side)),
-                  row = static_cast<int>(std::floor(at.z() / side));
-        if (column < 0 || column >= across || row < 0 || row >= upward) continue;
-        if (arrows.period && frame.displacement[i].hasNaN()) continue;  // it was not there a period before
-        const std::size_t c = static_cast<std::size_t>(row) * across + column;
-        const double m = scene.species[static_cast<std::size_t>(frame.species[i])].density *
-                         std::pow(frame.radius[i], 3);  // up to a factor
-        cells[c].velocity +=
-            m * (arrows.period ? Vec3(frame.displacement[i] * frequency) : frame.velocity[i]);
-        cells[c].centre_of_mass += m * frame.position[i];
-        mass[c] += m;
-        ++cells[c].grains;
+        if (period && frame.displacement[i].hasNaN()) continue;
+        const double volume = 4.0 / 3 * pi * std::pow(frame.radius[i], 3);
+        const double density = scene.species[static_cast<std::size_t>(frame.species[i])].density;
+        state.grains.push_back({frame.position[i] - frame.container().place,
+                                period ? Vec3(frequency * frame.displacement[i]) : frame.velocity[i],
+                                density * volume, volume, frame.species[i]});
     }
-    std::vector<FieldCell> filled;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        FieldCell cell = cells[c];
-        if (cell.grains < least_grains) continue;
-        cell.velocity /= mass[c];
-        cell.centre_of_mass /= mass[c];
-        const auto column = static_cast<double>(c % across), row = static_cast<double>(c / across);
-        cell.middle = extent.low + frame.container().place;
-        cell.middle += Vec3(0.5 * extent.size().x(), (column + 0.5) * side, (row + 0.5) * side);
-        filled.push_back(cell);
-    }
-    return filled;
+    return state;
+}
+
+VelocityField::VelocityField(const Scene& scene, double width, bool period)
+    : scene_(scene), width_(width), period_(period), sums_(scene, resolution(scene, width), 1) {}
+
+void VelocityField::take(const Frame& frame) {
+    sums_.clear();
+    sums_.add(field_state_of(scene_, frame, period_), 0);
+    fields_ = sums_.mean();
+}
+
+// The kernel weighs as many grains as lie in 4 pi w^2 of the plane: the inverse of the integral of its
+// square.
+bool VelocityField::is_filled(std::size_t cell) const {
+    if (std::isnan(fields_.velocity[0][cell])) return false;
+    double grains = 0;  // a cubic metre
+    for (std::size_t s = 0; s < fields_.solid_fraction.size(); ++s)
+        grains += fields_.solid_fraction[s][cell] / (pi / 6 * mean_cube(scene_.species[s].diameter));
+    return grains * 4 * pi * width_ * width_ * sums_.grid().axes[0].cell >= least_grains;
+}
+
+std::optional<Vec3> VelocityField::at(double y, double z) const {
+    if (fields_.velocity.empty()) return std::nullopt;
+    const auto& [x_axis, y_axis, z_axis] = sums_.grid().axes;
+    const double right = (y - y_axis.low) / y_axis.cell - 0.5, up = (z - z_axis.low) / z_axis.cell - 0.5;
+    const auto j = static_cast<std::int64_t>(std::floor(right)),
+               k = static_cast<std::int64_t>(std::floor(up));
+    if (j < 0 || k < 0 || j + 1 >= y_axis.count || k + 1 >= z_axis.count) return std::nullopt;
+    Vec3 sum = Vec3::Zero();
+    double share = 0;
+    for (const std::int64_t dj : {0, 1})
+        for (const std::int64_t dk : {0, 1}) {
+            const auto cell = static_cast<std::size_t>(sums_.grid().index(0, j + dj, k + dk));
+            if (!is_filled(cell)) continue;
+            const double beside = right - static_cast<double>(j), above = up - static_cast<double>(k);
+            const double weight = (dj ? beside : 1 - beside) * (dk ? above : 1 - above);
+            for (int a = 0; a < 3; ++a)
+                sum[a] += weight * fields_.velocity[static_cast<std::size_t>(a)][cell];
+            share += weight;
+        }
+    if (share < 0.5) return std::nullopt;
+    return sum / share;
 }
 
 }  // namespace grainreel

@@ -1,26 +1,39 @@
-// The grains' mean velocity in cells of the y-z plane, all along x.
+// The grains' mean velocity in the y-z plane, all along the depth: momentum over mass by coarse-graining, as
+// fields.nc has it (engine/measure/fields), of the picture's moment or of the last period of the drive.
 #pragma once
 
-#include <vector>
+#include <functional>
+#include <optional>
 
 #include "engine/frame.hpp"
+#include "engine/measure/fields/coarse_graining.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
-struct FieldCell {
-    Vec3 middle{0, 0, 0};          // m, of the cell, moving with the walls
-    Vec3 centre_of_mass{0, 0, 0};  // m, of its grains
-    Vec3 velocity{0, 0, 0};        // m/s, mean weighted by mass: momentum over mass
-    int grains = 0;
+// What coarse-graining takes of a frame: places from where the container is, velocities of the room. period:
+// displacements over a period in place of velocities; grains that were not there a period before are left
+// out, and all are while the frame has no displacements.
+FieldState field_state_of(const Scene& scene, const Frame& frame, bool period);
+
+class VelocityField {
+  public:
+    // width: m, the kernel's standard deviation.
+    VelocityField(const Scene& scene, double width, bool period);
+
+    void take(const Frame& frame);
+    // m/s, between cells by straight lines; none where fewer than three grains lie under the kernel. y, z: m,
+    // from the container.
+    std::optional<Vec3> at(double y, double z) const;
+
+  private:
+    bool is_filled(std::size_t cell) const;
+
+    const Scene& scene_;
+    const double width_;
+    const bool period_;
+    CoarseGraining sums_;
+    CoarseFields fields_;
 };
-
-// m: side of a cell.
-double field_cell_size(const Scene& scene);
-
-// Cells with at least three grains. Velocities are of this moment or, when the scene asks for a period,
-// displacements over it; no cells then as long as the frame has none. A grain belongs to the cell that its
-// centre is in.
-std::vector<FieldCell> velocity_field(const Scene& scene, const Frame& frame);
 
 }  // namespace grainreel

@@ -47,11 +47,13 @@ WordBlock dial(const Writer& measure, const Drive& drive) {
 MarkKinds common_marks_of(const Common& common, double scale) {
     MarkKinds kinds = common.marks;
     kinds.arrows = kinds.arrows && scale > 0;
+    kinds.wall_forces = kinds.wall_forces && scale > 0;
     return kinds;
 }
 MarkKinds own_marks_of(const Common& common, double scale) {
     const MarkKinds kinds = common_marks_of(common, scale);
-    return {!kinds.arrows, !kinds.trails, !kinds.chains, !kinds.rings};
+    return {!kinds.arrows, !kinds.streamlines, !kinds.wall_forces,
+            !kinds.trails, !kinds.chains,      !kinds.rings};
 }
 
 WordBlock playback_block(const Writer& measure) {

@@ -59,6 +59,8 @@ std::vector<std::string> drive_captions(const std::vector<Scene>& scenes) {
 Scene marked_by(Scene scene, const MarkKinds& kinds) {
     FilmShows& shows = scene.film.shows;
     if (!kinds.arrows) shows.arrows = {};
+    if (!kinds.streamlines) shows.streamlines = {};
+    if (!kinds.wall_forces) shows.wall_forces = {};
     if (!kinds.trails) shows.trails = {};
     if (!kinds.chains) shows.force_chains = false;
     if (!kinds.rings) shows.highlighted = {}, shows.highlight_if = {};
@@ -83,6 +85,10 @@ Common common_of(const std::vector<Panel>& panels) {
         const FilmShows &x = scene.film.shows, &y = first.film.shows;
         common.marks.arrows = common.marks.arrows && x.arrows == y.arrows &&
                               (x.arrows.across == 0 || close(arrow_scale(scene), arrow_scale(first)));
+        common.marks.streamlines = common.marks.streamlines && x.streamlines == y.streamlines;
+        common.marks.wall_forces =
+            common.marks.wall_forces && x.wall_forces == y.wall_forces &&
+            (!x.wall_forces.wanted || close(wall_force_scale(scene), wall_force_scale(first)));
         common.marks.trails = common.marks.trails && x.trails == y.trails;
         common.marks.chains = common.marks.chains && x.force_chains == y.force_chains &&
                               (!x.force_chains || close(widest_force(scene), widest_force(first)));

@@ -18,7 +18,8 @@ struct Panel {
 
 // Kinds of what is drawn over the grains, and has to be explained.
 struct MarkKinds {
-    bool arrows = true, trails = true, chains = true, rings = true;
+    bool arrows = true, streamlines = true, wall_forces = true;
+    bool trails = true, chains = true, rings = true;
 };
 // With those marks alone.
 Scene marked_by(Scene scene, const MarkKinds& kinds);
@@ -30,7 +31,7 @@ struct Common {
     bool species = true;
     bool exaggerated = true;  // by one factor
     bool colours = true;      // one colour bar, or none
-    MarkKinds marks;          // that mean the same; arrows only where a metre is equally long too
+    MarkKinds marks;          // that mean the same; arrows only where a metre is equally long, too
     bool playback = true;
 };
 Common common_of(const std::vector<Panel>& panels);

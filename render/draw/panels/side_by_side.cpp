@@ -219,7 +219,7 @@ void SideBySide::Impl::write_pace(std::size_t panel, const std::string& words) {
 void SideBySide::Impl::draw_plots(const std::vector<FramePtr>& frames) {
     if (!plots.take(frames) && plots_drawn) return;
     for (PanelPlots::Placed& placed : plots.all())
-        renew(placed.place, [&](const Writer& on) { placed.plot.draw(on.on, 0, 0); });
+        renew(placed.place, [&](const Writer& on) { placed.plot->draw(on.on, 0, 0); });
     plots_drawn = true;
 }
 

@@ -3,6 +3,15 @@
 #include <algorithm>
 
 namespace grainreel {
+namespace {
+
+// Alike for plots whose values can be compared.
+std::string quantity_of(const FilmPlot& plot) {
+    return plot.is_profile() ? std::to_string(static_cast<int>(plot.profile)) + (plot.period ? "p" : "")
+                             : plot.column;
+}
+
+}  // namespace
 
 PanelPlots::PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layout, const TypeScale& type,
                        const Palette& palette) {
@@ -13,18 +22,17 @@ PanelPlots::PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layo
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const std::vector<Rectangle>& places = layout.places[i].plots;
         for (std::size_t k = 0; k < places.size(); ++k) {
-            PlotFrame frame = plot_frame(panels[i].scene, panels[i].scene.film.shows.plots[k]);
-            frame.time[1] = end;
-            frame.width = places[k].width;
-            frame.height = places[k].height;
-            plots_.push_back({Plot(frame, small, palette), frame.column, places[k], i});
+            const Scene& scene = panels[i].scene;
+            const FilmPlot& plot = scene.film.shows.plots[k];
+            plots_.push_back({make_side_plot(scene, plot, places[k], end, small, palette), quantity_of(plot),
+                              places[k], i});
         }
     }
 }
 
 bool PanelPlots::take(const std::vector<FramePtr>& frames) {
     bool changed = false;
-    for (Placed& placed : plots_) changed |= placed.plot.take(*frames[placed.panel]);
+    for (Placed& placed : plots_) changed |= placed.plot->take(*frames[placed.panel]);
     if (changed) share_limits();
     return changed;
 }
@@ -33,11 +41,11 @@ void PanelPlots::share_limits() {
     for (Placed& placed : plots_) {
         std::optional<std::array<double, 2>> all;
         for (const Placed& other : plots_) {
-            const auto own = other.plot.limits();
-            if (other.column != placed.column || !own) continue;
+            const auto own = other.plot->limits();
+            if (other.quantity != placed.quantity || !own) continue;
             all = all ? std::array{std::min((*all)[0], (*own)[0]), std::max((*all)[1], (*own)[1])} : *own;
         }
-        if (all) placed.plot.show(*all);
+        if (all) placed.plot->show(*all);
     }
 }
 

@@ -2,11 +2,12 @@
 // so that their curves can be compared.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "render/draw/panels/panels.hpp"
-#include "render/draw/plots/plot.hpp"
+#include "render/draw/plots/side_plot.hpp"
 
 namespace grainreel {
 
@@ -19,8 +20,8 @@ class PanelPlots {
     // Of one frame a panel. False when nothing changed.
     bool take(const std::vector<FramePtr>& frames);
     struct Placed {
-        Plot plot;
-        std::string column;
+        std::unique_ptr<SidePlot> plot;
+        std::string quantity;
         Rectangle place;    // in the picture
         std::size_t panel;  // of its own
     };

@@ -9,6 +9,7 @@
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/film/grain_values.hpp"
+#include "render/draw/plots/axis_drawing.hpp"
 #include "render/draw/plots/ticks.hpp"
 #include "render/draw/words/text.hpp"
 
@@ -17,34 +18,6 @@ namespace {
 
 constexpr int most_ticks = 4;
 constexpr double least_room = 1e-12;  // above and below values that are all alike
-
-void set_colour(cairo_t* on, const Colour& colour) {
-    cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
-}
-
-void line(cairo_t* on, double x0, double y0, double x1, double y1) {
-    cairo_move_to(on, x0, y0);
-    cairo_line_to(on, x1, y1);
-    cairo_stroke(on);
-}
-
-double line_height(double letters) {
-    return measure_text("0", {letters, false}).height;
-}
-
-// Of the words above the box: two where enough of the height is left to it.
-int most_lines(const PlotFrame& frame, const TypeScale& type) {
-    return frame.height > 9 * type.main ? 2 : 1;
-}
-
-// Letters of a title on one line shrink somewhat before it is cut short.
-TextStyle title_style(const std::string& title, const PlotFrame& frame, const TypeScale& type) {
-    constexpr double least_shrink = 0.75;
-    TextStyle style{type.main, false};
-    if (most_lines(frame, type) > 1) return style;
-    style.size *= std::clamp(0.99 * frame.width / measure_text(title, style).width, least_shrink, 1.0);
-    return style;
-}
 
 }  // namespace
 
@@ -76,8 +49,9 @@ Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette
     left_ = std::ceil(measure_text("−0.00", {type.minor, false}).width + 0.6 * type.minor);
     right_ = std::floor(frame.width - std::max(0.5 * end, 0.4 * type.main));
     const std::string longest = frame.dimension == Dimension::number ? frame.label : frame.label + " (mmm)";
-    top_ = std::ceil(measure_text(longest, {type.main, false}, frame.width, most_lines(frame, type)).height +
-                     0.6 * type.minor);
+    top_ = std::ceil(
+        measure_text(longest, {type.main, false}, frame.width, title_lines(frame.height, type)).height +
+        0.6 * type.minor);
     bottom_ = std::floor(frame.height - 2 * words - 0.35 * type.minor);
     forget();
 }
@@ -161,8 +135,7 @@ void Plot::draw_axes() {
     const std::string unit = fitting_unit(largest, frame_.dimension);
     const double size = unit_size(unit, frame_.dimension);
     const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
-    draw_text(on.get(), 0, 0, title, title_style(title, frame_, type_), palette_.ink, frame_.width,
-              most_lines(frame_, type_));
+    draw_title(on.get(), title, frame_.width, frame_.height, type_, palette_.ink);
 
     // As many as stand above each other.
     const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);
@@ -174,7 +147,7 @@ void Plot::draw_axes() {
         const double y = y_of(value * size);
         cairo_set_line_width(on.get(), 0.7 * pen);
         cairo_set_source_rgba(on.get(), palette_.ink.red, palette_.ink.green, palette_.ink.blue, 0.15);
-        line(on.get(), left_, y, right_, y);
+        draw_line(on.get(), left_, y, right_, y);
         const std::string text = tick_text(value, ticks.distance);
         const TextSize words = measure_text(text, minor);
         draw_text(on.get(), left_ - tick - words.width, y - 0.5 * words.height, text, minor,
@@ -182,13 +155,13 @@ void Plot::draw_axes() {
     }
     set_colour(on.get(), palette_.faint_ink);
     cairo_set_line_width(on.get(), pen);
-    line(on.get(), left_, top_, left_, bottom_);
-    line(on.get(), left_, bottom_, right_, bottom_);
+    draw_line(on.get(), left_, top_, left_, bottom_);
+    draw_line(on.get(), left_, bottom_, right_, bottom_);
     double below = 0;
     for (const TimeTick& at : time_ticks()) {
         const double x = x_of(at.time);
         set_colour(on.get(), palette_.faint_ink);
-        line(on.get(), x, bottom_, x, bottom_ + tick);
+        draw_line(on.get(), x, bottom_, x, bottom_ + tick);
         const TextSize words = measure_text(at.text, minor);
         draw_text(on.get(), x - 0.5 * words.width, bottom_ + tick, at.text, minor, palette_.faint_ink);
         below = words.height;

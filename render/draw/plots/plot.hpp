@@ -14,6 +14,7 @@
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/draw/picture/palette.hpp"
+#include "render/draw/plots/side_plot.hpp"
 #include "render/draw/words/cairo_surface.hpp"
 #include "render/draw/words/layout.hpp"
 
@@ -30,21 +31,18 @@ struct PlotFrame {
 // Of a plot that the scene's film shows, without its size.
 PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot);
 
-class Plot {
+class Plot final : public SidePlot {
   public:
     Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette);
 
     // The rows up to the frame's. Limits only grow, and depend on the rows alone. A row without a value (NaN)
     // leaves a gap. False when nothing changed.
-    bool take(const Frame& frame);
-    // What the values' axis spans, SI, none before there is a value; and another span for it, of plots that
-    // stand together.
-    std::optional<std::array<double, 2>> limits() const {
+    bool take(const Frame& frame) override;
+    std::optional<std::array<double, 2>> limits() const override {
         return any_ ? std::optional(limits_) : frame_.range;
     }
-    void show(const std::array<double, 2>& limits) { shown_ = limits; }
-    // Top left corner at (x, y).
-    void draw(cairo_t* on, int x, int y);
+    void show(const std::array<double, 2>& limits) override { shown_ = limits; }
+    void draw(cairo_t* on, int x, int y) override;
 
     // Where a moment and a value lie, pixels from the plot's corner.
     double x_of(double time) const;

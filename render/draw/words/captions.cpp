@@ -114,8 +114,19 @@ std::string playback_text(const Frame& frame, const std::string& playback) {
 
 namespace {
 
-std::string with_caption(const std::string& text, const std::string& caption) {
-    return text.empty() || caption.empty() ? text + caption : text + "\n\n" + caption;
+// Parts of a note with an empty line between them.
+std::string joined(const std::string& one, const std::string& other) {
+    return one.empty() || other.empty() ? one + other : one + "\n\n" + other;
+}
+
+std::string mass_text(double kilograms) {
+    if (kilograms >= 0.9995) return fmt::format("{:.3g} kg", kilograms);
+    return kilograms >= 0.9995e-3 ? fmt::format("{:.3g} g", 1e3 * kilograms)
+                                  : fmt::format("{:.3g} mg", 1e6 * kilograms);
+}
+
+std::string outflow_text(const Scene& scene, const FlowedOut& out) {
+    return fmt::format("{} of {} out\n{} out", out.grains, scene.grains(), mass_text(out.mass));
 }
 
 std::string caption_at(const Film& film, double time) {
@@ -138,15 +149,19 @@ std::string note_text(const Scene& scene, const Frame& frame) {
                          frame.measure_rows)
                 .front();
         });
-    return with_caption(text, caption_at(scene.film, frame.time));
+    const bool flows = frame.flowed_out && frame.flowed_out->grains > 0;
+    const std::string out = flows ? outflow_text(scene, *frame.flowed_out) : "";
+    return joined(joined(out, text), caption_at(scene.film, frame.time));
 }
 
 std::vector<std::string> longest_notes(const Scene& scene) {
     const std::string text =
         live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
+    const FlowedOut most{scene.grains(), 0.888};
+    const std::string always = joined(scene.film.shows.outflow ? outflow_text(scene, most) : "", text);
     std::vector<std::string> notes;
-    if (!text.empty()) notes.push_back(text);
-    for (const FilmCaption& caption : scene.film.captions) notes.push_back(with_caption(text, caption.text));
+    if (!always.empty()) notes.push_back(always);
+    for (const FilmCaption& caption : scene.film.captions) notes.push_back(joined(always, caption.text));
     return notes;
 }
 

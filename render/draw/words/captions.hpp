@@ -33,8 +33,9 @@ struct ShownCycle {
 ShownCycle shown_cycle(const Frame& frame);
 // The caption of time, which says so while the grains still settle.
 std::string playback_text(const Frame& frame, const std::string& playback);
-// The scene's own words: film.text, with values of the last row of measures until the frame, and the caption
-// of this time. And about as long as they get: with each caption, or the one without any.
+// What has flowed out, the scene's own words (film.text, with values of the last row of measures until the
+// frame), and the caption of this time. And about as long as they get: with each caption, or the one without
+// any.
 std::string note_text(const Scene& scene, const Frame& frame);
 std::vector<std::string> longest_notes(const Scene& scene);
 // Into how many lines of the gutter each of their lines may break.

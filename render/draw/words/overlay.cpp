@@ -74,10 +74,8 @@ void Overlay::draw_still_numbers(const View& view) {
 
 void Overlay::make_plots() {
     for (std::size_t k = 0; k < plan_.plots.size(); ++k) {
-        PlotFrame frame = plot_frame(scene_, scene_.film.shows.plots[k]);
-        frame.width = plan_.plots[k].width;
-        frame.height = plan_.plots[k].height;
-        plots_.emplace_back(frame, type_, palette_);
+        const FilmPlot& plot = scene_.film.shows.plots[k];
+        plots_.push_back(make_side_plot(scene_, plot, plan_.plots[k], scene_.run.duration, type_, palette_));
     }
 }
 
@@ -164,7 +162,7 @@ void Overlay::lay_over(Picture& picture) const {
 
 void Overlay::renew_plots(Picture& picture, const Frame& frame) {
     for (std::size_t k = 0; k < plots_.size(); ++k) {
-        Plot& plot = plots_[k];
+        SidePlot& plot = *plots_[k];
         if (!plot.take(frame) && written_) continue;
         const Rectangle& part = plan_.plots[k];
         renew(picture, part, [&](cairo_t* on) { plot.draw(on, part.x, part.y); });

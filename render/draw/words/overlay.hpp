@@ -5,11 +5,12 @@
 #include <cairo.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "render/draw/picture/picture.hpp"
-#include "render/draw/plots/plot.hpp"
+#include "render/draw/plots/side_plot.hpp"
 #include "render/draw/words/cairo_surface.hpp"
 #include "render/draw/words/layout.hpp"
 #include "render/draw/words/numbers_plan.hpp"
@@ -50,7 +51,7 @@ class Overlay {
     const NumbersPlan plan_;
     const std::vector<Rectangle> first_plates_, second_plates_;  // from the gutters' corners
     CairoSurface first_, still_, second_;
-    std::vector<Plot> plots_;
+    std::vector<std::unique_ptr<SidePlot>> plots_;
     View drawn_for_;
     bool written_ = false;
     std::uint64_t still_number_ = 0;

@@ -206,9 +206,6 @@ std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
     }
     if (scene.container.tray)
         lines.push_back(fmt::format("{} of {} in the tray", count_in_tray(frame), frame.size()));
-    else if (scene.container.outlet)
-        lines.push_back(fmt::format("{} of {} left", scene.grains() - static_cast<std::int64_t>(frame.size()),
-                                    scene.grains()));
     return lines;
 }
 

@@ -63,6 +63,7 @@ void PictureParts::add(Frame& frame, const FilmSegment& rule, int periods, const
     for (const std::int64_t step : exposed(frame.step, rule, periods))
         if (FramePtr moment = supply.at(step)) frame.exposed.push_back(std::move(moment));
     if (needs_touches(shows_)) frame.touches = supply.touches(frame);
+    if (shows_.outflow) frame.flowed_out = supply.flowed_out(frame);
     if (needs_measures(shows_)) {
         PartSupply::Measured measured = supply.measured(frame);
         frame.measures = std::move(measured.table);

@@ -1,9 +1,11 @@
 // The one place that adds to a frame what its picture shows beside the moment itself: ways since an earlier
-// period, moments that it is exposed over, means of periods, contacts, and measures for plots and live words.
+// period, moments that it is exposed over, means of periods, contacts, measures for plots and live words, and
+// what has flowed out.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/base/clock.hpp"
@@ -29,6 +31,8 @@ class PartSupply {
     // Of the same moment as the frame.
     virtual std::vector<Touch> touches(const Frame& frame) const = 0;
     virtual Measured measured(const Frame& frame) const = 0;
+    // What has left the run until the frame; none when that is not known.
+    virtual std::optional<FlowedOut> flowed_out(const Frame& frame) const = 0;
 };
 
 class PictureParts {

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/bed/period_multiple.hpp"
+#include "engine/measure/wall_faces.hpp"
 #include "engine/output/folder_lock.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "render/run/frames/choice.hpp"
@@ -51,6 +52,7 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets)
     frame_what_is_reached();
     if (needs_touches(scene_.film.shows)) read_contacts();
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
+    if (scene_.film.shows.outflow) read_outflow_of_run();
     find_periods();
     parts_.emplace(scene_, clock_, moments_.front().step);
     if (needs_displacement(scene_.film.shows)) look_for_earlier_frames();
@@ -200,23 +202,37 @@ void RecordedRun::read_measures_of_run() {
 // Empty plots, and words without their values, would look as if the run had been so.
 void RecordedRun::leave_out_measures(const std::string& why) {
     FilmShows& shows = scene_.film.shows;
-    const bool plots = !shows.plots.empty();
-    shows.plots.clear();
-    const bool words = needs_measures(shows);
-    if (words) shows.live_words.clear();
-    news_.push_back(fmt::format("{}: {}; {} left out", name_of("measures.csv"), why,
-                                plots && words ? "plots and live words are"
-                                : plots        ? "plots are"
-                                               : "live words are"));
+    std::vector<std::string> left_out;
+    if (std::erase_if(shows.plots, [](const FilmPlot& plot) { return !plot.is_profile(); }) > 0)
+        left_out.emplace_back("plots");
+    if (std::exchange(shows.wall_forces.wanted, false)) left_out.emplace_back("forces on walls");
+    if (needs_measures(shows)) {
+        shows.live_words.clear();
+        left_out.emplace_back("live words");
+    }
+    news_.push_back(
+        fmt::format("{}: {}; {} are left out", name_of("measures.csv"), why, fmt::join(left_out, " and ")));
 }
 
 void RecordedRun::check_columns() const {
-    const auto known = [&](const std::string& name) { return column_of(*measures_, name).has_value(); };
-    bool all = known("time_s");
-    for (const FilmPlot& plot : scene_.film.shows.plots) all = all && known(plot.column);
-    for (const LiveWords& part : scene_.film.shows.live_words)
-        all = all && (part.column.empty() || known(part.column));
-    if (!all) throw UserError(fmt::format("{}: lacks a column that the film shows", name_of("measures.csv")));
+    const auto need = [&](const std::string& name, const std::string& what) {
+        if (!name.empty() && !column_of(*measures_, name))
+            throw UserError(
+                fmt::format("{}: lacks the column {}, which {}; take that out of the film, or run "
+                            "the scene again with it",
+                            name_of("measures.csv"), name, what));
+    };
+    need("time_s", "every run has");
+    for (const FilmPlot& plot : scene_.film.shows.plots) need(plot.column, "film.plot shows");
+    for (const LiveWords& part : scene_.film.shows.live_words) need(part.column, "film.text shows");
+    if (!scene_.film.shows.wall_forces.wanted) return;
+    for (const std::string& face : face_names(scene_)) need(face + "_force_z_N", "film.wall_forces shows");
+}
+
+void RecordedRun::read_outflow_of_run() {
+    const std::string name = name_of("outflow.csv");
+    outflow_ = OutflowRecord::read(name, scene_);
+    if (!outflow_) news_.push_back(fmt::format("{}: is missing; how much has flowed out is left out", name));
 }
 
 void RecordedRun::find_periods() {
@@ -261,6 +277,10 @@ FramePtr RecordedRun::at(std::int64_t step) const {
 
 std::vector<Touch> RecordedRun::touches(const Frame& frame) const {
     return contacts_ ? contacts_->touches(places_.at(nearest(frame.time))) : std::vector<Touch>();
+}
+
+std::optional<FlowedOut> RecordedRun::flowed_out(const Frame& frame) const {
+    return outflow_ ? std::optional(outflow_->until(frame.time)) : std::nullopt;
 }
 
 PartSupply::Measured RecordedRun::measured(const Frame& frame) const {

@@ -16,6 +16,7 @@
 #include "engine/scene/text/assignment.hpp"
 #include "render/run/frames/frame_source.hpp"
 #include "render/run/frames/picture_parts.hpp"
+#include "render/run/moments/outflow_record.hpp"
 
 namespace grainreel {
 
@@ -53,6 +54,7 @@ class RecordedRun final : public FrameSource, public FrameArchive, private PartS
     FramePtr at(std::int64_t step) const override;
     std::vector<Touch> touches(const Frame& frame) const override;
     Measured measured(const Frame& frame) const override;
+    std::optional<FlowedOut> flowed_out(const Frame& frame) const override;
 
     void read_moments();
     // Reads each of places_ and keeps those that are not damaged.
@@ -65,6 +67,7 @@ class RecordedRun final : public FrameSource, public FrameArchive, private PartS
     void read_measures_of_run();
     void leave_out_measures(const std::string& why);
     void check_columns() const;
+    void read_outflow_of_run();
     void find_periods();
     std::optional<std::size_t> index_at(double time) const;  // s
     void look_for_earlier_frames();
@@ -80,6 +83,7 @@ class RecordedRun final : public FrameSource, public FrameArchive, private PartS
     int periods_ = 1;
     std::shared_ptr<const MeasureTable> measures_;  // null when there are none
     std::vector<double> measured_;                  // s, their times
+    std::optional<OutflowRecord> outflow_;          // of a film that counts it
     std::optional<PictureParts> parts_;
     std::vector<std::string> news_;
 

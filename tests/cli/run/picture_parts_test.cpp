@@ -40,6 +40,7 @@ class Moments : public PartSupply {
   public:
     std::vector<Touch> touches(const Frame&) const override { return {}; }
     Measured measured(const Frame&) const override { return {}; }
+    std::optional<FlowedOut> flowed_out(const Frame&) const override { return std::nullopt; }
 };
 
 // Every moment from `first` on, as from a record.

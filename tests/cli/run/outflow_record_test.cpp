@@ -1,0 +1,78 @@
+// How much has flowed out, from outflow.csv and on the frame.
+#include "render/run/moments/outflow_record.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "render/draw/words/captions.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using test::TemporaryFolder;
+
+Scene with_outlet() {
+    return read_scene_text(test::small_scene_text, "sink.toml",
+                           {"container.outlet={width=\"9 mm\", exit_depth=\"6 mm\"}"});
+}
+
+std::filesystem::path file_with(const TemporaryFolder& here, const std::string& rows) {
+    std::ofstream(here / "outflow.csv") << "time_s,id,type,radius,x,y,z,vx,vy,vz\n" << rows;
+    return here / "outflow.csv";
+}
+
+TEST(OutflowRecord, CountsRowsAndTheirMassUntilATime) {
+    const TemporaryFolder here;
+    const Scene scene = with_outlet();
+    const auto record = OutflowRecord::read(file_with(here,
+                                                      "0.1,7,1,0.002,0,0,0,0,0,0\n"
+                                                      "0.2,3,1,0.001,0,0,0,0,0,0\n"
+                                                      "0.2,5,1,0.001,0,0,0,0,0,0\n"
+                                                      "0.3,6,1,0.0"),  // cut off
+                                            scene);
+    ASSERT_TRUE(record);
+    const double unit = 4.0 / 3 * std::numbers::pi * 1e-9 * scene.species[0].density;
+    const std::pair<double, FlowedOut> expected[] = {{0.05, {0, 0}},
+                                                     {0.1, {1, 8 * unit}},
+                                                     {0.15, {1, 8 * unit}},
+                                                     {0.2, {3, 10 * unit}},
+                                                     {9, {3, 10 * unit}}};
+    for (const auto& [time, out] : expected) {
+        EXPECT_EQ(record->until(time).grains, out.grains) << time;
+        EXPECT_NEAR(record->until(time).mass, out.mass, 1e-12 * unit) << time;
+    }
+    EXPECT_FALSE(OutflowRecord::read(here / "none.csv", scene));
+}
+
+TEST(OutflowRecord, RefusesWhatIsOfAnotherScene) {
+    const TemporaryFolder here;
+    const Scene scene = with_outlet();
+    for (const char* rows : {"0.1,7,9,0.002,0,0,0,0,0,0\n", "0.1,7,1,-1,0,0,0,0,0,0\n",
+                             "0.1,7,1,0.002,0,0,0,0,0,0\n0.05,8,1,0.002,0,0,0,0,0,0\n",
+                             "nan,7,1,0.002,0,0,0,0,0,0\n", "0.1,7,1.5,0.002,0,0,0,0,0,0\n"}) {
+        const auto file = file_with(here, rows);
+        EXPECT_THROW(OutflowRecord::read(file, scene), UserError) << rows;
+    }
+}
+
+TEST(OutflowOnTheFrame, SaysGrainsAndMass) {
+    const Scene scene = with_outlet();
+    ASSERT_TRUE(scene.film.shows.outflow);
+    Frame frame;
+    EXPECT_EQ(note_text(scene, frame), "");
+    frame.flowed_out = FlowedOut{0, 0};
+    EXPECT_EQ(note_text(scene, frame), "") << "nothing has flowed out yet";
+    frame.flowed_out = FlowedOut{12, 0.0415};
+    EXPECT_EQ(note_text(scene, frame), "12 of " + std::to_string(scene.grains()) + " out\n41.5 g out");
+    EXPECT_FALSE(longest_notes(scene).empty());
+}
+
+}  // namespace
+}  // namespace grainreel

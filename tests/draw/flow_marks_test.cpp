@@ -1,0 +1,142 @@
+// The velocity field of arrows and streamlines, and the lines themselves.
+#include "render/draw/marks/flow_marks.hpp"
+
+#include <gtest/gtest.h>
+
+#include "render/draw/marks/streamline.hpp"
+#include "support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+// Grains spread evenly over the upper part of the wedge, of two sizes and species.
+Frame spread_grains() {
+    std::vector<Ball> balls;
+    for (int k = 0; k < 4000; ++k) {
+        const double y = -0.07 + 0.14 * std::fmod(k * 0.618034, 1), z = 0.15 * std::fmod(k * 0.754878, 1);
+        balls.push_back({{0.018 * std::sin(k), y, z}, 0.001 + 0.001 * (k % 3), k % 2});
+    }
+    return frame_of(balls);
+}
+
+const Vec3 turning(7, 0, 0), axis(0, 0.01, 0.08);  // rad/s, m
+
+Frame rotating_grains() {
+    Frame frame = spread_grains();
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        frame.velocity[i] = turning.cross(frame.position[i] - axis);
+    return frame;
+}
+
+// sum m v W / sum m W with W = exp(-r^2 / 2 w^2) within 3 w (Goldhirsch 2010, Granul. Matter 12, 239, eq. 4).
+Vec3 coarse_grained(const Frame& frame, double width, double y, double z) {
+    Vec3 momentum = Vec3::Zero();
+    double mass = 0;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const double square = std::pow(frame.position[i].y() - y, 2) + std::pow(frame.position[i].z() - z, 2);
+        if (square > 9 * width * width) continue;
+        const double m = std::pow(frame.radius[i], 3) * std::exp(-square / (2 * width * width));
+        momentum += m * frame.velocity[i];
+        mass += m;
+    }
+    return momentum / mass;
+}
+
+TEST(VelocityField, IsMomentumOverMassUnderTheKernel) {
+    const Scene scene = wedge();
+    const Frame frame = rotating_grains();
+    constexpr double width = 0.006;
+    VelocityField field(scene, width, false);
+    field.take(frame);
+    int there = 0;
+    for (double y = -0.05; y < 0.055; y += 0.01)
+        for (double z = 0.1; z < 0.135; z += 0.01) {
+            const std::optional<Vec3> here = field.at(y, z);
+            ASSERT_TRUE(here) << y << " " << z;
+            // Between cells the field is taken as straight; a cell is half a width.
+            EXPECT_LT((*here - coarse_grained(frame, width, y, z)).norm(), 0.02 * turning.norm() * width);
+            ++there;
+        }
+    EXPECT_GE(there, 30);
+    EXPECT_FALSE(field.at(0.0745, 0.02)) << "in the slant";
+    EXPECT_FALSE(field.at(0, 0.5));
+}
+
+TEST(VelocityField, OfAPeriodIsDisplacementTimesFrequency) {
+    const Scene scene = wedge();
+    Frame frame = spread_grains();
+    VelocityField field(scene, 0.006, true);
+    field.take(frame);
+    EXPECT_FALSE(field.at(0, 0.12)) << "no displacements yet";
+    frame.displacement.assign(frame.size(), Vec3(0, 0.001, -0.002));
+    for (std::size_t i = 0; i < frame.size(); i += 7)
+        frame.displacement[i] = Vec3::Constant(std::nan(""));  // it was not there a period before
+    field.take(frame);
+    const std::optional<Vec3> here = field.at(0.01, 0.12);
+    ASSERT_TRUE(here);
+    EXPECT_LT((*here - scene.drive.frequency * Vec3(0, 0.001, -0.002)).norm(), 1e-12);
+}
+
+TEST(VelocityField, NeedsThreeGrainsAndGoesWithTheContainer) {
+    const Scene scene = wedge();
+    const Vec3 moved(0, 0.003, 0.004);
+    const auto field_of = [&](int grains) {
+        Frame frame =
+            frame_of(std::vector<Ball>(static_cast<std::size_t>(grains), {Vec3(0, 0, 0.12) + moved, 0.0025}));
+        frame.velocity.assign(frame.size(), Vec3(0, 0, 1));
+        frame.container().place = moved;
+        VelocityField field(scene, 0.01, false);
+        field.take(frame);
+        return field.at(0, 0.12);
+    };
+    // In the middle the Gaussian weighs a grain 2 / (4 pi w^2); this species has the grains' size.
+    EXPECT_FALSE(field_of(1));
+    ASSERT_TRUE(field_of(2));
+    EXPECT_NEAR(field_of(2)->z(), 1, 1e-12);
+}
+
+TEST(Streamlines, OfARotationAreCirclesThatRunItsWay) {
+    const PlaneVelocity rotation = [](const Eigen::Vector2d& at) -> std::optional<Eigen::Vector2d> {
+        return Eigen::Vector2d(-7 * at.y(), 7 * at.x());
+    };
+    const std::vector<StreamPoint> line = streamline(rotation, {0.03, 0}, 0.06, 0.003);
+    ASSERT_EQ(line.size(), 41u);
+    double turned = 0;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        EXPECT_NEAR(line[k].at.norm(), 0.03, 1e-7);
+        EXPECT_NEAR(line[k].speed, 7 * 0.03, 1e-6);
+        if (k > 0)
+            turned += std::atan2(line[k - 1].at.x() * line[k].at.y() - line[k - 1].at.y() * line[k].at.x(),
+                                 line[k - 1].at.dot(line[k].at));
+    }
+    EXPECT_NEAR(turned, 2 * 0.06 / 0.03, 1e-4);  // length over radius, counter-clockwise
+}
+
+TEST(Streamlines, EndWhereTheFlowDoes) {
+    const PlaneVelocity half = [](const Eigen::Vector2d& at) -> std::optional<Eigen::Vector2d> {
+        if (at.x() > 0.01) return std::nullopt;
+        return Eigen::Vector2d(1, 0);
+    };
+    const std::vector<StreamPoint> line = streamline(half, {0, 0}, 0.05, 0.001);
+    ASSERT_FALSE(line.empty());
+    EXPECT_NEAR(line.front().at.x(), -0.05, 1e-9);
+    EXPECT_NEAR(line.back().at.x(), 0.01, 0.0011);
+    EXPECT_TRUE(streamline(half, {0.02, 0}, 0.05, 0.001).empty());
+}
+
+// Lines and arrows are drawn where the flow is, and nowhere else.
+TEST(Streamlines, AreInThePictureAndFadeWithTheFlow) {
+    Scene scene = wedge();
+    scene.film.words = WordPlace::none;
+    Frame frame = rotating_grains();
+    const Picture plain = Renderer(scene, 1).draw(frame, "");
+    scene.film.shows.streamlines = {8, 0.2, false};
+    const Rectangle all{0, 0, plain.width, plain.height};
+    const int fast = changed(Renderer(scene, 1).draw(frame, ""), plain, all, 60).count;
+    EXPECT_GT(fast, 1000);
+    for (Vec3& velocity : frame.velocity) velocity *= 1e-4;
+    EXPECT_EQ(changed(Renderer(scene, 1).draw(frame, ""), plain, all, 60).count, 0);
+}
+
+}  // namespace
+}  // namespace grainreel::test
