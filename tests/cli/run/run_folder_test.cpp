@@ -69,6 +69,14 @@ TEST(RunFolder, ForceKeepsTheOldRunUntilTheNewOneIsComplete) {
     EXPECT_TRUE(fs::exists(here / "run"));
 }
 
+// Whatever a run with fields and an outlet leaves.
+TEST(RunFolder, ForceReplacesARunWithAllItsFiles) {
+    const TemporaryFolder here;
+    make_run(here / "run");
+    for (const char* file : {"fields.nc", "outflow.csv", "contacts.nc"}) write_text(here / "run" / file, "");
+    EXPECT_EQ(RunFolder({"wedge", "output", here / "run", true}).previous(), here / ".run.old-1");
+}
+
 TEST(RunFolder, ForceNeverTouchesAnEarlierRunThatStillWaits) {
     const TemporaryFolder here;
     make_run(here / "run");
