@@ -18,6 +18,7 @@ common=(--no-film --quiet --force --threads 1 --set drive.ramp=0 --set output.tr
 # out, which come by the clock.
 instructions() {
     local out=$work/run
+    rm -rf "$out"
     valgrind --tool=callgrind --callgrind-out-file="$work/calls" "$grainreel" movie "$scene" "${common[@]}" \
         --set start.method=file --set "start.file=$work/bed/checkpoint.grs" --duration "$duration" \
         --out "$out" "$@" > /dev/null 2> "$work/said" || { cat "$work/said" >&2; exit 1; }

@@ -42,7 +42,7 @@ for by in speed vertical-velocity start-height displacement rise spin kinetic-en
 done
 picture arrows "${still[@]}" --set film.arrows.grid=10
 picture streamlines "${still[@]}" --set film.streamlines.grid=10 --set film.periods=4
-picture wall_forces "${still[@]}" --set film.wall_forces=true
+picture wall_forces "${still[@]}" --set film.wall_forces=true --set 'film.wall_force_scale="3 N"'
 picture profiles "${still[@]}" --set film.periods=4 \
     --set 'film.plot=[{profile="share"}, {profile="vertical-velocity", over="width"}]'
 of=hopper at=0.5 picture outflow --set 'film.arrows={grid=12, of="now"}' --set 'film.plot=[{profile="solid-fraction"}]'
