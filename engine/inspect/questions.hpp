@@ -14,8 +14,16 @@ namespace grainreel {
 // outside the container, numbers that are none.
 Answer overview_of(const Snapshot& snapshot);
 
-// All columns of one grain; its contacts, where they are known.
+// All columns of one grain; its contacts, where they are known. Of a moment that was brought back also how
+// they push, their sum against its weight and its acceleration, and its neighbours.
 Answer grain_answer(const Snapshot& snapshot, std::int64_t id);
+
+// Of a moment that was brought back. The wall is named as in contacts, "left slant" or "left_slant": its sums
+// of force and moment, the force by height, and the grains that touch it, at most `most` of them.
+Answer wall_answer(const Snapshot& snapshot, const std::string& name, std::size_t most);
+
+// Likewise: the `most` contacts that overlap most.
+Answer largest_overlap_answer(const Snapshot& snapshot, std::size_t most);
 
 // Grains for which `condition` holds: how many of each species, statistics of their columns, and a list of at
 // most `most` of them.
