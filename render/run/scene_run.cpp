@@ -255,9 +255,7 @@ void SceneRun::save_checkpoint() {
     const auto timer = times_.during("writing");
     const Stopwatch writing;
     const std::filesystem::path last = path_of("checkpoint.grs");
-    const auto save = [&](const std::filesystem::path& file) {
-        simulation_.save_checkpoint(file);
-    };
+    const auto save = [&](const std::filesystem::path& file) { simulation_.save_checkpoint(file); };
     if (!ring_ || !ring_->due(simulation_.step())) {
         save(last);
     } else {

@@ -15,6 +15,7 @@
 #include "render/cli/verbs/verb.hpp"
 #include "render/run/frames/asked_moment.hpp"
 #include "render/run/frames/recorded_run.hpp"
+#include "render/run/pick/answer_picture.hpp"
 #include "render/run/pick/pixel_question.hpp"
 #include "render/run/stage_times.hpp"
 
@@ -63,8 +64,11 @@ class Inspect final : public Verb {
         parser.add_flag("--no-replay", no_replay_,
                         "Give what was kept alone: the kept moment that is nearest");
         add_questions(parser);
+        parser.add_option("--png", picture_, "Draw the moment too, with the grains of the answer ringed")
+            ->type_name("FILE");
+        add_gl(parser, gl_);
         add_sets(parser, sets_,
-                 "With --pixel: another value for a key of [film], as for render; may be repeated");
+                 "With --pixel or --png: another value for a key of [film], as for render; may be repeated");
         add_picture_keys(parser, sets_);
         parser.add_option("--limit", limit_, "Longest list of grains [10]")
             ->type_name("N")
@@ -75,10 +79,13 @@ class Inspect final : public Verb {
     }
 
     int run(Reporter& reporter) override {
+        if (!picture_.empty()) check_picture_file(picture_);
         const RecordedRun record(run_, sets_for_contacts());
         for (const std::string& line : record.news()) reporter.detail(line);
         MomentFinder finder(record);
-        Answer answer = answer_of(finder, snapshot_of(finder, record, reporter), reporter);
+        const Snapshot snapshot = snapshot_of(finder, record, reporter);
+        Answer answer = answer_of(finder, snapshot, reporter);
+        if (!picture_.empty()) draw_answer(snapshot, grains_in(answer), film_time_, picture_, gl_);
         answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
         print_result(json_ ? json_of(answer) : csv_ ? csv_of(answer) : text_of(answer));
         return 0;
@@ -113,9 +120,9 @@ class Inspect final : public Verb {
         parser.add_flag("--through", through_, "With --pixel: what lies behind it, too")
             ->needs(questions.back());
         parser
-            .add_option("--film-time", film_time_, "With --pixel: where a camera that moves is then, s [0]")
-            ->type_name("TIME")
-            ->needs(questions.back());
+            .add_option("--film-time", film_time_,
+                        "With --pixel or --png: where a camera that moves is then, s [0]")
+            ->type_name("TIME");
         parser.add_option("--bins", bins_, "With --histogram: how many [20]")
             ->type_name("N")
             ->check(CLI::Range(1, 10000));
@@ -218,6 +225,8 @@ class Inspect final : public Verb {
 
     fs::path run_;
     Assignments sets_;
+    fs::path picture_;
+    gl::Provider gl_ = gl::Provider::automatic;
     std::vector<double> pixel_;
     bool through_ = false;
     double film_time_ = 0;
