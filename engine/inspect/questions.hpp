@@ -29,6 +29,10 @@ Answer largest_overlap_answer(const Snapshot& snapshot, std::size_t most);
 // most `most` of them.
 Answer where_answer(const Snapshot& snapshot, const std::string& condition, std::size_t most);
 
+// Grains that a plane such as "y=0" or "z = 2 cm" cuts: their circles in it, by species and in a list of at
+// most `most`.
+Answer slice_answer(const Snapshot& snapshot, const std::string& plane, std::size_t most);
+
 // By bins of a column ("height", "x", "y", "z", or "r" about the container's axis) as wide as the mean
 // diameter: grains and solid volume by species, mean speed and mean upward velocity.
 Answer profile_answer(const Snapshot& snapshot, const std::string& along);

@@ -39,7 +39,7 @@ class Evaluations {
     }
 
     Evaluation now() const;
-    // Sets the lengths of the kicks and of the drifts from the last forces to those of the present stage. In
+    // Sets the lengths of the kicks and of the drift from the last forces to those of the present stage. In
     // the first step of a run the closing drift of the last step is left out, because the last run has made
     // it already.
     void set_kicks(KickInput& kicks) const;

@@ -106,6 +106,8 @@ class Inspect final : public Verb {
                 ->type_name("CONDITION"),
             parser.add_option("--profile", profile_, "By bins along height, x, y, z, or r from the axis")
                 ->type_name("DIRECTION"),
+            parser.add_option("--slice", slice_, "Grains that this plane cuts, as in y=0 or \"z = 2 cm\"")
+                ->type_name("PLANE"),
             parser.add_option("--histogram", histogram_, "How many grains have which value")
                 ->type_name("QUANTITY"),
             parser.add_flag("--pair-distribution", pairs_, "Radial distribution function of the centres"),
@@ -194,6 +196,7 @@ class Inspect final : public Verb {
         if (grain_) return named("--grain", [&] { return grain_answer(snapshot, *grain_); });
         if (where_) return named("--where", [&] { return where_answer(snapshot, *where_, limit_); });
         if (profile_) return named("--profile", [&] { return profile_answer(snapshot, *profile_); });
+        if (slice_) return named("--slice", [&] { return slice_answer(snapshot, *slice_, limit_); });
         if (histogram_)
             return named("--histogram", [&] {
                 return histogram_answer(snapshot, *histogram_, static_cast<std::size_t>(bins_));
@@ -234,7 +237,7 @@ class Inspect final : public Verb {
     std::optional<double> compare_;
     double phase_ = 0;
     std::optional<std::int64_t> grain_;
-    std::optional<std::string> wall_, where_, profile_, histogram_;
+    std::optional<std::string> wall_, where_, profile_, slice_, histogram_;
     bool pairs_ = false, largest_overlap_ = false, no_replay_ = false, json_ = false, csv_ = false;
     std::vector<std::string> missing_;  // what an answer lacks
     int bins_ = 20;

@@ -42,7 +42,8 @@ std::vector<std::int32_t> grains_in(const Answer& answer) {
             const std::string& name = table.columns[k].name;
             if (name != "id" && name != "first" && name != "second") continue;
             for (const auto& row : table.rows)
-                if (const auto* id = std::get_if<std::int64_t>(&row[k])) ids.push_back(static_cast<std::int32_t>(*id));
+                if (const auto* id = std::get_if<std::int64_t>(&row[k]))
+                    ids.push_back(static_cast<std::int32_t>(*id));
         }
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -55,7 +56,8 @@ void check_picture_file(const std::filesystem::path& file) {
     if (file.extension() != ".png")
         throw UserError(fmt::format("--png {}: name a file that ends in .png", file.string()));
     if (!std::filesystem::is_directory(folder, error))
-        throw UserError(fmt::format("--png {}: there is no folder {}; make it first", file.string(), folder.string()));
+        throw UserError(
+            fmt::format("--png {}: there is no folder {}; make it first", file.string(), folder.string()));
     if (std::filesystem::exists(file, error))
         throw UserError(fmt::format("--png {}: exists already; choose another name", file.string()));
 }

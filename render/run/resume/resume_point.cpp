@@ -57,15 +57,22 @@ std::int64_t film_agrees_until(const Scene& scene, const Plan& plan, const std::
     return k < kept.size() ? std::min(end, kept[k]) : end;
 }
 
+// How much is kept of checkpoints and of the film's moments may change.
+bool may_change(const std::string& key) {
+    return key == "output.checkpoints" || key == "output.film_moments";
+}
+
 // What is measured and kept must be what it was, for the files go on.
 void check_same_files(const std::string& then, const Scene& scene, const Plan& plan) {
-    for (const KeyDifference& difference : differences_of_table(then, scene_to_keep(scene, plan), "output"))
+    for (const KeyDifference& difference : differences_of_table(then, scene_to_keep(scene, plan), "output")) {
+        if (may_change(difference.key)) continue;
         throw UserError(
-            fmt::format("{}: '{}' is {}, but it was {} in this run, whose files would not go together; "
-                        "put back what it was",
+            fmt::format("{}: '{}' is {}, but it was {} in this run, whose files would not go together; put "
+                        "back what it was",
                         scene.where(difference.key), difference.key,
                         difference.now.empty() ? "not there" : difference.now,
                         difference.then.empty() ? "not there" : difference.then));
+    }
 }
 
 struct Limits {
