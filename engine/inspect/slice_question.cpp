@@ -19,7 +19,8 @@ struct Plane {
 Plane plane_of(const std::string& text) {
     const std::size_t equal = text.find('=');
     const std::size_t letter = text.find_first_not_of(' ');
-    const bool named = equal != text.npos && letter < equal && text.find_first_not_of(' ', letter + 1) == equal;
+    const bool named =
+        equal != text.npos && letter < equal && text.find_first_not_of(' ', letter + 1) == equal;
     const std::size_t axis = named ? std::string("xyz").find(text[letter]) : std::string::npos;
     if (axis == std::string::npos)
         throw UserError(fmt::format("'{}' is no plane; write for example y=0 or \"z = 2 cm\"", text));
@@ -36,7 +37,9 @@ Answer slice_answer(const Snapshot& s, const std::string& plane, std::size_t mos
     const auto off = [&](std::size_t i) { return std::abs(s.frame.position[i][cut.axis] - cut.place); };
     for (std::size_t i = 0; i < s.frame.size(); ++i)
         if (off(i) < s.frame.radius[i]) found.push_back(i);
-    const auto circle = [&](std::size_t i) { return std::sqrt(std::pow(s.frame.radius[i], 2) - std::pow(off(i), 2)); };
+    const auto circle = [&](std::size_t i) {
+        return std::sqrt(std::pow(s.frame.radius[i], 2) - std::pow(off(i), 2));
+    };
     AnswerTable areas{"areas",
                       fmt::format("The plane {} cuts {} grains", plane, found.size()),
                       {{"species", Dimension::number, ""},
@@ -68,8 +71,8 @@ Answer slice_answer(const Snapshot& s, const std::string& plane, std::size_t mos
     for (std::size_t k = 0; k < std::min(most, found.size()); ++k) {
         const std::size_t i = found[k];
         const Vec3& at = s.frame.position[i];
-        list.rows.push_back({static_cast<std::int64_t>(s.frame.id[i]), name_of_body(s, s.frame.id[i]), at.x(), at.y(),
-                             at.z(), circle(i)});
+        list.rows.push_back({static_cast<std::int64_t>(s.frame.id[i]), name_of_body(s, s.frame.id[i]), at.x(),
+                             at.y(), at.z(), circle(i)});
     }
     return {{std::move(areas), std::move(list)}, {}};
 }
