@@ -24,7 +24,6 @@ class CheckpointRing {
   public:
     static constexpr std::size_t kMost = 20;
     static constexpr const char* kFolder = "checkpoints";
-    static constexpr std::int64_t kMostBytes = 64'000'000;  // TEMPORARY
 
     // Of a run from step `first` to `last`, of at most so many bytes. Takes over those up to `first` that lie
     // there, and removes those beyond it, which are of a future that will be run again.

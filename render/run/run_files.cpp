@@ -35,7 +35,7 @@ double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pic
     constexpr double most_bytes = 100e6, bytes_a_grain = 64;
     if (!scene.output.trajectory) return 0;
     const double bytes = bytes_a_grain * static_cast<double>(pictures) * static_cast<double>(plan.capacity);
-    return bytes <= most_bytes ? bytes : 0;
+    return scene.output.film_moments.value_or(bytes <= most_bytes) ? bytes : 0;
 }
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,

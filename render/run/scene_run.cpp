@@ -113,7 +113,8 @@ void SceneRun::start(const Pictures& pictures) {
     segments_ = pictures.segments;
     bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
     open_files(shots);
-    ring_.emplace(folder_->folder(), CheckpointRing::kMostBytes, simulation_.step(), plan_.steps);
+    if (scene_.output.checkpoints)
+        ring_.emplace(folder_->folder(), *scene_.output.checkpoints, simulation_.step(), plan_.steps);
     want_moments(shots);
     agenda_.emplace(shots, Rhythm(plan_.trajectory_every, plan_.trajectory_periods),
                     Rhythm(plan_.measures_every, plan_.measures_periods), simulation_.step(), plan_.steps,

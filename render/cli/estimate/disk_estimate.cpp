@@ -35,8 +35,8 @@ DiskEstimate estimate_disk(const Scene& scene, const Plan& plan, std::int64_t pi
     disk.measures = static_cast<double>(disk.measures_rows) * measures_bytes;
     if (pictures > 0) disk.film = estimated_film_size(scene.film, pictures);
     disk.film_moments = film_moments_bytes(scene, plan, pictures);
-    if (CheckpointRing::kMostBytes > 0)
-        disk.checkpoints = std::min(static_cast<double>(CheckpointRing::kMostBytes),
+    if (scene.output.checkpoints)
+        disk.checkpoints = std::min(static_cast<double>(*scene.output.checkpoints),
                                     static_cast<double>(CheckpointRing::kMost) * grains * checkpoint_bytes);
     disk.end_state = grains * end_state_bytes;
     return disk;
