@@ -155,10 +155,6 @@ void expect_contacts_move_grains(const std::vector<std::string>& sets) {
 TEST(ReplayedForces, AddUpToMassTimesAcceleration) {
     expect_contacts_move_grains({"run.contact_corrections=false", "run.precision=double"});
 }
-TEST(ReplayedForces, AddUpWithHertzAndMindlin) {
-    expect_contacts_move_grains({"contact.law=hertz", "run.precision=double"});
-}
-
 TEST(Replay, ADamagedCheckpointIsPassedOver) {
     const test::TemporaryFolder here;
     RunOnDisk run(here.path(), {"run.duration=0.05 s"}, 1);
