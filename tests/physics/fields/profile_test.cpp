@@ -71,7 +71,8 @@ TEST_P(Profiles, SharesAreOneAmongTheirOwnAndHalfAtTheBorder) {
         }
         // The border is in the middle between two cells.
         if (std::abs(place(k) - 1.875) < 1e-9) {
-            EXPECT_NEAR(share[0][k] + share[0][k + 1], 1, 1e-9);
+            // The floor cuts the lowest layer's kernel off, which is made up for: it counts a little more.
+            EXPECT_NEAR(share[0][k] + share[0][k + 1], 1, 2e-3);
             EXPECT_GT(share[0][k], 0.55);
         }
     }
