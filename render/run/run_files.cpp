@@ -61,9 +61,14 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
       info_(trajectory_info(scene, plan, program_version)),
       clock_(plan.clock),
       field_times_(plan.fields),
-      measures_(folder / "measures.csv", simulation.measured(), simulation.step()) {
+      measures_(folder / "measures.csv", simulation.measured(), simulation.step()),
+      departed_(scene) {
     const double now = plan.clock.time(simulation.step());
-    if (plan.opens) outflow_.emplace(folder / "outflow.csv", now);
+    if (plan.opens) {
+        outflow_.emplace(folder / "outflow.csv", now);
+        if (std::optional<OutflowRecord> before = OutflowRecord::read(folder / "outflow.csv", scene))
+            departed_ = std::move(*before);
+    }
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
     take_over_rows(simulation);
     if (const auto sets = simulation.field_sets(); !sets.empty())

@@ -142,7 +142,7 @@ void SceneRun::open_files(const std::vector<Shot>& shots) {
     std::error_code ignored;
     if (shots.empty() || !std::filesystem::exists(folder / kFilmMoments, ignored)) return;
     files_->keep_film_moments(pictures_kept_);
-    earlier_.emplace(scene_, plan_.clock, folder, shots, pictures_kept_, files_->measures());
+    earlier_.emplace(scene_, plan_.clock, folder, shots, pictures_kept_, files_->measures(), *files_);
 }
 
 // Whatever number of periods the bed will turn out to repeat itself after.

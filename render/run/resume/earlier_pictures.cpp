@@ -12,8 +12,9 @@ namespace grainreel {
 
 EarlierPictures::EarlierPictures(const Scene& scene, const Clock& clock, const std::filesystem::path& run,
                                  const std::vector<Shot>& shots, std::size_t count,
-                                 std::shared_ptr<const MeasureTable> measures)
+                                 std::shared_ptr<const MeasureTable> measures, const RunFiles& files)
     : scene_(scene),
+      files_(files),
       moments_(run / kFilmMoments),
       shots_(shots),
       count_(count),
