@@ -163,12 +163,12 @@ TEST_F(EncoderTest, FinishedFilmsHaveTheirIndexInFrontUnfinishedOnesAreFragmente
     EXPECT_FALSE(std::filesystem::exists(path().string() + ".part"));
 }
 
-TEST_F(EncoderTest, AGroupLastsASecondAtMost) {
+TEST_F(EncoderTest, KeyFramesAreHalfASecondApartAtMost) {
     Encoder encoder(settings());
     for (int i = 0; i < 90; ++i)
         encoder.add(flat(160, 96, 200, 200, 200));  // nothing else asks for a key frame
     encoder.finish();
-    EXPECT_EQ(read_film(path()).key_frames, 3);
+    EXPECT_EQ(read_film(path()).key_frames, 6);  // 3 s of film
 }
 
 TEST_F(EncoderTest, OddSizesArePaddedWithTheirLastRowAndColumn) {

@@ -1,5 +1,6 @@
-// How films want each encoder of FFmpeg. What they have in common: a key frame a second at least and little
-// held back, so that a kill costs two seconds of film at most; threads as told; quality by film.quality.
+// How films want each encoder of FFmpeg. What they have in common: a key frame every half second at least and
+// little held back, so that a kill costs two seconds of film at most; threads as told; quality by
+// film.quality.
 #pragma once
 
 #include <string>
