@@ -60,13 +60,12 @@ std::vector<Vec3> inside(std::vector<Vec3> piece, const Container& container) {
     return piece;
 }
 
-// In the place where it is now, moved by `offset`.
-std::vector<Vec3> piece_of(const FreeWall& wall, const Scene& scene, const Vec3& offset) {
+}  // namespace
+
+std::vector<Vec3> piece_of_plane(const FreeWall& wall, const Scene& scene, const Vec3& offset) {
     std::vector<Vec3> piece = inside(cut(wall, wall.point + offset, extent_of(scene)), scene.container);
     return piece.size() >= 3 ? piece : std::vector<Vec3>();
 }
-
-}  // namespace
 
 std::vector<Vec3> extent_corners(const Extent& extent) {
     std::vector<Vec3> corners;
@@ -78,7 +77,7 @@ std::vector<Vec3> extent_corners(const Extent& extent) {
 
 void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sketch, ContainerShapes& shapes) {
     // The sketch moves what it draws, so the cut is made where the wall is and taken back.
-    std::vector<Vec3> piece = piece_of(wall, scene, sketch.offset());
+    std::vector<Vec3> piece = piece_of_plane(wall, scene, sketch.offset());
     if (piece.empty()) return;
     for (Vec3& corner : piece) corner -= sketch.offset();
     WallSide& on = sketch.faces(wall.point, wall.normal) ? shapes.behind : shapes.before;
@@ -89,7 +88,7 @@ void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sket
 }
 
 void draw_free_wall_ghost(const FreeWall& wall, const Scene& scene, const Sketch& lab, Shapes& on) {
-    const std::vector<Vec3> piece = piece_of(wall, scene, Vec3(0, 0, 0));
+    const std::vector<Vec3> piece = piece_of_plane(wall, scene, Vec3(0, 0, 0));
     if (!piece.empty()) lab.dashed(on, piece, true, 0.8 * lab.pen, lab.ghost());
 }
 

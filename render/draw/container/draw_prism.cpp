@@ -6,6 +6,7 @@
 
 #include "render/draw/container/drawing_kit.hpp"
 #include "render/draw/container/floor_opening.hpp"
+#include "render/draw/container/wall_profile.hpp"
 
 namespace grainreel {
 namespace {
@@ -14,30 +15,6 @@ using Flat = Eigen::Vector2d;  // y, z in m
 
 Vec3 at(double x, const Flat& p) {
     return {x, p.x(), p.y()};
-}
-
-// One side wall from the floor up: its inner line, and the outer one a wall's thickness away.
-struct Profile {
-    std::vector<Flat> inner, outer;  // as many points each
-};
-
-// side: +1 for the wall at y > 0, -1 for the other.
-Profile wall_profile(const Container& container, double side) {
-    const double t = drawn_thickness(container), top = container.height;
-    Profile profile;
-    const auto add = [&](double inner, double z, double outer, double outer_z) {
-        profile.inner.emplace_back(side * inner, z);
-        profile.outer.emplace_back(side * outer, outer_z);
-    };
-    const double angle = container.shape == Container::Shape::wedge ? container.half_angle : 0;
-    const double bend = angle > 0 ? std::min(container.slant_height, top) : 0;
-    if (bend > 0) add(container.half_width_at(0), 0, container.half_width_at(0) + t / std::cos(angle), 0);
-    if (bend > 0 && bend < top)
-        add(container.half_width, bend, container.half_width + t, bend - t * std::tan(0.5 * angle));
-    if (bend <= 0) add(container.half_width, 0, container.half_width + t, 0);
-    const double slant = bend >= top ? t / std::cos(angle) : t;
-    add(container.half_width_at(top), top, container.half_width_at(top) + slant, top);
-    return profile;
 }
 
 // Floor or lid: a plate between two heights.
@@ -90,7 +67,7 @@ class Prism {
     }
 
     void draw() {
-        const Profile left = wall_profile(container_, -1), right = wall_profile(container_, 1);
+        const WallProfile left = wall_profile(container_, -1), right = wall_profile(container_, 1);
         panes(left, right);
         if (container_.lid) plate(sketches_.walls, lid_plate(container_), container_.height, 1);
         for (const Plate& part : floor_plates(container_)) plate(sketches_.floor, part, 0, -1);
@@ -100,7 +77,7 @@ class Prism {
 
   private:
     // The back pane, tinted, and the outlines of both; none where the depth is periodic.
-    void panes(const Profile& left, const Profile& right) {
+    void panes(const WallProfile& left, const WallProfile& right) {
         if (container_.periodic_depth) return;
         // Open lines: a lid has edges of its own there, an open top gets the panes' bare rims.
         std::vector<Flat> outline(left.inner.rbegin(), left.inner.rend());
@@ -121,7 +98,7 @@ class Prism {
                        faded(walls.glass_edge(), end.weight));
     }
 
-    void wall(const Profile& profile) {
+    void wall(const WallProfile& profile) {
         const Sketch& walls = sketches_.walls;
         for (std::size_t i = 0; i + 1 < profile.inner.size(); ++i) segment(profile, i);
         const Vec3 foot = at(0, profile.inner.front()), normal = outward(profile, 0);
@@ -133,14 +110,14 @@ class Prism {
                            faded(paint, end.weight));
     }
 
-    static Vec3 outward(const Profile& profile, std::size_t i) {
+    static Vec3 outward(const WallProfile& profile, std::size_t i) {
         const Flat along = profile.inner[i + 1] - profile.inner[i];
         const double side = profile.outer[i].x() > profile.inner[i].x() ? 1 : -1;
         return Vec3(0, side * along.y(), -side * along.x()).normalized();
     }
 
     // One flat part of a wall, between two points of its profile.
-    void segment(const Profile& profile, std::size_t i) {
+    void segment(const WallProfile& profile, std::size_t i) {
         const Sketch& walls = sketches_.walls;
         const Flat a = profile.inner[i], b = profile.inner[i + 1];
         const Flat c = profile.outer[i], d = profile.outer[i + 1];
@@ -259,7 +236,7 @@ void draw_prism_ghost(const Container& container, bool floor_only, const Sketch&
         outline.emplace_back(floor.left, floor.high);
         outline.emplace_back(floor.right, floor.high);
     } else {
-        const Profile left = wall_profile(container, -1), right = wall_profile(container, 1);
+        const WallProfile left = wall_profile(container, -1), right = wall_profile(container, 1);
         outline.insert(outline.end(), left.outer.begin(), left.outer.end());
         if (container.lid) {
             const Plate lid = lid_plate(container);

@@ -79,7 +79,9 @@ struct Sketches {
 void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 
-// A plane, as far as the container reaches, or what is looked at.
+// The piece of a plane that lies in the container, or in the box of what is looked at, in the place where the
+// plane is when it has moved by `offset`; m, corners in order around it. Empty when there is none.
+std::vector<Vec3> piece_of_plane(const FreeWall& wall, const Scene& scene, const Vec3& offset);
 void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sketch, ContainerShapes& shapes);
 
 // Dashed outlines over the grains: of the container's moving parts, or of a plane that moves, at rest.
