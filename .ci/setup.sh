@@ -39,6 +39,12 @@ libgmock-dev         gmock
 python3-xarray       xarray for Python, which reads fields.nc in a test
 python3-netcdf4      netCDF4 for Python
 "
+browser_packages="
+chromium             a browser, for ./test --browser
+chromium-driver      ChromeDriver of the same version
+python3-selenium     Selenium for Python
+python3-netcdf4      netCDF4 for Python
+"
 
 say() { printf '%s\n' "$*" >&2; }
 

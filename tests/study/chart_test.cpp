@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/shell_word.hpp"
 #include "engine/chart/gnuplot.hpp"
+#include "render/report/embed/html.hpp"
 #include "render/study/results/drawing.hpp"
 #include "render/study/results/page.hpp"
 #include "render/study/results/table.hpp"

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
@@ -15,15 +16,20 @@
 
 namespace grainreel {
 
-// Lines of a name and a text, the texts below each other.
+// Lines of a name and a text, the texts below each other. They are printed and kept.
 class Listing {
   public:
     explicit Listing(std::ostream& out) : out_(out) {}
-    void line(std::string_view name, const std::string& text) { fmt::print(out_, "{:<13}{}\n", name, text); }
+    void line(std::string_view name, const std::string& text) {
+        fmt::print(out_, "{:<13}{}\n", name, text);
+        lines_.emplace_back(name, text);
+    }
     void gap() { out_ << '\n'; }
+    const std::vector<std::pair<std::string, std::string>>& lines() const { return lines_; }
 
   private:
     std::ostream& out_;
+    std::vector<std::pair<std::string, std::string>> lines_;
 };
 
 std::string metres_text(double metres);

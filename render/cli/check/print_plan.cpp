@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "engine/plan/rain_plan.hpp"
 #include "render/cli/check/check_parts.hpp"
 #include "render/film/files/film_limits.hpp"
@@ -62,6 +64,16 @@ void print_plan(const Scene& scene, const Plan& plan, std::ostream& out) {
     for (std::string& line : film_warnings(scene, frames_of(film))) warnings.push_back(std::move(line));
     if (!warnings.empty()) list.gap();
     for (const std::string& line : warnings) list.line("warning", line);
+}
+
+PlanWords plan_words(const Scene& scene, const Plan& plan) {
+    std::ostringstream printed, contacts;
+    Listing list(printed);
+    print_setup(scene, plan, list);
+    print_model(scene, plan, list);
+    print_time(scene, plan, list);
+    print_contacts(scene, plan, contacts);
+    return {list.lines(), contacts.str()};
 }
 
 }  // namespace grainreel

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
@@ -11,5 +14,13 @@ namespace grainreel {
 // The plan of a scene in words: what is modelled and what is left out, how it will be computed, what will
 // come out of it and what it will cost. Ends with the plan's warnings and the film's.
 void print_plan(const Scene& scene, const Plan& plan, std::ostream& out);
+
+// The part of it that holds for a run that is over: lines of a name (empty where the line goes on with the
+// one before) and a text, and the table of contacts, in columns.
+struct PlanWords {
+    std::vector<std::pair<std::string, std::string>> lines;
+    std::string contacts;
+};
+PlanWords plan_words(const Scene& scene, const Plan& plan);
 
 }  // namespace grainreel

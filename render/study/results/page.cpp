@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "render/report/embed/html.hpp"
 #include "render/study/results/points.hpp"
 
 namespace grainreel {
@@ -147,32 +148,6 @@ std::string warnings(const std::vector<MemberResult>& results) {
 }
 
 }  // namespace
-
-std::string html_text(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\'':
-                result += "&#39;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
-}
 
 std::string study_page(const Study& study, const std::vector<Member>& members,
                        const std::vector<MemberResult>& results, const StudyFolder& folder,

@@ -8,9 +8,6 @@
 
 namespace grainreel {
 
-// Text as HTML shows it: no sign of it means anything.
-std::string html_text(const std::string& text);
-
 // Paths count from the study's folder, where posters and films are looked for. charts: stems of charts/*.svg.
 std::string study_page(const Study& study, const std::vector<Member>& members,
                        const std::vector<MemberResult>& results, const StudyFolder& folder,

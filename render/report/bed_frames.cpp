@@ -1,0 +1,186 @@
+#include "render/report/bed_frames.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "render/report/embed/zlib_pack.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double steps = 65535;     // of 16 bits
+constexpr double speed_span = 1e5;  // highest over lowest speed that is told
+constexpr std::uint8_t most_contacts = 254;
+constexpr double usual_packed = 7;  // bytes a grain and moment: what shaken beds take is 6.2 to 6.6
+
+// A grain that the page has.
+struct Kept {
+    std::int32_t id = 0;
+    std::int32_t species = 0;
+    double radius = 0;       // m
+    double from_middle = 0;  // m, |x| where it was first seen
+};
+
+// Evenly spread over 0 ... count - 1, both ends among them.
+std::vector<std::size_t> spread(std::size_t count, std::size_t wanted) {
+    std::vector<std::size_t> chosen;
+    wanted = std::clamp<std::size_t>(wanted, 1, count);
+    for (std::size_t i = 0; i < wanted; ++i)
+        chosen.push_back(wanted == 1 ? 0 : (i * (count - 1) + (wanted - 1) / 2) / (wanted - 1));
+    return chosen;
+}
+
+// Numbers in the machine's order; x86 and ARM are little-endian, as the page wants it.
+template <class Number>
+void append(std::vector<std::uint8_t>& bytes, Number number) {
+    static_assert(std::endian::native == std::endian::little);
+    std::array<std::uint8_t, sizeof(Number)> raw;
+    std::memcpy(raw.data(), &number, sizeof number);
+    bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+class BedWriter {
+  public:
+    BedWriter(const FrameArchive& run, bool contacts) : run_(run), contacts_(contacts) {}
+
+    BedFrames write(const std::vector<std::size_t>& chosen) {
+        survey(chosen);
+        bytes_.clear();
+        for (const Kept& grain : kept_) append(bytes_, grain.id);
+        for (const Kept& grain : kept_) append(bytes_, static_cast<std::uint16_t>(grain.species));
+        for (const Kept& grain : kept_) append(bytes_, static_cast<float>(grain.radius));
+        before_.assign(3 * kept_.size(), 0);
+        for (const std::size_t index : chosen) add(read(index));
+        bed_.packed = zlib_packed(bytes_);
+        return std::move(bed_);
+    }
+
+  private:
+    // With touches where the run has them.
+    Frame read(std::size_t index) const { return contacts_ ? run_.frame(index) : run_.grains(index); }
+
+    // Who is there, in which box, and how fast.
+    void survey(const std::vector<std::size_t>& chosen) {
+        bed_ = BedFrames();
+        boxed_ = false;
+        bed_.contacts = contacts_;
+        bed_.all_moments = run_.moments().size();
+        std::map<std::int32_t, Kept> seen;
+        for (const std::size_t index : chosen) {
+            bed_.moments.push_back(run_.moments()[index]);
+            const Frame frame = run_.grains(index);
+            for (std::size_t i = 0; i < frame.size(); ++i) {
+                seen.try_emplace(frame.id[i], Kept{frame.id[i], frame.species[i], frame.radius[i],
+                                                   std::abs(frame.position[i].x())});
+                bed_.highest_speed = std::max(bed_.highest_speed, frame.velocity[i].norm());
+                take_into_box(frame.position[i]);
+            }
+        }
+        bed_.lowest_speed = bed_.highest_speed / speed_span;
+        bed_.all_grains = seen.size();
+        choose(seen);
+    }
+
+    void take_into_box(const Vec3& place) {
+        bed_.low = boxed_ ? bed_.low.cwiseMin(place).eval() : place;
+        bed_.high = boxed_ ? bed_.high.cwiseMax(place).eval() : place;
+        boxed_ = true;
+    }
+
+    void choose(const std::map<std::int32_t, Kept>& seen) {
+        kept_.clear();
+        for (const auto& [id, grain] : seen) kept_.push_back(grain);
+        if (kept_.size() > kMostGrainsOnPage) {
+            std::stable_sort(kept_.begin(), kept_.end(),
+                             [](const Kept& a, const Kept& b) { return a.from_middle < b.from_middle; });
+            kept_.resize(kMostGrainsOnPage);
+            std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) { return a.id < b.id; });
+        }
+        slot_.clear();
+        for (std::size_t i = 0; i < kept_.size(); ++i) slot_[kept_[i].id] = i;
+        bed_.grains = kept_.size();
+    }
+
+    void add(const Frame& frame) {
+        const std::size_t n = kept_.size(), begin = bytes_.size();
+        bytes_.resize(begin + 9 * n, 0);
+        std::uint8_t* const at = bytes_.data() + begin;
+        for (std::size_t i = 0; i < frame.size(); ++i) {
+            const auto found = slot_.find(frame.id[i]);
+            if (found == slot_.end()) continue;
+            const std::size_t grain = found->second;
+            for (int axis = 0; axis < 3; ++axis) add_place(at, axis, grain, frame.position[i][axis]);
+            at[6 * n + grain] = speed_byte(frame.velocity[i].norm(), bed_.lowest_speed, bed_.highest_speed);
+            at[8 * n + grain] = 1;
+        }
+        count_contacts(frame.touches, at + 7 * n);
+    }
+
+    void add_place(std::uint8_t* at, int axis, std::size_t grain, double place) {
+        const std::size_t n = kept_.size();
+        const double length = bed_.high[axis] - bed_.low[axis];
+        const double share = length > 0 ? (place - bed_.low[axis]) / length : 0;
+        const auto number = static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * steps));
+        std::uint16_t& before = before_[3 * grain + axis];
+        const auto change = static_cast<std::int16_t>(static_cast<std::uint16_t>(number - before));
+        const auto zigzag = static_cast<std::uint16_t>((change << 1) ^ (change >> 15));
+        at[(2 * axis) * n + grain] = static_cast<std::uint8_t>(zigzag & 0xff);
+        at[(2 * axis + 1) * n + grain] = static_cast<std::uint8_t>(zigzag >> 8);
+        before = number;
+    }
+
+    // Of grains that push something.
+    void count_contacts(const std::vector<Touch>& touches, std::uint8_t* counts) const {
+        const auto count = [&](std::int32_t id) {
+            const auto found = slot_.find(id);
+            if (found != slot_.end() && counts[found->second] < most_contacts) ++counts[found->second];
+        };
+        for (const Touch& touch : touches) {
+            if (!(touch.force > 0)) continue;
+            count(touch.first);
+            count(touch.second);  // a wall's number is negative, and no grain has it
+        }
+    }
+
+    const FrameArchive& run_;
+    const bool contacts_;
+    bool boxed_ = false;
+    BedFrames bed_;
+    std::vector<Kept> kept_;  // by rising id
+    std::map<std::int32_t, std::size_t> slot_;
+    std::vector<std::uint8_t> bytes_;
+    std::vector<std::uint16_t> before_;  // places, three a grain
+};
+
+std::size_t most_grains_at_once(const FrameArchive& run) {
+    return std::min(kMostGrainsOnPage, run.first_whole().size());
+}
+
+}  // namespace
+
+std::uint8_t speed_byte(double speed, double lowest, double highest) {
+    if (!(speed >= lowest) || lowest <= 0) return 0;
+    const double share = std::log(speed / lowest) / std::log(highest / lowest);
+    return static_cast<std::uint8_t>(1 + std::lround(253 * std::clamp(share, 0.0, 1.0)));
+}
+
+BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes) {
+    const std::size_t all = run.moments().size();
+    const double a_moment =
+        usual_packed * static_cast<double>(std::max<std::size_t>(1, most_grains_at_once(run)));
+    auto wanted = static_cast<std::size_t>(
+        std::clamp(static_cast<double>(most_bytes) / a_moment, 1.0, static_cast<double>(all)));
+    BedWriter writer(run, contacts);
+    while (true) {
+        BedFrames bed = writer.write(spread(all, wanted));
+        if (bed.packed.size() <= most_bytes || wanted == 1) return bed;
+        const double fits = static_cast<double>(most_bytes) / static_cast<double>(bed.packed.size());
+        wanted =
+            std::max<std::size_t>(1, static_cast<std::size_t>(0.97 * fits * static_cast<double>(wanted)));
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,25 @@
+// Text and data inside HTML.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace grainreel {
+
+// Text as HTML shows it: no sign of it means anything, and control characters other than line ends and tabs
+// are replaced by U+FFFD.
+std::string html_text(std::string_view text);
+
+// JSON for a <script> element: as it is, with < written as \u003c, so that nothing in it can end the element.
+std::string json_in_html(std::string json);
+
+// A relative link to a file of that name: percent-encoded, never a scheme or a path.
+std::string file_link(std::string_view name);
+
+// The template with each {{name}} replaced by its text. What is put in is not looked at again. A check fails
+// for a name that has no text.
+std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& texts);
+
+}  // namespace grainreel

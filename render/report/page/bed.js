@@ -1,0 +1,291 @@
+// The bed beside its controls: what colours mean, who is shown, a slice, and the grain that was chosen.
+class BedPanel {
+    constructor(facts, bytes, runTime) {
+        this.frames = new BedFrames(facts, bytes);
+        this.facts = facts;
+        this.runTime = runTime;
+        this.canvas = document.getElementById("bed");
+        const camera = new Camera(facts.view, facts.box);
+        this.viewer = new Viewer(this.canvas, this.frames, new Walls(facts.slabs, facts.box), camera);
+        this.shown = facts.species.map((species) => (species.hidden ? 0 : species.ghost ? 128 : 255));
+        this.fillColours();
+        this.fillSpecies();
+        this.bindSlice();
+        this.bindChoice();
+        new Handling(this);
+        this.canvas.hidden = document.getElementById("bed-controls").hidden = false;
+        this.showTime(runTime.now);
+        runTime.listen((time) => this.showTime(time));
+        new ResizeObserver(() => this.viewer.change()).observe(this.canvas);
+        for (const query of ["(prefers-color-scheme: dark)", "print"])
+            matchMedia(query).addEventListener("change", () => this.viewer.draw());
+        addEventListener("beforeprint", () => this.viewer.draw());
+    }
+
+    showTime(time) {
+        this.viewer.frame = this.frames.indexAt(time);
+        const shown = this.frames.times[this.viewer.frame];
+        document.getElementById("bed-says").textContent =
+            `Moment ${this.viewer.frame + 1} of ${this.frames.times.length}, ${shown.toFixed(3)} s of the run.`;
+        this.tellChosen();
+        this.viewer.change();
+    }
+
+    // ---- Colours ----
+
+    fillColours() {
+        const select = document.getElementById("colour-by"), facts = this.facts;
+        const heights = this.viewer.startHeights();
+        const lowest = heights.reduce((a, b) => Math.min(a, b)), highest = heights.reduce((a, b) => Math.max(a, b));
+        const rise = this.largestRise();
+        const speeds = this.usualSpeeds();
+        this.colourings = [
+            {name: "species", by: 0},
+            {name: "speed (logarithmic)", by: 1, range: speeds.shares, ends: speeds.ends, unit: "m/s", ramp: "sequential"},
+            {name: "height at start", by: 2, range: [lowest, highest], unit: "m", ramp: "sequential"},
+            {name: "rise since the moment before", by: 3, range: [-rise, rise], unit: "m", ramp: "diverging"},
+        ];
+        if (facts.contacts)
+            this.colourings.push({name: "contact number", by: 4, range: [0, 8], unit: "", ramp: "sequential"});
+        this.colourings.forEach((one, index) => select.append(element("option", {value: index}, one.name)));
+        select.addEventListener("change", () => this.colour(Number(select.value)));
+        this.colour(0);
+    }
+
+    // Shares of the logarithmic scale, and the speeds in m/s, between which nearly all grains are.
+    usualSpeeds() {
+        const {packed, speed} = this.frames, bytes = [];
+        const stride = 4 * Math.max(1, Math.floor(packed.length / 4 / 20000));
+        for (let at = 3; at < packed.length; at += stride)
+            if (packed[at] !== 0xffff) bytes.push(Math.max(1, packed[at] & 0xff));
+        bytes.sort((a, b) => a - b);
+        const at = (share) => (bytes[Math.floor(share * (bytes.length - 1))] - 1) / 253;
+        const low = at(0.02), high = Math.max(low + 0.05, at(0.995));
+        const speedOf = (share) => speed.lowest * Math.pow(speed.highest / speed.lowest, share);
+        return {shares: [low, high], ends: [speedOf(low), speedOf(high)]};
+    }
+
+    // m, of nine in ten grains, so that a few that fly do not make all others grey.
+    largestRise() {
+        const frames = this.frames, rises = [];
+        const stride = Math.max(1, Math.floor((frames.grains * frames.times.length) / 20000));
+        for (let at = 0; at < frames.grains * (frames.times.length - 1); at += stride) {
+            const frame = 1 + Math.floor(at / frames.grains), grain = at % frames.grains;
+            if (frames.isPresent(frame, grain) && frames.isPresent(frame - 1, grain))
+                rises.push(Math.abs(frames.place(frame, grain)[2] - frames.place(frame - 1, grain)[2]));
+        }
+        rises.sort((a, b) => a - b);
+        return rises[Math.floor(0.9 * rises.length)] || 1e-6;
+    }
+
+    colour(index) {
+        const one = this.colourings[index], legend = document.getElementById("legend");
+        this.viewer.colourBy = one.by;
+        this.viewer.range = one.range ?? [0, 1];
+        legend.hidden = one.by === 0;
+        if (one.by > 0) {
+            const ramp = this.facts.ramps[one.ramp];
+            this.viewer.setRamp(new Uint8Array(ramp.flatMap((colour) => [...bytesOfColour(colour), 255])));
+            const [low, high] = one.ends ?? one.range;
+            document.getElementById("legend-low").textContent = `${numberText(low)} ${one.unit}`;
+            document.getElementById("legend-high").textContent = `${numberText(high)} ${one.unit}`;
+            document.getElementById("legend-bar").style.background = `linear-gradient(to right, ${ramp.join(",")})`;
+        }
+        this.viewer.change();
+    }
+
+    // ---- Who is shown ----
+
+    fillSpecies() {
+        const list = document.getElementById("species");
+        this.facts.species.forEach((species, index) => {
+            const select = element("select", {id: `species-${index}`});
+            for (const [value, words] of [[255, "shown"], [128, "ghost"], [0, "hidden"]])
+                select.append(element("option", {value, selected: this.shown[index] === value}, words));
+            select.addEventListener("change", () => {
+                this.shown[index] = Number(select.value);
+                this.updateSpecies();
+            });
+            const mark = element("span", {className: "swatch"});
+            mark.style.background = species.colour;
+            list.append(element("label", {for: select.id}, mark, species.name, " ", select));
+        });
+        this.updateSpecies();
+    }
+
+    updateSpecies() {
+        const colours = this.facts.species.flatMap((species, index) => [...bytesOfColour(species.colour), this.shown[index]]);
+        this.viewer.setSpecies(new Uint8Array(colours));
+        this.viewer.change();
+    }
+
+    // ---- A slice: what lies before a plane is taken away ----
+
+    bindSlice() {
+        const select = document.getElementById("slice"), slider = document.getElementById("slice-at");
+        const update = () => {
+            const axis = ["x", "y", "z"].indexOf(select.value);
+            slider.disabled = axis < 0;
+            const normal = [0, 0, 0];
+            let distance = 1; // nothing lies beyond it: 0 > 1 is false everywhere
+            if (axis >= 0) {
+                const share = Number(slider.value) / 1000, {low, high} = this.facts.box;
+                normal[axis] = 1;
+                distance = low[axis] + share * (high[axis] - low[axis]);
+                slider.setAttribute("aria-valuetext", `${numberText(1000 * distance)} mm`);
+            }
+            this.viewer.slice = [...normal, distance];
+            this.viewer.change();
+        };
+        select.addEventListener("change", update);
+        slider.addEventListener("input", update);
+        update();
+    }
+
+    // ---- The chosen grain ----
+
+    bindChoice() {
+        this.input = document.getElementById("grain-id");
+        document.getElementById("choose").addEventListener("submit", (event) => {
+            event.preventDefault();
+            this.choose(this.frames.ids.indexOf(Number(this.input.value)));
+        });
+        this.follow = document.getElementById("follow");
+        this.follow.addEventListener("change", () => this.showTime(this.runTime.now));
+        document.getElementById("reset-view").addEventListener("click", () => {
+            this.follow.checked = false;
+            this.viewer.camera.reset();
+            this.viewer.change();
+        });
+    }
+
+    /** grain: its index, or -1 for none. */
+    choose(grain) {
+        this.viewer.chosen = grain;
+        if (grain >= 0) this.input.value = this.frames.ids[grain];
+        this.tellChosen();
+        this.viewer.change();
+    }
+
+    tellChosen() {
+        const words = document.getElementById("grain-says"), {viewer, frames} = this;
+        const grain = viewer.chosen, frame = viewer.frame;
+        viewer.path = [];
+        if (grain < 0) {
+            words.textContent = "No grain is chosen: click one, or give its id.";
+            return;
+        }
+        const name = `Grain ${frames.ids[grain]}, ${this.facts.species[frames.species[grain]].name}`;
+        if (!frames.isPresent(frame, grain)) {
+            words.textContent = `${name}: not in the container at this moment.`;
+            return;
+        }
+        viewer.path = frames.pathUntil(frame, grain);
+        const place = frames.place(frame, grain);
+        const inMm = place.map((value) => (1000 * value).toFixed(2)).join(", ");
+        const speed = frames.speedAt(frame, grain);
+        const parts = [
+            `diameter ${numberText(2000 * frames.radii[grain])} mm`,
+            `at (${inMm}) mm`,
+            speed > 0 ? `speed ${speed.toPrecision(2)} m/s` : `speed below ${numberText(this.facts.speed.lowest)} m/s`,
+        ];
+        if (this.facts.contacts) parts.push(`${frames.contactsAt(frame, grain)} contacts`);
+        parts.push(`way so far at least ${numberText(1000 * lengthOf(viewer.path))} mm`);
+        words.textContent = `${name}: ${parts.join(", ")}.`;
+        if (this.follow.checked) viewer.camera.target = place;
+    }
+}
+
+/** m along a path's straight pieces; a lower bound of the way, which the places lie on. */
+function lengthOf(path) {
+    let length = 0;
+    for (let k = 1; k < path.length; ++k)
+        if (path[k - 1] && path[k])
+            length += Math.hypot(...path[k].map((value, axis) => value - path[k - 1][axis]));
+    return length;
+}
+
+/** Turning, zooming and choosing, by mouse, finger and keys. */
+class Handling {
+    constructor(panel) {
+        this.panel = panel;
+        this.viewer = panel.viewer;
+        this.pointers = new Map();
+        this.moved = 0;
+        const canvas = panel.canvas;
+        canvas.addEventListener("pointerdown", (event) => this.down(event));
+        canvas.addEventListener("pointermove", (event) => this.move(event));
+        for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => this.up(event));
+        canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+        canvas.addEventListener("keydown", (event) => this.key(event));
+        canvas.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
+    }
+
+    down(event) {
+        this.panel.canvas.focus({preventScroll: true});
+        this.panel.canvas.setPointerCapture(event.pointerId);
+        if (!this.pointers.size) this.moved = 0;
+        this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    }
+
+    move(event) {
+        const pointer = this.pointers.get(event.pointerId);
+        if (!pointer) return;
+        const dx = event.clientX - pointer.x, dy = event.clientY - pointer.y;
+        const height = this.panel.canvas.clientHeight, camera = this.viewer.camera;
+        this.moved += Math.abs(dx) + Math.abs(dy);
+        if (this.pointers.size === 2) {
+            const [other] = [...this.pointers].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
+            const before = Math.hypot(pointer.x - other.x, pointer.y - other.y);
+            const now = Math.hypot(event.clientX - other.x, event.clientY - other.y);
+            if (before > 0 && now > 0) camera.zoom(now / before);
+            camera.pan(dx / height / 2, -dy / height / 2);
+        } else if (event.shiftKey || event.buttons & 6) {
+            camera.pan(dx / height, -dy / height);
+        } else {
+            camera.orbit((180 * dx) / height, (180 * dy) / height);
+        }
+        pointer.x = event.clientX;
+        pointer.y = event.clientY;
+        this.viewer.change();
+    }
+
+    up(event) {
+        const alone = this.pointers.size === 1;
+        this.pointers.delete(event.pointerId);
+        const mostForClick = 5; // pixels
+        if (event.type !== "pointerup" || !alone || this.moved > mostForClick || event.button !== 0) return;
+        const box = this.panel.canvas.getBoundingClientRect();
+        this.panel.choose(this.viewer.pick(event.clientX - box.left, event.clientY - box.top));
+    }
+
+    // The page scrolls unless the bed was clicked before.
+    wheel(event) {
+        if (document.activeElement !== this.panel.canvas) return;
+        event.preventDefault();
+        this.viewer.camera.zoom(Math.exp(-0.001 * event.deltaY));
+        this.viewer.change();
+    }
+
+    key(event) {
+        const camera = this.viewer.camera, step = 5; // degrees
+        const acts = {
+            ArrowLeft: () => camera.orbit(-step, 0),
+            ArrowRight: () => camera.orbit(step, 0),
+            ArrowUp: () => camera.orbit(0, step),
+            ArrowDown: () => camera.orbit(0, -step),
+            "+": () => camera.zoom(1.15),
+            "-": () => camera.zoom(1 / 1.15),
+            Home: () => camera.reset(),
+            Escape: () => this.panel.choose(-1),
+        };
+        if (!acts[event.key]) return;
+        event.preventDefault();
+        acts[event.key]();
+        this.viewer.change();
+    }
+}
+
+function bytesOfColour(colour) {
+    return partsOf(colour).map((part) => Math.round(255 * part));
+}

@@ -1,0 +1,84 @@
+// The bed's moments, unpacked: what the page carries of the trajectory.
+//
+// The bytes are, for N grains and K moments, little-endian:
+//   ids, N int32; species, N uint16; radii in m, N float32;
+//   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the moment
+//   before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence.
+// Where a grain is not present all of it is 0. A place is low + number (high - low) / 65535 along each axis.
+class BedFrames {
+    constructor(facts, bytes) {
+        Object.assign(this, facts); // grains, times, low, high, places, speed, ...
+        const n = this.grains, k = this.times.length;
+        const perGrain = 9;
+        if (bytes.length !== 10 * n + k * n * perGrain)
+            throw new Error(`there are ${bytes.length} bytes of them in place of ${10 * n + k * n * perGrain}`);
+        const view = new DataView(bytes.buffer, bytes.byteOffset);
+        this.ids = Int32Array.from({length: n}, (_, i) => view.getInt32(4 * i, true));
+        this.species = Uint16Array.from({length: n}, (_, i) => view.getUint16(4 * n + 2 * i, true));
+        this.radii = Float32Array.from({length: n}, (_, i) => view.getFloat32(6 * n + 4 * i, true));
+        // As the graphics card reads it: x, y, z; speed and contact number, or 255 twice for a grain that is not
+        // there.
+        this.packed = new Uint16Array(4 * n * k);
+        this.unpack(bytes.subarray(10 * n), perGrain * n);
+    }
+
+    unpack(bytes, size) {
+        const n = this.grains, packed = this.packed;
+        const last = [new Uint16Array(n), new Uint16Array(n), new Uint16Array(n)];
+        for (let frame = 0; frame < this.times.length; ++frame) {
+            const from = frame * size, into = frame * 4 * n;
+            for (let axis = 0; axis < 3; ++axis) {
+                const low = from + 2 * axis * n, high = low + n, before = last[axis];
+                for (let i = 0; i < n; ++i) {
+                    const zigzag = bytes[low + i] | (bytes[high + i] << 8);
+                    before[i] += (zigzag >> 1) ^ -(zigzag & 1);
+                    packed[into + 4 * i + axis] = before[i];
+                }
+            }
+            const speed = from + 6 * n, contacts = speed + n, present = contacts + n;
+            for (let i = 0; i < n; ++i)
+                packed[into + 4 * i + 3] = bytes[present + i] ? bytes[speed + i] | (bytes[contacts + i] << 8) : 0xffff;
+        }
+    }
+
+    isPresent(frame, grain) {
+        return this.packed[4 * (frame * this.grains + grain) + 3] !== 0xffff;
+    }
+
+    /** m. */
+    place(frame, grain) {
+        const at = 4 * (frame * this.grains + grain);
+        return [0, 1, 2].map(
+            (axis) => this.low[axis] + (this.packed[at + axis] * (this.high[axis] - this.low[axis])) / 65535,
+        );
+    }
+
+    /** m/s. A byte b from 1 on stands for lowest (highest / lowest)^((b - 1) / 253); 0 for less than lowest. */
+    speedAt(frame, grain) {
+        const byte = this.packed[4 * (frame * this.grains + grain) + 3] & 0xff;
+        const {lowest, highest} = this.speed;
+        return byte === 0 ? 0 : lowest * Math.pow(highest / lowest, (byte - 1) / 253);
+    }
+
+    contactsAt(frame, grain) {
+        return this.packed[4 * (frame * this.grains + grain) + 3] >> 8;
+    }
+
+    /**
+     * Where the grain was, from the first moment to `frame`; m. null where it was not there, and between two places
+     * where it left a periodic container on one side and came in on the other.
+     */
+    pathUntil(frame, grain) {
+        const path = [];
+        for (let k = 0; k <= frame; ++k) {
+            const now = this.isPresent(k, grain) ? this.place(k, grain) : null, before = path[path.length - 1];
+            if (now && before && this.period > 0 && Math.abs(now[0] - before[0]) > this.period / 2) path.push(null);
+            path.push(now);
+        }
+        return path;
+    }
+
+    indexAt(time) {
+        return nearestIndex(this.times, time);
+    }
+}

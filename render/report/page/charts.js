@@ -1,0 +1,206 @@
+// Charts of the measures against the run's time, drawn by uPlot. Pressing and dragging in one moves the time;
+// the wheel and the buttons zoom in time, for all charts together.
+
+function colourOf(name) {
+    return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+const chartHeight = 200; // CSS pixels, axes and all
+
+class Charts {
+    /**
+     * measures: {columns: [{name, label, unit}], values: [[...]]}, the first column being the time.
+     * shown: names of the columns that have a chart at first.
+     */
+    constructor(measures, shown, runTime) {
+        this.runTime = runTime;
+        this.place = document.getElementById("charts");
+        this.plots = new Map(); // by the column's name
+        this.range = null; // of time, s; null for all
+        this.take(measures);
+        for (const name of shown) this.add(name);
+        this.fillChooser();
+        for (const [id, factor] of [["zoom-in", 0.5], ["zoom-out", 2]])
+            document.getElementById(id).addEventListener("click", () => this.zoom(factor, runTime.now));
+        document.getElementById("zoom-all").addEventListener("click", () => this.setRange(null));
+        runTime.listen(() => this.redraw());
+        new ResizeObserver(() => this.resize()).observe(this.place);
+        addEventListener("beforeprint", () => this.redraw());
+        for (const query of ["(prefers-color-scheme: dark)", "print"])
+            matchMedia(query).addEventListener("change", () => this.redraw());
+    }
+
+    /** Takes other values, of more columns or more rows. */
+    take(measures) {
+        this.measures = measures;
+        this.byName = new Map(measures.columns.map((column, index) => [column.name, index]));
+        for (const [name, plot] of this.plots) plot.setData(this.dataOf(name));
+    }
+
+    dataOf(name) {
+        return [this.measures.values[0], this.measures.values[this.byName.get(name)]];
+    }
+
+    fillChooser() {
+        const chooser = document.getElementById("more-charts");
+        chooser.replaceChildren(element("option", {value: ""}, "Add a chart…"));
+        for (const column of this.measures.columns.slice(1))
+            if (!this.plots.has(column.name))
+                chooser.append(element("option", {value: column.name}, titleOf(column)));
+        chooser.onchange = () => {
+            if (chooser.value) this.add(chooser.value);
+            this.fillChooser();
+        };
+    }
+
+    add(name) {
+        const column = this.measures.columns[this.byName.get(name)];
+        if (!column) return;
+        const frame = element("figure", {className: "chart"});
+        const summary = this.summaryOf(column);
+        const words = element("figcaption", {}, titleOf(column));
+        const remove = element("button", {type: "button", title: "Remove this chart"}, "×");
+        remove.setAttribute("aria-label", `Remove the chart of ${column.label}`);
+        words.append(remove);
+        const canvas = element("div", {role: "img", "aria-label": summary});
+        frame.append(words, canvas);
+        this.place.append(frame);
+        const plot = new uPlot(this.optionsOf(column, canvas), this.dataOf(name), canvas);
+        this.plots.set(name, plot);
+        this.scrubIn(plot);
+        remove.addEventListener("click", () => {
+            plot.destroy();
+            frame.remove();
+            this.plots.delete(name);
+            this.fillChooser();
+        });
+        if (this.range) plot.setScale("x", this.range);
+        this.resize(); // one more chart may leave the others less room
+    }
+
+    // What the chart shows, for those who do not see it.
+    summaryOf(column) {
+        const values = this.dataOf(column.name)[1].filter((value) => value !== null);
+        if (!values.length) return `${titleOf(column)} against time: no value.`;
+        let low = values[0], high = values[0];
+        for (const value of values) {
+            low = Math.min(low, value);
+            high = Math.max(high, value);
+        }
+        return (
+            `${titleOf(column)} against time: at first ${numberText(values[0])}, at the end ` +
+            `${numberText(values[values.length - 1])}, between ${numberText(low)} and ${numberText(high)}.`
+        );
+    }
+
+    optionsOf(column, canvas) {
+        const ink = () => colourOf("--ink"), line = () => colourOf("--line");
+        const axis = {stroke: ink, grid: {stroke: line, width: 1}, ticks: {stroke: line, width: 1}};
+        const value = (plot, number) => (number === null || number === undefined ? "–" : numberText(number));
+        return {
+            width: canvas.clientWidth || 300,
+            height: chartHeight,
+            cursor: {sync: {key: "run"}, drag: {x: false, y: false, setScale: false}},
+            scales: {x: {time: false}},
+            axes: [
+                {...axis, size: 40, label: "time of the run (s)", labelSize: 18},
+                {...axis, size: 62, values: (plot, ticks) => ticks.map(numberText)},
+            ],
+            series: [
+                {label: "time (s)", value},
+                {label: "value", value, stroke: () => colourOf("--accent"), width: 1.5, points: {show: false}},
+            ],
+            hooks: {draw: [(plot) => this.drawNow(plot)]},
+        };
+    }
+
+    // A line at the moment that film and bed show.
+    drawNow(plot) {
+        const x = plot.valToPos(this.runTime.now, "x", true);
+        const {left, top, width, height} = plot.bbox;
+        if (x < left || x > left + width) return;
+        plot.ctx.save();
+        plot.ctx.strokeStyle = colourOf("--now");
+        plot.ctx.lineWidth = 2 * devicePixelRatio;
+        plot.ctx.beginPath();
+        plot.ctx.moveTo(x, top);
+        plot.ctx.lineTo(x, top + height);
+        plot.ctx.stroke();
+        plot.ctx.restore();
+    }
+
+    scrubIn(plot) {
+        const over = plot.over;
+        const move = (event) => {
+            const x = event.clientX - over.getBoundingClientRect().left;
+            this.runTime.set(plot.posToVal(x, "x"), "chart");
+        };
+        over.addEventListener("pointerdown", (event) => {
+            over.setPointerCapture(event.pointerId);
+            move(event);
+        });
+        over.addEventListener("pointermove", (event) => {
+            if (over.hasPointerCapture(event.pointerId)) move(event);
+        });
+        over.addEventListener(
+            "wheel",
+            (event) => {
+                if (!event.ctrlKey && !event.shiftKey) return; // the page scrolls
+                event.preventDefault();
+                const x = event.clientX - over.getBoundingClientRect().left;
+                this.zoom((event.deltaY || event.deltaX) > 0 ? 1.25 : 0.8, plot.posToVal(x, "x"));
+            },
+            {passive: false},
+        );
+    }
+
+    /** Makes the range of time so many times as long, about a time. */
+    zoom(factor, about) {
+        const {begin, end} = this.runTime;
+        const {min, max} = this.range ?? {min: begin, max: end};
+        const length = Math.min(end - begin, (max - min) * factor);
+        const share = Math.min(1, Math.max(0, (about - min) / (max - min)));
+        const from = Math.min(end - length, Math.max(begin, about - share * length));
+        this.setRange(length >= end - begin ? null : {min: from, max: from + length});
+    }
+
+    setRange(range) {
+        this.range = range;
+        for (const plot of this.plots.values())
+            plot.setScale("x", range ?? {min: this.runTime.begin, max: this.runTime.end});
+    }
+
+    redraw() {
+        for (const plot of this.plots.values()) plot.redraw(false);
+    }
+
+    resize() {
+        for (const plot of this.plots.values()) {
+            const width = plot.root.parentElement.clientWidth;
+            if (width > 0 && width !== plot.width) plot.setSize({width, height: chartHeight});
+        }
+    }
+}
+
+function titleOf(column) {
+    return column.unit ? `${column.label} (${column.unit})` : column.label;
+}
+
+/** The rows of measures.csv, column by column, time first; null for what has no value. facts: of its columns. */
+function readTable(text, facts) {
+    const lines = text.trimEnd().split("\n");
+    const names = lines[0].split(",");
+    const known = new Map(facts.map((column) => [column.name, column]));
+    const time = names.indexOf("time_s");
+    const order = [time, ...names.keys()].filter((index, at) => at === 0 || index !== time);
+    const values = order.map(() => []);
+    for (const line of lines.slice(1)) {
+        const cells = line.split(",");
+        order.forEach((index, at) => {
+            const number = Number(cells[index]);
+            values[at].push(cells[index] !== "" && Number.isFinite(number) ? number : null);
+        });
+    }
+    const columns = order.map((index) => known.get(names[index]) ?? {name: names[index], label: names[index], unit: ""});
+    return {columns, values};
+}

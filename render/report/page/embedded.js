@@ -1,0 +1,56 @@
+// What the page carries inside itself: facts as JSON, and blobs as base64 in elements that come last.
+
+/** The JSON of the element `id`; null without one. */
+function factsOf(id) {
+    const element = document.getElementById(id);
+    return element ? JSON.parse(element.textContent) : null;
+}
+
+/** The bytes of the blob `id`; null without one. */
+function bytesOf(id) {
+    const element = document.getElementById(id);
+    if (!element) return null;
+    const text = atob(element.textContent.trim());
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+    element.remove();
+    return bytes;
+}
+
+/** A promise of the bytes that zlib has packed. Fails where the browser cannot unpack or they are damaged. */
+async function inflated(bytes) {
+    if (typeof DecompressionStream === "undefined")
+        throw new Error("this browser cannot unpack them (no DecompressionStream)");
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** A number for people: four digits, no exponent where none is needed. */
+function numberText(value) {
+    if (value === null || !Number.isFinite(value)) return "–";
+    const size = Math.abs(value);
+    if (value !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(3);
+    return String(Number(value.toPrecision(4)));
+}
+
+/** The index of the entry of `times`, which rise, that is nearest to `time`. */
+function nearestIndex(times, time) {
+    let low = 0, high = times.length - 1;
+    while (low < high) {
+        const middle = (low + high) >> 1;
+        if (times[middle] < time) low = middle + 1;
+        else high = middle;
+    }
+    return low > 0 && time - times[low - 1] < times[low] - time ? low - 1 : low;
+}
+
+/** An element with properties, styles in `style` and children. Text never becomes markup. */
+function element(name, properties = {}, ...children) {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(properties)) {
+        if (key.startsWith("aria-") || key === "role" || key === "for") made.setAttribute(key, value);
+        else made[key] = value;
+    }
+    made.append(...children);
+    return made;
+}

@@ -1,0 +1,81 @@
+// The film, from the page's own bytes, tied to the run's time by a table of frames.
+class FilmPanel {
+    /** film: facts {rate, type, times}; times[k] is the run's time, s, that frame k shows, or times is empty. */
+    constructor(film, bytes, runTime, bar) {
+        this.film = film;
+        this.runTime = runTime;
+        this.video = document.getElementById("film");
+        this.wanted = null; // a frame to seek while another seek goes on
+        this.follows = false; // the last seek came from chart, bed or bar
+        const blob = new Blob([bytes], {type: film.type});
+        this.video.src = URL.createObjectURL(blob);
+        this.tied = film.times.length > 0;
+        this.video.addEventListener("play", () => {
+            this.follows = false;
+            bar.setPlaying(true);
+        });
+        this.video.addEventListener("pause", () => bar.setPlaying(false));
+        this.video.addEventListener("seeked", () => this.seekWanted());
+        this.video.addEventListener("seeking", () => this.noteSeek());
+        this.video.addEventListener("error", () => this.say("This browser cannot play the film."));
+        bar.player = {play: () => this.play(), pause: () => this.video.pause()};
+        if (!this.tied) return;
+        this.watchFrames();
+        runTime.listen((time, source) => {
+            if (source !== this) this.seek(time);
+        });
+    }
+
+    play() {
+        this.video.play().catch((reason) => this.say(`The film does not play: ${reason.message}.`));
+    }
+
+    say(text) {
+        document.getElementById("film-says").textContent = text;
+    }
+
+    // Each frame as it is shown. Where the browser does not say, the film's clock does; it also has the last word when
+    // the film stops, for a browser in a hurry leaves out frames.
+    watchFrames() {
+        this.video.addEventListener("pause", () => this.shown(this.video.currentTime));
+        if (!this.video.requestVideoFrameCallback) {
+            this.video.addEventListener("timeupdate", () => this.shown(this.video.currentTime));
+            return;
+        }
+        const next = (now, frame) => {
+            this.shown(frame.mediaTime);
+            this.video.requestVideoFrameCallback(next);
+        };
+        this.video.requestVideoFrameCallback(next);
+    }
+
+    shown(seconds) {
+        const frame = Math.min(this.film.times.length - 1, Math.floor(seconds * this.film.rate + 0.01));
+        this.frame = frame;
+        const of = this.film.times.length;
+        this.say(`Frame ${frame + 1} of ${of}, ${this.film.times[frame].toFixed(3)} s of the run.`);
+        if (!this.follows) this.runTime.set(this.film.times[frame], this);
+    }
+
+    /** To the frame that is nearest to the run's time. */
+    seek(time) {
+        this.video.pause();
+        this.wanted = nearestIndex(this.film.times, time);
+        if (!this.video.seeking) this.seekWanted();
+    }
+
+    seekWanted() {
+        if (this.wanted === null) return;
+        const seconds = (this.wanted + 0.5) / this.film.rate;
+        this.wanted = null;
+        this.follows = true;
+        this.ownSeek = seconds;
+        this.video.currentTime = seconds;
+    }
+
+    // A seek by the film's own buttons moves the run's time.
+    noteSeek() {
+        if (this.ownSeek !== undefined && Math.abs(this.video.currentTime - this.ownSeek) < 1e-3) return;
+        this.follows = false;
+    }
+}

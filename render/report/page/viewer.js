@@ -1,0 +1,279 @@
+// The bed in three dimensions, by WebGL 2: a call for all grains, one for the faces of walls, one for lines. All
+// moments lie on the graphics card; to show another one sends nothing but the walls' corners.
+class Viewer {
+    /** Throws an Error in words where the browser cannot. */
+    constructor(canvas, frames, walls, camera) {
+        this.canvas = canvas;
+        this.frames = frames;
+        this.walls = walls;
+        this.camera = camera;
+        this.gl = canvas.getContext("webgl2", {alpha: false, antialias: true, preserveDrawingBuffer: false});
+        if (!this.gl) throw new Error("this browser has no WebGL 2, or it is switched off");
+        this.frame = 0;
+        this.chosen = -1;
+        this.colourBy = 0;
+        this.range = [0, 1];
+        this.slice = [0, 0, 0, 1];
+        this.path = []; // of the chosen grain, m
+        this.grains = makeProgram(this.gl, grainVertexShader, grainFragmentShader);
+        this.wall = makeProgram(this.gl, wallVertexShader, wallFragmentShader);
+        this.loadGrains();
+        this.loadWalls();
+        this.speciesTexture = this.gl.createTexture();
+        this.rampTexture = this.gl.createTexture();
+    }
+
+    loadGrains() {
+        const gl = this.gl, frames = this.frames;
+        this.grainArray = gl.createVertexArray();
+        gl.bindVertexArray(this.grainArray);
+        this.moments = gl.createBuffer();
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.moments);
+        gl.bufferData(gl.ARRAY_BUFFER, frames.packed, gl.STATIC_DRAW);
+        const perGrain = (location, values, pointer) => {
+            gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+            gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+            pointer(location);
+            gl.enableVertexAttribArray(location);
+            gl.vertexAttribDivisor(location, 1);
+        };
+        const floats = (location) => gl.vertexAttribPointer(location, 1, gl.FLOAT, false, 0, 0);
+        perGrain(3, this.startHeights(), floats);
+        perGrain(4, frames.radii, floats);
+        perGrain(5, frames.species, (location) => gl.vertexAttribIPointer(location, 1, gl.UNSIGNED_SHORT, 0, 0));
+        for (const location of [0, 1, 2]) {
+            gl.enableVertexAttribArray(location);
+            gl.vertexAttribDivisor(location, 1);
+        }
+    }
+
+    /** m, where each grain is in the first moment that has it. */
+    startHeights() {
+        const frames = this.frames, heights = new Float32Array(frames.grains);
+        for (let grain = 0; grain < frames.grains; ++grain) {
+            let frame = 0;
+            while (frame + 1 < frames.times.length && !frames.isPresent(frame, grain)) ++frame;
+            heights[grain] = frames.place(frame, grain)[2];
+        }
+        return heights;
+    }
+
+    loadWalls() {
+        const gl = this.gl;
+        this.wallArray = gl.createVertexArray();
+        gl.bindVertexArray(this.wallArray);
+        this.wallBuffer = gl.createBuffer();
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.wallBuffer);
+        for (const location of [0, 1]) {
+            gl.enableVertexAttribArray(location);
+            gl.vertexAttribPointer(location, 3, gl.FLOAT, false, 24, 12 * location);
+        }
+    }
+
+    /** rgba: four bytes a species; alpha 255 shown, 128 ghost, 0 hidden. */
+    setSpecies(rgba) {
+        this.texture(this.speciesTexture, rgba, this.gl.NEAREST);
+    }
+
+    /** rgba: four bytes a step of the ramp. */
+    setRamp(rgba) {
+        this.texture(this.rampTexture, rgba, this.gl.LINEAR);
+    }
+
+    texture(texture, rgba, filter) {
+        const gl = this.gl;
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, rgba.length / 4, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, rgba);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, filter);
+        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T])
+            gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+    }
+
+    /** Draws with the next picture of the screen. */
+    change() {
+        if (this.waiting) return;
+        this.waiting = true;
+        requestAnimationFrame(() => {
+            this.waiting = false;
+            this.draw();
+        });
+    }
+
+    fitCanvas() {
+        const scale = Math.min(2, devicePixelRatio || 1);
+        const width = Math.max(1, Math.round(this.canvas.clientWidth * scale));
+        const height = Math.max(1, Math.round(this.canvas.clientHeight * scale));
+        if (this.canvas.width !== width || this.canvas.height !== height) {
+            this.canvas.width = width;
+            this.canvas.height = height;
+        }
+        const aspect = width / height;
+        if (Math.abs(aspect - this.camera.aspect) > 1e-3) {
+            const zoom = this.camera.fitted / this.camera.distance;
+            this.camera.aspect = aspect;
+            this.camera.fit();
+            this.camera.zoom(zoom);
+        }
+    }
+
+    draw() {
+        const gl = this.gl;
+        if (gl.isContextLost()) return;
+        this.fitCanvas();
+        this.colours = wallColours();
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+        gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+        gl.clearColor(...this.colours.background, 1);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        gl.enable(gl.DEPTH_TEST);
+        this.drawGrains(false);
+        this.drawWalls();
+    }
+
+    drawGrains(picking) {
+        const gl = this.gl, frames = this.frames, program = this.grains;
+        const size = 8 * frames.grains, before = Math.max(0, this.frame - 1);
+        gl.useProgram(program.program);
+        gl.bindVertexArray(this.grainArray);
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.moments);
+        gl.vertexAttribIPointer(0, 3, gl.UNSIGNED_SHORT, 8, size * this.frame);
+        gl.vertexAttribIPointer(1, 2, gl.UNSIGNED_BYTE, 8, size * this.frame + 6);
+        gl.vertexAttribIPointer(2, 3, gl.UNSIGNED_SHORT, 8, size * before);
+        gl.uniform3fv(program.at("low"), frames.low);
+        gl.uniform3fv(program.at("size"), frames.high.map((high, axis) => high - frames.low[axis]));
+        gl.uniformMatrix4fv(program.at("view"), false, this.camera.view());
+        gl.uniformMatrix4fv(program.at("projection"), false, this.camera.projection());
+        gl.uniform1i(program.at("colourBy"), this.colourBy);
+        gl.uniform2fv(program.at("range"), this.range);
+        gl.uniform4fv(program.at("slice"), this.slice);
+        gl.uniform1i(program.at("chosen"), this.chosen);
+        gl.uniform3fv(program.at("mark"), (this.colours ?? wallColours()).mark);
+        gl.uniform1i(program.at("picking"), picking ? 1 : 0);
+        [this.speciesTexture, this.rampTexture].forEach((texture, unit) => {
+            gl.activeTexture(gl.TEXTURE0 + unit);
+            gl.bindTexture(gl.TEXTURE_2D, texture);
+        });
+        gl.uniform1i(program.at("speciesColours"), 0);
+        gl.uniform1i(program.at("ramp"), 1);
+        gl.activeTexture(gl.TEXTURE0);
+        if (!picking) gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frames.grains);
+        gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+    }
+
+    drawWalls() {
+        const gl = this.gl, program = this.wall, frames = this.frames;
+        const {data, faces, edges} = this.walls.vertices(
+            frames.times[this.frame], frames.bodies[this.frame], this.camera.eye(), this.colours);
+        const lines = [];
+        for (let i = 1; i < this.path.length; ++i)
+            if (this.path[i - 1] && this.path[i])
+                for (const point of [this.path[i - 1], this.path[i]]) lines.push(...point, ...this.colours.mark);
+        const all = new Float32Array(data.length + lines.length);
+        all.set(data);
+        all.set(lines, data.length);
+        gl.useProgram(program.program);
+        gl.bindVertexArray(this.wallArray);
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.wallBuffer);
+        gl.bufferData(gl.ARRAY_BUFFER, all, gl.DYNAMIC_DRAW);
+        gl.uniformMatrix4fv(program.at("view"), false, this.camera.view());
+        gl.uniformMatrix4fv(program.at("projection"), false, this.camera.projection());
+        gl.enable(gl.POLYGON_OFFSET_FILL);
+        gl.polygonOffset(1, 1);
+        gl.drawArrays(gl.TRIANGLES, 0, faces);
+        gl.disable(gl.POLYGON_OFFSET_FILL);
+        gl.drawArrays(gl.LINES, faces, edges + lines.length / 6);
+    }
+
+    /** The index of the grain at a pixel of the canvas, counted from its upper left in CSS pixels; -1 for none. */
+    pick(x, y) {
+        const gl = this.gl, width = this.canvas.width, height = this.canvas.height;
+        const column = Math.floor((x * width) / this.canvas.clientWidth);
+        const row = height - 1 - Math.floor((y * height) / this.canvas.clientHeight);
+        this.makeIds(width, height);
+        gl.bindFramebuffer(gl.FRAMEBUFFER, this.ids.framebuffer);
+        gl.viewport(0, 0, width, height);
+        gl.enable(gl.SCISSOR_TEST);
+        gl.scissor(column, row, 1, 1);
+        gl.clearColor(0, 0, 0, 0);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        gl.enable(gl.DEPTH_TEST);
+        this.drawGrains(true);
+        const pixel = new Uint8Array(4);
+        gl.readPixels(column, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+        gl.disable(gl.SCISSOR_TEST);
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+        return (pixel[0] | (pixel[1] << 8) | (pixel[2] << 16)) - 1;
+    }
+
+    // The picture of the grains' numbers, as large as the canvas.
+    makeIds(width, height) {
+        const gl = this.gl;
+        if (this.ids && this.ids.width === width && this.ids.height === height) return;
+        if (this.ids) for (const buffer of this.ids.buffers) gl.deleteRenderbuffer(buffer);
+        const framebuffer = this.ids?.framebuffer ?? gl.createFramebuffer();
+        gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+        const attach = (format, point) => {
+            const buffer = gl.createRenderbuffer();
+            gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+            gl.renderbufferStorage(gl.RENDERBUFFER, format, width, height);
+            gl.framebufferRenderbuffer(gl.FRAMEBUFFER, point, gl.RENDERBUFFER, buffer);
+            return buffer;
+        };
+        const buffers = [attach(gl.RGBA8, gl.COLOR_ATTACHMENT0), attach(gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT)];
+        this.ids = {framebuffer, buffers, width, height};
+    }
+
+    /** Where the middle of a grain is on the canvas, in CSS pixels from its upper left. */
+    pixelOf(grain) {
+        const place = [...this.frames.place(this.frame, grain), 1];
+        const times = (matrix, vector) =>
+            [0, 1, 2, 3].map((row) => vector.reduce((sum, value, column) => sum + matrix[4 * column + row] * value, 0));
+        const clip = times(this.camera.projection(), times(this.camera.view(), place));
+        return [
+            ((clip[0] / clip[3] + 1) / 2) * this.canvas.clientWidth,
+            ((1 - clip[1] / clip[3]) / 2) * this.canvas.clientHeight,
+        ];
+    }
+}
+
+function makeProgram(gl, vertex, fragment) {
+    const program = gl.createProgram();
+    for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+        const shader = gl.createShader(type);
+        gl.shaderSource(shader, text);
+        gl.compileShader(shader);
+        gl.attachShader(program, shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+        const logs = gl.getAttachedShaders(program).map((shader) => gl.getShaderInfoLog(shader) ?? "");
+        throw new Error(`the graphics card refused the drawing program: ${logs.join(" ").trim()}`);
+    }
+    const places = new Map();
+    const at = (name) => {
+        if (!places.has(name)) places.set(name, gl.getUniformLocation(program, name));
+        return places.get(name);
+    };
+    return {program, at};
+}
+
+/** Red, green and blue from 0 to 1 of "#rrggbb". */
+function partsOf(colour) {
+    return [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255);
+}
+
+function wallColours() {
+    const background = partsOf(colourOf("--bed")), solid = partsOf(colourOf("--wall")), ink = partsOf(colourOf("--ink"));
+    const mix = (a, b, share) => a.map((value, i) => value + share * (b[i] - value));
+    return {
+        background,
+        inner: mix(background, solid, 0.3),
+        outer: mix(background, solid, 0.7),
+        cut: solid,
+        pane: mix(background, solid, 0.1),
+        edge: mix(solid, ink, 0.6),
+        glass: mix(background, ink, 0.45),
+        mark: partsOf(colourOf("--mark")),
+    };
+}

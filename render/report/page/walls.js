@@ -1,0 +1,70 @@
+// Walls as the film has them: solid where the eye looks at their inner side, bare edges where they would stand
+// before the grains.
+//
+// A slab is {body, inner, outer, from, until}: a flat convex piece of wall, m, in the frame of its body. outer is
+// the other side of its thickness, corner by corner, or empty for a pane. It is there from one time (s) until
+// another, where it has them.
+const leastOfDisc = 12; // corners
+const firstPlaneBody = 2; // as in engine/state/body.hpp
+
+class Walls {
+    constructor(slabs, box) {
+        const middle = box.low.map((low, axis) => (low + box.high[axis]) / 2);
+        this.slabs = slabs.map((slab) => ({...slab, normal: outwardNormal(slab, middle)}));
+    }
+
+    /** Corners of triangles and then of lines, each [x, y, z, red, green, blue]; how many of each. */
+    vertices(time, places, eye, colours) {
+        const faces = [], edges = [];
+        for (const slab of this.slabs) {
+            if (time < (slab.from ?? -Infinity) || time >= (slab.until ?? Infinity)) continue;
+            const offset = places[slab.body] ?? [0, 0, 0];
+            const moved = (points) => points.map((point) => point.map((value, axis) => value + offset[axis]));
+            const inner = moved(slab.inner), outer = moved(slab.outer);
+            const toEye = eye.map((value, axis) => value - inner[0][axis]);
+            const solid = dot(toEye, slab.normal) < 0;
+            if (solid) addSolid(faces, slab, inner, outer, colours);
+            addEdges(edges, inner, outer, solid ? colours.edge : colours.glass, slab.seams);
+        }
+        return {data: new Float32Array([...faces, ...edges].flat()), faces: faces.length, edges: edges.length};
+    }
+}
+
+function outwardNormal(slab, middle) {
+    const [a, b, c] = slab.inner;
+    const along = b.map((value, axis) => value - a[axis]), other = c.map((value, axis) => value - a[axis]);
+    const normal = cross(along, other);
+    const away = slab.outer.length ? slab.outer[0].map((value, axis) => value - a[axis])
+                                   : a.map((value, axis) => value - middle[axis]);
+    return dot(normal, away) < 0 ? normal.map((value) => -value) : normal;
+}
+
+function addSolid(faces, slab, inner, outer, colours) {
+    const isPlane = slab.body >= firstPlaneBody;
+    fan(faces, inner, outer.length || isPlane ? colours.inner : colours.pane);
+    if (!outer.length) return;
+    fan(faces, outer, colours.outer);
+    for (let i = 0; i < inner.length; ++i) {
+        if (slab.seams?.includes(i)) continue;
+        const j = (i + 1) % inner.length;
+        fan(faces, [inner[i], inner[j], outer[j], outer[i]], colours.cut);
+    }
+}
+
+function fan(faces, points, colour) {
+    for (let i = 1; i + 1 < points.length; ++i)
+        for (const point of [points[0], points[i], points[i + 1]]) faces.push([...point, ...colour]);
+}
+
+// seams: numbers of the inner sides that are shared with the next piece of a round wall, and get no line. A disc has
+// rims, and no lines between its corners.
+function addEdges(edges, inner, outer, colour, seams = []) {
+    const line = (from, to) => edges.push([...from, ...colour], [...to, ...colour]);
+    for (let i = 0; i < inner.length; ++i) {
+        if (seams.includes(i)) continue;
+        const j = (i + 1) % inner.length;
+        line(inner[i], inner[j]);
+        if (outer.length) line(outer[i], outer[j]);
+        if (outer.length && !seams.length && inner.length < leastOfDisc) line(inner[i], outer[i]);
+    }
+}

@@ -1,0 +1,147 @@
+#include "render/report/page_facts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "render/draw/grains/colour_map.hpp"
+#include "render/report/slabs.hpp"
+
+namespace grainreel {
+namespace {
+
+using Json = nlohmann::json;
+
+Json of_vector(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+Json of_points(const std::vector<Vec3>& points) {
+    Json list = Json::array();
+    for (const Vec3& point : points) list.push_back(of_vector(point));
+    return list;
+}
+
+std::string of_colour(const Colour& colour) {
+    const auto byte = [](double part) {
+        return static_cast<int>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.red), byte(colour.green), byte(colour.blue));
+}
+
+// Six digits are more than a chart shows.
+double rounded(double value) {
+    return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+}
+
+Json ramp(ColourMap map) {
+    constexpr int steps = 64;
+    Json colours = Json::array();
+    for (int i = 0; i < steps; ++i) colours.push_back(of_colour(colour_of(map, i / (steps - 1.0))));
+    return colours;
+}
+
+Json slabs_json(const std::vector<Slab>& slabs) {
+    Json list = Json::array();
+    for (const Slab& slab : slabs) {
+        Json one = {{"body", slab.body}, {"inner", of_points(slab.inner)}, {"outer", of_points(slab.outer)}};
+        if (!slab.seams.empty()) one["seams"] = slab.seams;
+        if (slab.from) one["from"] = *slab.from;
+        if (slab.until) one["until"] = *slab.until;
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+bool holds(const std::vector<std::size_t>& list, std::size_t number) {
+    return std::find(list.begin(), list.end(), number) != list.end();
+}
+
+Json species_json(const Scene& scene) {
+    Json list = Json::array();
+    for (std::size_t k = 0; k < scene.species.size(); ++k)
+        list.push_back({{"name", scene.species[k].name},
+                        {"colour", of_colour(scene.species[k].colour)},
+                        {"hidden", holds(scene.film.shows.hidden, k)},
+                        {"ghost", holds(scene.film.shows.ghosts, k)}});
+    return list;
+}
+
+Json bed_json(const PageFacts& facts) {
+    const BedFrames& bed = facts.bed;
+    const Scene& scene = facts.scene;
+    const std::vector<Slab> slabs = slabs_of(scene);
+    const Extent box = box_of(slabs, scene);
+    Json times = Json::array(), bodies = Json::array();
+    for (const Frame& moment : bed.moments) {
+        times.push_back(moment.time);
+        Json places = Json::array();
+        for (const BodyPose& pose : moment.bodies) places.push_back(of_vector(pose.place));
+        bodies.push_back(std::move(places));
+    }
+    const Camera& camera = scene.film.camera;
+    constexpr double usual_field_of_view = 25;  // degrees, where the film has none (orthographic)
+    return {{"grains", bed.grains},
+            {"times", times},
+            {"low", of_vector(bed.low)},
+            {"high", of_vector(bed.high)},
+            {"speed", {{"lowest", bed.lowest_speed}, {"highest", bed.highest_speed}}},
+            {"contacts", bed.contacts},
+            {"period", scene.container.periodic_depth ? scene.container.depth : 0.0},
+            {"bodies", bodies},
+            {"slabs", slabs_json(slabs)},
+            {"box", {{"low", of_vector(box.low)}, {"high", of_vector(box.high)}}},
+            {"species", species_json(scene)},
+            {"view",
+             {{"azimuth", camera.azimuth},
+              {"elevation", camera.elevation},
+              {"fov", camera.field_of_view > 0 ? camera.field_of_view : usual_field_of_view}}},
+            {"ramps", {{"sequential", ramp(ColourMap::viridis)}, {"diverging", ramp(ColourMap::vik)}}}};
+}
+
+Json column_json(const PageColumn& column) {
+    return {{"name", column.name}, {"label", column.label}, {"unit", column.unit}};
+}
+
+// The columns that are charted at first, and the time before them.
+Json measures_json(const MeasureTable& table, const PageMeasures& measures) {
+    std::vector<std::size_t> shown = {measures.time};
+    shown.insert(shown.end(), measures.charted.begin(), measures.charted.end());
+    Json columns = Json::array(), values = Json::array();
+    for (const std::size_t column : shown) {
+        columns.push_back(column_json(measures.columns[column]));
+        const std::vector<double> all = table.values(column, 0, table.rows());
+        Json list = Json::array();
+        for (const std::size_t row : measures.rows)
+            list.push_back(std::isfinite(all[row]) ? Json(rounded(all[row])) : Json());
+        values.push_back(std::move(list));
+    }
+    return {{"columns", columns}, {"values", values}};
+}
+
+}  // namespace
+
+std::string facts_json(const PageFacts& facts) {
+    Json json = {{"begin", facts.span.from}, {"end", facts.span.to}, {"bed", bed_json(facts)}};
+    const Drive& drive = facts.scene.drive;
+    json["frequency"] = drive.present && !drive.changes() ? Json(drive.frequency) : Json();
+    json["film"] = facts.film.bytes.empty() ? Json()
+                                            : Json{{"type", facts.film.type},
+                                                   {"rate", facts.scene.film.rate},
+                                                   {"times", facts.film_times.times}};
+    json["charts"] = Json::array();
+    json["columns"] = Json::array();
+    json["measures"] = nullptr;
+    if (facts.table != nullptr && !facts.measures.rows.empty()) {
+        json["measures"] = measures_json(*facts.table, facts.measures);
+        for (const std::size_t column : facts.measures.charted)
+            json["charts"].push_back(facts.measures.columns[column].name);
+        for (const PageColumn& column : facts.measures.columns)
+            json["columns"].push_back(column_json(column));
+    }
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace grainreel

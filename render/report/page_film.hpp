@@ -1,0 +1,29 @@
+// The film and the picture that stands for it, as a page can hold them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+constexpr std::size_t kMostFilmOnPage = 6'000'000;  // bytes
+
+struct PageFilm {
+    std::vector<std::uint8_t> bytes;  // empty where the page has none
+    std::string type;                 // "video/mp4"
+    std::string file;                 // in the run's folder: "movie.mp4"; empty without a film
+    std::string note;  // a sentence for the page where it shows something else than that file, or nothing
+};
+
+// The run's own film where browsers play it and it is small enough; else a copy in H.264, of 720 lines at
+// most; none where that is too large too, or cannot be made. Writes nothing into the run's folder.
+PageFilm page_film(const Scene& scene, const std::filesystem::path& folder);
+
+// poster.png as a JPEG, 960 pixels wide at most. Empty without one, or where it cannot be read.
+std::vector<std::uint8_t> page_poster(const std::filesystem::path& folder);
+
+}  // namespace grainreel

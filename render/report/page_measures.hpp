@@ -1,0 +1,31 @@
+// The measures as the page has them: which columns have a chart at first, and their values.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/measure/measure_table.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+struct PageColumn {
+    std::string name;   // as in measures.csv
+    std::string label;  // in words
+    std::string unit;   // SI; empty for pure numbers
+};
+
+struct PageMeasures {
+    std::vector<PageColumn> columns;   // all of measures.csv, in its order
+    std::vector<std::size_t> charted;  // of them those with a chart at first
+    std::vector<std::size_t> rows;     // those that the page has at once, evenly spread
+    std::size_t time = 0;              // the column of time
+};
+
+constexpr std::size_t kMostRowsAtOnce = 2000;
+
+// The film's plots come first, then the measures that usually matter, as far as they have values that change.
+// Nothing is charted without a column of time.
+PageMeasures page_measures(const Scene& scene, const MeasureTable& table);
+
+}  // namespace grainreel

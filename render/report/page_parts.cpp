@@ -1,0 +1,210 @@
+#include "render/report/page_parts.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/scene_file.hpp"
+#include "render/report/embed/base64.hpp"
+#include "render/report/embed/html.hpp"
+#include "render/report/methods.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+constexpr std::size_t most_files = 60;            // that the page lists
+constexpr std::size_t most_scene_text = 200'000;  // bytes
+
+// A line without a name goes on with the one before.
+std::string list_html(const Lines& lines) {
+    std::string html = "<dl>\n";
+    for (const auto& [name, text] : lines) {
+        if (!name.empty()) html += fmt::format("<dt>{}</dt>", html_text(name));
+        html += fmt::format("<dd>{}</dd>\n", html_text(text));
+    }
+    return html + "</dl>\n";
+}
+
+std::string chapter(const char* title, const std::string& html) {
+    return fmt::format("<section><h2>{}</h2>\n{}</section>\n", title, html);
+}
+
+std::string copyable(const char* id, const char* label, const std::string& text, const char* style) {
+    return fmt::format(
+        "<h3>{0}</h3>\n<pre id=\"{1}\" class=\"{2}\" tabindex=\"0\" aria-label=\"{0}\">{3}</pre>\n"
+        "<p class=\"no-print\"><button type=\"button\" data-copies=\"{1}\">Copy</button></p>\n",
+        label, id, style, html_text(text));
+}
+
+std::string plan_html(const PlannedScene& planned) {
+    return "<p>What was asked for, what is modelled, and what is left out. The error is that of the "
+           "restitution in a "
+           "free impact, found by making the impact.</p>\n" +
+           list_html(planned.lines) +
+           fmt::format("<h3>Contacts</h3>\n<pre tabindex=\"0\" aria-label=\"Contacts\">{}</pre>\n",
+                       html_text(planned.contacts));
+}
+
+std::string provenance_html(const RunFacts& facts) {
+    std::string html = list_html(facts.lines);
+    if (facts.warnings.empty()) return html;
+    html += "<h3>Warnings of the run</h3>\n<ul>\n";
+    for (const std::string& warning : facts.warnings)
+        html += fmt::format("<li>{}</li>\n", html_text(warning));
+    return html + "</ul>\n";
+}
+
+std::string scene_html(const fs::path& folder) {
+    std::string text;
+    try {
+        text = load_scene_file(folder / "scene.toml");
+    } catch (const UserError&) {
+        return "";
+    }
+    if (text.size() > most_scene_text)
+        return chapter("Scene",
+                       "<p>The scene is too long for this page; it lies in <a href=\"./scene.toml\">"
+                       "scene.toml</a>.</p>\n");
+    return chapter("Scene",
+                   "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
+                   "again.</p>\n" +
+                       copyable("scene-text", "scene.toml", text, "plain"));
+}
+
+std::string files_html(const fs::path& folder, const std::string& page_name) {
+    Lines files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        std::error_code ignored;
+        if (name.front() == '.' || name == page_name || !entry->is_regular_file(ignored)) continue;
+        const std::uintmax_t size = entry->file_size(ignored);
+        if (!ignored) files.emplace_back(name, data_size_text(static_cast<double>(size)));
+    }
+    std::sort(files.begin(), files.end());
+    if (files.size() > most_files) files.resize(most_files);
+    std::string html = "<p>They open while the page lies in the run's folder.</p>\n<ul>\n";
+    for (const auto& [name, size] : files)
+        html += fmt::format("<li><a href=\"{}\">{}</a>, {}</li>\n", file_link(name), html_text(name), size);
+    return html + "</ul>\n";
+}
+
+const char* words_of(Container::Shape shape) {
+    switch (shape) {
+        case Container::Shape::wedge:
+            return "in a wedge hopper";
+        case Container::Shape::box:
+            return "in a box";
+        case Container::Shape::cylinder:
+            return "in a cylinder";
+        case Container::Shape::none:
+            break;
+    }
+    return "in empty space";
+}
+
+std::string drive_words(const Scene& scene) {
+    const Drive& drive = scene.drive;
+    if (!drive.present) return fmt::format("without a drive, for {:.4g} s", scene.run.duration);
+    const double gravity = scene.gravity.norm();
+    const std::string level =
+        gravity > 0 ? fmt::format(" with Γ = {:.3g}", drive.g_level(gravity)) : std::string();
+    return fmt::format("shaken at {:.4g} Hz{} (amplitude {:.3g} mm){} for {:.4g} s", drive.frequency, level,
+                       1000 * drive.amplitude, drive.changes() ? " and then otherwise," : "",
+                       scene.run.duration);
+}
+
+}  // namespace
+
+std::string lead_html(const Scene& scene, const RunFacts& facts) {
+    std::string species;
+    for (const Species& one : scene.species)
+        species += fmt::format("{}{} {}", species.empty() ? "" : " and ", one.all(), one.name);
+    std::string html = fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
+                                   words_of(scene.container.shape), drive_words(scene));
+    if (facts.status != "complete")
+        html += fmt::format(
+            "<p><strong>The run’s status is “{}”: what the page shows may not be all.</strong></p>\n",
+            html_text(facts.status));
+    return html;
+}
+
+std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
+                      const std::string& why_not_tied) {
+    const std::string picture =
+        poster.empty() ? "" : fmt::format("data:image/jpeg;base64,{}", base64(poster));
+    const char* about = "One picture of the run: grains in their container, with time and scale beside them";
+    std::string html;
+    if (!film.bytes.empty())
+        html = fmt::format(
+            "<video id=\"film\" controls muted playsinline aria-label=\"Film of the run\"{}></video>\n",
+            picture.empty() ? "" : fmt::format(" poster=\"{}\"", picture));
+    if (!picture.empty())
+        html += fmt::format("<img class=\"poster\" src=\"{}\" alt=\"{}\"{}>\n", picture, about,
+                            film.bytes.empty() ? "" : " hidden");
+    if (html.empty()) html = "<p>The run has no film and no poster.</p>\n";
+    for (const std::string& note : {film.note, film.bytes.empty() ? std::string() : why_not_tied})
+        if (!note.empty()) html += fmt::format("<p class=\"faint\">{}</p>\n", html_text(note));
+    if (!film.file.empty())
+        html += fmt::format("<p class=\"faint no-print\"><a href=\"{}\">{}</a> beside this page</p>\n",
+                            file_link(film.file), html_text(film.file));
+    return html;
+}
+
+std::string bed_about(const BedFrames& bed) {
+    const Vec3 error = 1e6 * bed.error();
+    std::string text = fmt::format(
+        "Places are rounded to 16 bits over the box that the grains reach: they are off by {:.2g} µm along "
+        "x, {:.2g} "
+        "µm along y and {:.2g} µm along z at most. Speeds are right to 2.3 % and come from the run, not from "
+        "differences of places. Nothing is interpolated between moments. ",
+        error.x(), error.y(), error.z());
+    if (bed.moments.size() == bed.all_moments)
+        text += fmt::format("These are all {} moments of trajectory.nc.", bed.all_moments);
+    else
+        text += fmt::format(
+            "Of the {} moments of trajectory.nc these are {}, evenly spread; the page has no room for "
+            "the others.",
+            bed.all_moments, bed.moments.size());
+    if (bed.grains < bed.all_grains)
+        text += fmt::format(
+            " Of {} grains it shows the {} that lay nearest to the middle of the depth when they were "
+            "first seen.",
+            bed.all_grains, bed.grains);
+    if (!bed.contacts)
+        text += " The run kept no contacts (output.contacts), so contact numbers are not known.";
+    return html_text(text);
+}
+
+std::string story_html(const Scene& scene) {
+    if (scene.film.captions.empty()) return "";
+    std::string html = "<ol>\n";
+    for (const FilmCaption& caption : scene.film.captions)
+        html += fmt::format(
+            "<li><button type=\"button\" class=\"no-print\" data-time=\"{:.9g}\">{:.4g} s</button> "
+            "{}</li>\n",
+            caption.from, caption.from, html_text(caption.text));
+    return chapter("What to look at", html + "</ol>\n");
+}
+
+std::string chapters_html(const Scene& scene, const RunFacts& facts,
+                          const std::optional<PlannedScene>& planned, const fs::path& folder,
+                          const std::string& page_name) {
+    std::string html = story_html(scene);
+    if (planned) {
+        html += chapter("What was computed", plan_html(*planned));
+        const Methods text = methods(scene, planned->plan, facts, planned->lines);
+        html += chapter("To cite", copyable("methods", "Methods", text.paragraph, "wraps") +
+                                       copyable("bibtex", "BibTeX", text.bibtex, "plain"));
+    }
+    html += chapter("Where it comes from", provenance_html(facts));
+    html += scene_html(folder);
+    return html + chapter("Files beside this page", files_html(folder, page_name));
+}
+
+}  // namespace grainreel

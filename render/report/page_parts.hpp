@@ -1,0 +1,34 @@
+// The parts of the page that are words: HTML, made of facts.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "render/report/bed_frames.hpp"
+#include "render/report/page_film.hpp"
+#include "render/report/report.hpp"
+#include "render/report/run_facts.hpp"
+
+namespace grainreel {
+
+// What the run is, in a sentence or two.
+std::string lead_html(const Scene& scene, const RunFacts& facts);
+
+// The film's element and what is to be said of it. poster: a JPEG, or nothing. why_not_tied: empty where the
+// film goes with charts and bed.
+std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
+                      const std::string& why_not_tied);
+
+// What the page has of the bed's moments, and how exactly.
+std::string bed_about(const BedFrames& bed);
+
+// The scene's captions, each a button that goes there; empty without any.
+std::string story_html(const Scene& scene);
+
+// The plan in words, contacts, methods and sources, provenance, scene and files.
+std::string chapters_html(const Scene& scene, const RunFacts& facts,
+                          const std::optional<PlannedScene>& planned, const std::filesystem::path& folder,
+                          const std::string& page_name);
+
+}  // namespace grainreel

@@ -1,0 +1,26 @@
+// What run.json says of a run, as far as it can be read.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grainreel {
+
+struct RunFacts {
+    std::string status;                                      // "complete"; "unknown" without the file
+    std::vector<std::pair<std::string, std::string>> lines;  // name and text of its provenance
+    std::string version, commit;                             // of the program that ran it
+    std::string finished;                                    // UTC, ISO 8601; or when it started
+    std::string state_hash;
+    std::optional<std::int64_t> film_frames;
+    std::vector<std::string> warnings;
+};
+
+// Whatever the file lacks or has in another form is left out: nothing of it is trusted.
+RunFacts run_facts(const std::filesystem::path& folder);
+
+}  // namespace grainreel

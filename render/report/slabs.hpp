@@ -1,0 +1,29 @@
+// The walls of a scene as flat pieces in space, for the page's view of the bed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/base/vector.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// A convex piece of wall, m, in the frame of its body at rest.
+struct Slab {
+    std::int32_t body = 0;        // engine/state/body.hpp
+    std::vector<Vec3> inner;      // corners of the side towards the grains, in order around it
+    std::vector<Vec3> outer;      // the other side of its thickness, corner by corner; empty for a pane
+    std::vector<int> seams = {};  // sides of `inner`, by their first corner, that go on in the next piece
+    std::optional<double> from, until;  // s, when it is there, where that changes
+};
+
+// Of container, floor and planes, as thick as the film draws them.
+std::vector<Slab> slabs_of(const Scene& scene);
+
+// What the slabs at rest take up; of a scene without any the box of what is looked at.
+Extent box_of(const std::vector<Slab>& slabs, const Scene& scene);
+
+}  // namespace grainreel

@@ -1,0 +1,308 @@
+#!/usr/bin/python3
+"""The page of `grainreel report` in Chromium.   report_test.py GRAINREEL FOLDER [AXE]
+
+Runs a small scene, makes its page and looks at it: nothing on the console, the film plays, charts, film and bed go
+together, a click finds the grain that is there, places are those of the trajectory, text never becomes markup, and
+without WebGL or DecompressionStream the page says so. FOLDER gets run, page and pictures of it. AXE: axe.min.js of
+axe-core, which looks for barriers to people with disabilities.
+"""
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import netCDF4
+import numpy
+
+from browser import Browser
+
+TITLE = "Fifty <b>grains</b> & \"</script><script>document.title='no'</script>"
+SCENE = """title = '''%s'''
+[[species]]
+name = "small"
+count = 40
+diameter = "4 mm"
+density = "2.5 g/cm3"
+colour = "sky-blue"
+[[species]]
+name = "big"
+count = 10
+diameter = "6 mm"
+density = "2.5 g/cm3"
+colour = "vermilion"
+[contact]
+restitution = 0.7
+friction = 0.4
+[container]
+shape = "box"
+width = "30 mm"
+depth = "20 mm"
+height = "40 mm"
+[drive]
+frequency = "20 Hz"
+g_level = 2
+[run]
+duration = "1 s"
+overlap = 0.05
+[output]
+trajectory_interval = "12.5 ms"
+contacts = true
+[film]
+size = "640x360"
+rate = 30
+[[film.caption]]
+from = "0.5 s"
+to = "0.8 s"
+text = "Half <i>time</i>"
+[[film.segment]]
+playback = 0.5
+""" % TITLE
+
+
+def make_page(program, folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    (folder / "fifty.toml").write_text(SCENE)
+    for words in [["movie", "fifty.toml", "--out", "run", "--threads", "1"], ["report", "run"]]:
+        subprocess.run([program, *words], cwd=folder, check=True, stderr=subprocess.DEVNULL)
+    return folder / "run" / "report.html"
+
+
+def close(a, b, tolerance):
+    return abs(a - b) <= tolerance
+
+
+# ---- What is asked of the page; each function is one test ----
+
+def text_is_no_markup(browser, run):
+    assert browser.run("return document.title") == TITLE, browser.run("return document.title")
+    assert browser.run("return document.querySelectorAll('h1 b, h1 script, li i').length") == 0
+    assert "Half <i>time</i>" in browser.run("return document.querySelector('ol').textContent")
+
+
+def film_plays(browser, run):
+    browser.run("document.getElementById('film').play()")
+    browser.wait("return document.getElementById('film').currentTime > 0.3", "the film to play")
+    browser.run("document.getElementById('film').pause()")
+    browser.wait("return grainreelReport.film.frame >= 9", "the frames to be told")
+    browser.wait("return Math.abs(grainreelReport.runTime.now - grainreelReport.film.film.times["
+                 "grainreelReport.film.frame]) < 1e-9", "the run's time to be the film's")
+
+
+def film_frames_are_half_slow_motion(browser, run):
+    times = browser.run("return grainreelReport.film.film.times")
+    assert len(times) == 61, len(times)  # 1 s at half speed and 30 frames a second, both ends
+    step = 0.5 / 30
+    assert all(close(time, k * step, 1e-4) for k, time in enumerate(times))
+
+
+def chart_moves_film_and_bed(browser, run):
+    left, top, width, height = browser.place_of(".u-over")
+    for share in [0.2, 0.65, 0.4]:
+        x, y = left + share * width, top + height / 2
+        browser.pointer("mousePressed", x - 5, y)
+        browser.pointer("mouseMoved", x, y)
+        browser.pointer("mouseReleased", x, y, 0)
+        low, high = browser.run("const s = [...grainreelReport.charts.plots.values()][0].scales.x;"
+                                "return [s.min, s.max];")
+        expected = low + share * (high - low)
+        now = browser.run("return grainreelReport.runTime.now")
+        assert close(now, expected, 2 * (high - low) / width), (now, expected)
+        follows(browser, now)
+
+
+def follows(browser, now):
+    """Whether film and bed show the moments nearest to that time."""
+    bed = browser.run("return grainreelReport.bed.frames.times[grainreelReport.bed.viewer.frame]")
+    assert close(bed, now, 0.0125 / 2 + 1e-6), (bed, now)
+    browser.wait("const f = grainreelReport.film; return !f.video.seeking && f.wanted === null", "the film to seek")
+    times = numpy.array(browser.run("return grainreelReport.film.film.times"))
+    frame = math.floor(browser.run("return grainreelReport.film.video.currentTime") * 30 + 0.01)
+    assert frame == abs(times - now).argmin(), (frame, times[frame], now)
+
+
+def buttons_and_story_move_all(browser, run):
+    browser.run("document.querySelector('button[data-time]').click()")
+    follows(browser, 0.5)
+    before = browser.run("return grainreelReport.film.film.times.findIndex((t) => t >= grainreelReport.runTime.now)")
+    browser.run("document.getElementById('on').click()")
+    now = browser.run("return grainreelReport.runTime.now")
+    follows(browser, now)
+    assert close(now, browser.run("return grainreelReport.film.film.times[arguments[0]]", before + 1), 1e-9)
+
+
+def places_are_those_of_the_trajectory(browser, run):
+    trajectory = netCDF4.Dataset(run / "trajectory.nc")
+    trajectory.set_auto_mask(False)
+    places, times = trajectory["coordinates"][:], trajectory["time"][:]
+    speeds = numpy.linalg.norm(trajectory["velocities"][:], axis=2)
+    frames = browser.run("return grainreelReport.bed.frames.times")
+    assert len(frames) == len(times)
+    low, high = (numpy.array(browser.run(f"return grainreelReport.bed.frames.{end}")) for end in ("low", "high"))
+    stated = (high - low) / (2 * 65535) * (1 + 1e-6)
+    fastest = speeds.max()
+    for frame in range(0, len(frames), len(frames) // 10):
+        assert close(frames[frame], times[frame], 1e-9)
+        shown = numpy.array(browser.run(
+            "const f = grainreelReport.bed.frames; return [...f.ids.keys()].map((g) => f.place(arguments[0], g));",
+            frame))
+        assert (abs(shown - places[frame]) <= stated).all(), abs(shown - places[frame]).max(axis=0)
+        told = numpy.array(browser.run(
+            "const f = grainreelReport.bed.frames; return [...f.ids.keys()].map((g) => f.speedAt(arguments[0], g));",
+            frame))
+        seen = speeds[frame] > 1.001e-5 * fastest
+        assert (abs(told[seen] / speeds[frame][seen] - 1) < 0.0235).all()
+
+
+def contact_numbers_are_those_of_the_run(browser, run):
+    contacts = netCDF4.Dataset(run / "contacts.nc")
+    contacts.set_auto_mask(False)
+    frame = len(netCDF4.Dataset(run / "trajectory.nc")["time"]) // 2
+    rows = (contacts["frame"][:] == frame) & (contacts["normal"][:] > 0)
+    ids = list(contacts["first"][:][rows]) + list(contacts["second"][:][rows])
+    told = browser.run("const f = grainreelReport.bed.frames;"
+                       "return [...f.ids.keys()].map((g) => [f.ids[g], f.contactsAt(arguments[0], g)]);", frame)
+    assert told == [[grain, ids.count(grain)] for grain, _ in told]
+
+
+def a_click_finds_the_grain(browser, run):
+    """The first sphere on the ray through a pixel, by the camera's angles and the trajectory's places."""
+    trajectory = netCDF4.Dataset(run / "trajectory.nc")
+    trajectory.set_auto_mask(False)
+    camera = browser.run("const c = grainreelReport.bed.viewer.camera;"
+                         "return {eye: c.eye(), azimuth: c.azimuth, elevation: c.elevation, fov: c.start.fov};")
+    frame = browser.run("return grainreelReport.bed.viewer.frame")
+    places, radii, ids = trajectory["coordinates"][frame], trajectory["radius"][frame], trajectory["id"][frame]
+    left, top, width, height = browser.place_of("#bed")
+    found = 0
+    for across in numpy.linspace(0.3, 0.7, 5):
+        for down in numpy.linspace(0.4, 0.9, 5):
+            expected = first_on_ray(camera, across, down, width / height, places, radii)
+            x, y = left + round(across * width), top + round(down * height)
+            browser.run("grainreelReport.bed.choose(-1)")
+            browser.pointer("mousePressed", x, y)
+            browser.pointer("mouseReleased", x, y, 0)
+            chosen = browser.run("return grainreelReport.bed.viewer.chosen")
+            said = browser.run("return document.getElementById('grain-says').textContent")
+            if expected is None:
+                continue  # too near a rim to tell
+            if expected < 0:
+                assert chosen == -1, (across, down, said)
+                continue
+            found += 1
+            assert said.startswith(f"Grain {ids[expected]}, "), (across, down, ids[expected], said)
+    assert found >= 6, found
+
+
+def first_on_ray(camera, across, down, aspect, places, radii):
+    """An index; -1 for none; None where the ray passes within a tenth of a radius of a rim."""
+    a, e = math.radians(camera["azimuth"]), math.radians(camera["elevation"])
+    forward = numpy.array([-math.cos(e) * math.cos(a), -math.cos(e) * math.sin(a), -math.sin(e)])
+    right = numpy.array([-math.sin(a), math.cos(a), 0])
+    up = numpy.cross(right, forward)
+    half = math.tan(math.radians(camera["fov"]) / 2)
+    ray = forward + half * ((1 - 2 * down) * up + (2 * across - 1) * aspect * right)
+    ray /= numpy.linalg.norm(ray)
+    to_centres = places - numpy.array(camera["eye"])
+    along = to_centres @ ray
+    aside = numpy.linalg.norm(to_centres - along[:, None] * ray, axis=1)
+    if (abs(aside / radii - 1) < 0.1).any():
+        return None
+    hit = aside < radii
+    if not hit.any():
+        return -1
+    depth = numpy.where(hit, along - numpy.sqrt(numpy.maximum(0, radii**2 - aside**2)), numpy.inf)
+    return int(depth.argmin())
+
+
+def controls_change_the_picture(browser, run):
+    """Colours, a hidden species, a slice: each gives another picture, and taking it back the first again."""
+    picture = ("const v = grainreelReport.bed.viewer; v.draw(); return v.canvas.toDataURL();")
+    first = browser.run(picture)
+    assert browser.run(picture) == first
+    for selector, value in [("#colour-by", "1"), ("#colour-by", "4"), ("#species-0", "0"), ("#species-1", "128"),
+                            ("#slice", "x")]:
+        change = ("const s = document.querySelector(arguments[0]), old = s.value; s.value = arguments[1];"
+                  "s.dispatchEvent(new Event('change')); return old;")
+        old = browser.run(change, selector, value)
+        assert browser.run(picture) != first, selector
+        browser.run(change, selector, old)
+        assert browser.run(picture) == first, selector
+
+
+def everything_is_labelled(browser, run):
+    assert browser.run("""
+        const named = (e) => e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim();
+        return [...document.querySelectorAll('input, select, button, video, canvas#bed')].filter((e) => !named(e))
+            .map((e) => e.outerHTML.slice(0, 120));""") == []
+    assert browser.run("return [...document.images].filter((i) => !i.alt).length") == 0
+    levels = browser.run("return [...document.querySelectorAll('h1, h2, h3')].map((h) => Number(h.tagName[1]))")
+    assert levels[0] == 1 and levels.count(1) == 1
+    assert all(b - a <= 1 for a, b in zip(levels, levels[1:])), levels
+
+
+def words_fit(browser, run):
+    for width in (1280, 390):
+        browser.resize(width, 1000)
+        wide = browser.run("return document.documentElement.scrollWidth")
+        assert wide <= width, (width, wide)
+        browser.picture(run.parent / f"report_{width}.png")
+
+
+TESTS = [text_is_no_markup, film_frames_are_half_slow_motion, film_plays, chart_moves_film_and_bed,
+         buttons_and_story_move_all, places_are_those_of_the_trajectory, contact_numbers_are_those_of_the_run,
+         a_click_finds_the_grain, controls_change_the_picture, everything_is_labelled, words_fit]
+
+
+def without(page, reason, **browser_options):
+    """Without something that the bed needs: the page says so, and film and charts are there."""
+    with Browser(**browser_options) as browser:
+        browser.open(page)
+        said = browser.run("return document.getElementById('bed-says').textContent")
+        assert reason in said and "is not shown" in said, said
+        assert browser.run("return document.getElementById('bed').hidden")
+        assert browser.run("return document.querySelectorAll('.chart canvas').length") >= 2
+        browser.run("document.getElementById('film').play()")
+        browser.wait("return document.getElementById('film').currentTime > 0.1", "the film to play")
+        return browser.console()
+
+
+def no_barriers(browser, axe):
+    browser.run(axe.read_text())
+    found = browser.driver.execute_async_script(
+        "const done = arguments[0];"
+        "axe.run(document, {}).then((all) => done(all.violations.map((v) => [v.id, v.nodes.map((n) => n.html)])));")
+    assert found == [], found
+
+
+def main():
+    program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    axe = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
+    page = make_page(program, folder)
+    with Browser() as browser:
+        browser.open(page)
+        for test in TESTS:
+            test(browser, page.parent)
+            print(f"passed: {test.__name__}", flush=True)
+        console = browser.console()
+        assert console == [], console
+        print("passed: nothing on the console")
+    without(page, "no WebGL 2", options=["--disable-3d-apis"])
+    print("passed: without WebGL")
+    console = without(page, "no DecompressionStream", at_start="delete window.DecompressionStream")
+    assert console == [], console
+    print("passed: without DecompressionStream")
+    for dark in (False, True):
+        with Browser(dark=dark) as browser:
+            browser.open(page)
+            browser.picture(folder / f"report_{'dark' if dark else 'light'}.png")
+            if axe:
+                no_barriers(browser, axe)
+                print(f"passed: axe-core, {'dark' if dark else 'light'}")
+    if not axe:
+        print("left out: axe-core, which needs npm")
+
+
+if __name__ == "__main__":
+    main()

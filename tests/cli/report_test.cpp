@@ -1,0 +1,94 @@
+// `grainreel report` from the outside: a finished run as a page. What the page does in a browser:
+// tests/browser.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+
+class ReportProgram : public testing::Test {
+  protected:
+    Ended program(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
+    void run(const std::vector<std::string>& more) {
+        write_small_scene(here.path());
+        std::vector<std::string> words = {"movie", "fifty.toml", "--out", "run"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = program(words);
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+
+    TemporaryFolder here;
+};
+
+TEST_F(ReportProgram, MakesOnePageWithWordsFirstAndBytesLast) {
+    run({"--set", "title=<i>No</i> markup"});
+    const Ended ended = program({"report", "run"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, "run/report.html\n");
+    const std::string page = text_of(here / "run/report.html");
+    EXPECT_THAT(page, HasSubstr("<h1>&lt;i&gt;No&lt;/i&gt; markup</h1>"));
+    EXPECT_THAT(page, Not(HasSubstr("<i>No")));
+    const auto at = [&](const char* what) { return page.find(what); };
+    EXPECT_LT(at("<h1>"), at("data:image/jpeg"));
+    EXPECT_LT(at("data:image/jpeg"), at("id=\"facts\""));
+    EXPECT_LT(at("id=\"facts\""), 500'000u);
+    EXPECT_LT(at("id=\"facts\""), at("id=\"bed-bytes\""));
+    EXPECT_LT(at("id=\"bed-bytes\""), at("id=\"film-bytes\""));
+    EXPECT_NE(at("id=\"film-bytes\""), std::string::npos);
+    for (const char* chapter :
+         {"What was computed", "Methods", "BibTeX", "Where it comes from", "scene.toml"})
+        EXPECT_THAT(page, HasSubstr(chapter));
+    // Nothing comes from elsewhere: the sources' links are the page's own files.
+    for (const char* elsewhere : {"src=\"http", "href=\"http", "@import", "url(http"})
+        EXPECT_THAT(page, Not(HasSubstr(elsewhere)));
+}
+
+TEST_F(ReportProgram, TheSamePageOfTheSameRun) {
+    run({});
+    ASSERT_EQ(program({"report", "run", "--out", "a.html"}).status, 0);
+    ASSERT_EQ(program({"report", "run", "--out", "b.html"}).status, 0);
+    EXPECT_TRUE(text_of(here / "a.html") == text_of(here / "b.html"));
+}
+
+TEST_F(ReportProgram, DoesWithoutFilmAndMeasures) {
+    run({"--no-film"});
+    fs::remove(here / "run/measures.csv");
+    fs::remove(here / "run/run.json");
+    const Ended ended = program({"report", "run"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const std::string page = text_of(here / "run/report.html");
+    EXPECT_THAT(page, HasSubstr("The run has no film and no poster."));
+    EXPECT_THAT(page, HasSubstr("The run has no measures."));
+    EXPECT_THAT(page, HasSubstr("status is “unknown”"));
+}
+
+TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
+    const auto expect_mistake = [&](const std::vector<std::string>& words, const std::string& said) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 2) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(said));
+        EXPECT_EQ(ended.out, "");
+    };
+    expect_mistake({"report", "nowhere"}, "nowhere: no such folder");
+    fs::create_directory(here / "empty");
+    expect_mistake({"report", "empty"}, "empty: has no scene.toml");
+    run({"--no-film"});
+    expect_mistake({"report", "run", "--out", "page.txt"}, "a page's name ends in .html");
+    expect_mistake({"report", "run", "--out", "empty"}, "is a folder");
+    expect_mistake({"report", "run", "--out", "none/page.html"}, "there is no such folder");
+    fs::remove(here / "run/trajectory.nc");
+    expect_mistake({"report", "run"}, "has no trajectory.nc");
+    EXPECT_FALSE(fs::exists(here / "run/report.html"));
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,212 @@
+// The bed as the page carries it, read back by the form that bed_frames.hpp describes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <libdeflate.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "render/report/bed_frames.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double period = 0.05;  // s, between two moments
+
+// A record in memory.
+class MadeRun final : public FrameArchive {
+  public:
+    explicit MadeRun(std::vector<Frame> frames) : frames_(std::move(frames)) {
+        for (const Frame& frame : frames_) {
+            Frame moment;
+            moment.time = frame.time;
+            moments_.push_back(moment);
+        }
+    }
+    const std::filesystem::path& folder() const override { return folder_; }
+    const std::vector<Frame>& moments() const override { return moments_; }
+    Frame grains(std::size_t index) const override {
+        Frame frame = frames_[index];
+        frame.touches.clear();
+        return frame;
+    }
+    Frame frame(std::size_t index) const override { return frames_[index]; }
+    int periods() const override { return 1; }
+
+  private:
+    std::filesystem::path folder_;
+    std::vector<Frame> frames_, moments_;
+};
+
+// Grains anywhere in a box of 0.2 m, of any speed over five decades.
+std::vector<Frame> random_frames(std::size_t moments, std::int32_t grains) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-0.1, 0.1), decade(-5, 0);
+    std::vector<Frame> frames(moments);
+    for (std::size_t k = 0; k < moments; ++k) {
+        frames[k].time = period * static_cast<double>(k);
+        for (std::int32_t id = 0; id < grains; ++id) {
+            frames[k].id.push_back(10 * id);
+            frames[k].species.push_back(id % 3);
+            frames[k].radius.push_back(1e-3 * (1 + id));
+            frames[k].position.emplace_back(place(random), 0.5 * place(random), 0.1 + place(random));
+            frames[k].velocity.emplace_back(0, std::pow(10, decade(random)), 0);
+        }
+    }
+    return frames;
+}
+
+struct Grain {
+    int species = 0;
+    float radius = 0;
+    bool present = false;
+    std::array<int, 3> number{};
+    int speed = 0, contacts = 0;
+};
+
+// Moment by moment, by id.
+std::vector<std::map<int, Grain>> read_back(const BedFrames& bed) {
+    const std::size_t n = bed.grains, k = bed.moments.size();
+    std::vector<std::uint8_t> bytes(10 * n + 9 * n * k);
+    const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> unpacker(
+        libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+    // Null for the size that there was: the bytes must be just so many.
+    EXPECT_EQ(libdeflate_zlib_decompress(unpacker.get(), bed.packed.data(), bed.packed.size(), bytes.data(),
+                                         bytes.size(), nullptr),
+              LIBDEFLATE_SUCCESS);
+    std::vector<std::map<int, Grain>> moments;
+    std::vector<Grain> now(n);
+    std::vector<int> ids(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        std::int32_t id;
+        std::uint16_t species;
+        std::memcpy(&id, &bytes[4 * i], 4);
+        std::memcpy(&species, &bytes[4 * n + 2 * i], 2);
+        std::memcpy(&now[i].radius, &bytes[6 * n + 4 * i], 4);
+        ids[i] = id;
+        now[i].species = species;
+    }
+    for (std::size_t frame = 0; frame < k; ++frame) {
+        const std::uint8_t* at = &bytes[10 * n + 9 * n * frame];
+        std::map<int, Grain> moment;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const int zigzag = at[2 * axis * n + i] + 256 * at[(2 * axis + 1) * n + i];
+                const int change = zigzag % 2 == 0 ? zigzag / 2 : -(zigzag + 1) / 2;
+                now[i].number[axis] = (now[i].number[axis] + change) & 0xffff;
+            }
+            now[i].speed = at[6 * n + i];
+            now[i].contacts = at[7 * n + i];
+            now[i].present = at[8 * n + i] == 1;
+            moment[ids[i]] = now[i];
+        }
+        moments.push_back(moment);
+    }
+    return moments;
+}
+
+constexpr std::size_t plenty = 100'000'000;  // bytes
+
+TEST(BedFrames, PlacesAreWithinTheStatedErrorForEveryGrainOfTenMoments) {
+    const std::vector<Frame> frames = random_frames(10, 200);
+    const BedFrames bed = bed_frames(MadeRun(frames), false, plenty);
+    ASSERT_EQ(bed.moments.size(), 10u);
+    const auto read = read_back(bed);
+    const Vec3 most = bed.error() * (1 + 1e-9);
+    EXPECT_LT(most.maxCoeff(), 0.2 / 65535);
+    for (std::size_t k = 0; k < 10; ++k)
+        for (std::size_t i = 0; i < 200; ++i) {
+            const Grain& grain = read[k].at(frames[k].id[i]);
+            EXPECT_TRUE(grain.present);
+            EXPECT_EQ(grain.species, frames[k].species[i]);
+            EXPECT_EQ(grain.radius, static_cast<float>(frames[k].radius[i]));
+            for (int axis = 0; axis < 3; ++axis) {
+                const double place =
+                    bed.low[axis] + grain.number[axis] * (bed.high[axis] - bed.low[axis]) / 65535;
+                EXPECT_NEAR(place, frames[k].position[i][axis], most[axis]);
+            }
+        }
+}
+
+// Bytes lie evenly in the logarithm: half a step of (1e5)^(1/253) is 2.3 %.
+TEST(BedFrames, SpeedsAreWithinTheStatedError) {
+    const double step = std::pow(1e5, 1 / 253.0);
+    EXPECT_LT(std::sqrt(step) - 1, 0.0231);
+    for (double speed = 1e-5; speed <= 1; speed *= 1.07) {
+        const int byte = speed_byte(speed, 1e-5, 1);
+        ASSERT_GE(byte, 1);
+        EXPECT_LE(byte, 254);
+        const double told = 1e-5 * std::pow(1e5, (byte - 1) / 253.0);
+        EXPECT_LE(std::max(told / speed, speed / told), std::sqrt(step) * (1 + 1e-9));
+    }
+    EXPECT_EQ(speed_byte(0.99e-5, 1e-5, 1), 0);
+    EXPECT_EQ(speed_byte(0, 0, 0), 0);  // nothing ever moved
+}
+
+TEST(BedFrames, GrainsThatComeAndGoAreAbsentMeanwhile) {
+    std::vector<Frame> frames = random_frames(3, 2);
+    const auto take_out = [](Frame& frame, std::size_t i) {
+        const auto at = static_cast<std::ptrdiff_t>(i);
+        frame.id.erase(frame.id.begin() + at);
+        frame.species.erase(frame.species.begin() + at);
+        frame.radius.erase(frame.radius.begin() + at);
+        frame.position.erase(frame.position.begin() + at);
+        frame.velocity.erase(frame.velocity.begin() + at);
+    };
+    take_out(frames[0], 1);
+    take_out(frames[2], 0);
+    const BedFrames bed = bed_frames(MadeRun(frames), false, plenty);
+    ASSERT_EQ(bed.grains, 2u);
+    const auto read = read_back(bed);
+    EXPECT_TRUE(read[0].at(0).present && read[1].at(0).present && read[1].at(10).present &&
+                read[2].at(10).present);
+    EXPECT_FALSE(read[0].at(10).present || read[2].at(0).present);
+}
+
+TEST(BedFrames, ContactsAreThoseThatPushWallsIncluded) {
+    std::vector<Frame> frames = random_frames(1, 3);
+    frames[0].touches = {{0, 10, 0.5}, {10, -1, 0.25}, {10, 20, 0.0}};
+    const auto read = read_back(bed_frames(MadeRun(frames), true, plenty));
+    EXPECT_EQ(read[0].at(0).contacts, 1);
+    EXPECT_EQ(read[0].at(10).contacts, 2);
+    EXPECT_EQ(read[0].at(20).contacts, 0);
+}
+
+TEST(BedFrames, KeepsEvenlySpreadMomentsThatFitFirstAndLastAmongThem) {
+    const std::vector<Frame> frames = random_frames(101, 300);
+    const std::size_t all = bed_frames(MadeRun(frames), false, plenty).packed.size();
+    const BedFrames bed = bed_frames(MadeRun(frames), false, all / 4);
+    EXPECT_LE(bed.packed.size(), all / 4);
+    EXPECT_EQ(bed.all_moments, 101u);
+    ASSERT_GT(bed.moments.size(), 15u);
+    EXPECT_EQ(bed.moments.front().time, 0);
+    EXPECT_EQ(bed.moments.back().time, frames.back().time);
+    const double mean = frames.back().time / static_cast<double>(bed.moments.size() - 1);
+    for (std::size_t k = 1; k < bed.moments.size(); ++k)
+        EXPECT_NEAR(bed.moments[k].time - bed.moments[k - 1].time, mean, period);
+    EXPECT_EQ(bed_frames(MadeRun(frames), false, 1).moments.size(), 1u);
+}
+
+TEST(BedFrames, OfTooManyGrainsThoseNearestToTheMiddleAreKept) {
+    const auto extra = static_cast<std::int32_t>(kMostGrainsOnPage) + 50;
+    std::vector<Frame> frames(1);
+    for (std::int32_t id = 0; id < extra; ++id) {
+        frames[0].id.push_back(id);
+        frames[0].species.push_back(0);
+        frames[0].radius.push_back(1e-3);
+        frames[0].position.emplace_back((id % 2 ? 1 : -1) * (extra - id), 0, 0);  // the last are nearest
+        frames[0].velocity.emplace_back(0, 0, 0);
+    }
+    const BedFrames bed = bed_frames(MadeRun(frames), false, plenty);
+    EXPECT_EQ(bed.grains, kMostGrainsOnPage);
+    EXPECT_EQ(bed.all_grains, static_cast<std::size_t>(extra));
+    const auto read = read_back(bed);
+    EXPECT_EQ(read[0].begin()->first, 50);
+    EXPECT_EQ(read[0].rbegin()->first, extra - 1);
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,83 @@
+// Which moment of the run each frame of the film shows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/measure/columns.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "render/report/film_times.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// Shaken at 20 Hz for 1 s; film: what stands below [film].
+Scene scene_with(const std::string& film) {
+    const std::string text = R"(
+[[species]]
+name = "beads"
+count = 20
+diameter = "4 mm"
+density = "2.5 g/cm3"
+[container]
+shape = "box"
+width = "30 mm"
+depth = "20 mm"
+height = "40 mm"
+[drive]
+frequency = "20 Hz"
+g_level = 2
+[run]
+duration = "1 s"
+[film]
+rate = 30
+)" + film;
+    return read_scene_text(text, "made.toml", {}, measurable_in);
+}
+
+constexpr const char* locked = "periods = 2\n[[film.segment]]\nkind = \"locked\"\nevery = 2\n";
+
+TEST(FilmTimes, LockedFramesAreWholePeriodsApart) {
+    const FilmTimes film = film_times(scene_with(locked), 11, 0, true);
+    ASSERT_THAT(film.times, SizeIs(11));
+    for (std::size_t k = 0; k < 11; ++k) EXPECT_NEAR(film.times[k], static_cast<double>(k) * 2 / 20, 1e-9);
+    EXPECT_EQ(film.why_not, "");
+}
+
+TEST(FilmTimes, FramesThatHoldACaptionShowItsMoment) {
+    const std::string held = R"(
+[[film.caption]]
+from = "0.4 s"
+to = "0.6 s"
+text = "look"
+hold = "0.1 s"
+)";
+    const FilmTimes film = film_times(scene_with(locked + held), 11 + 3, 0, true);
+    ASSERT_THAT(film.times, SizeIs(14));  // 0.1 s of film are 3 frames more
+    for (std::size_t k = 4; k < 8; ++k) EXPECT_NEAR(film.times[k], 0.4, 1e-9);
+    EXPECT_NEAR(film.times[8], 0.5, 1e-9);
+}
+
+TEST(FilmTimes, AFilmOfAnotherLengthHasNone) {
+    const FilmTimes film = film_times(scene_with(locked), 6, 0, true);
+    EXPECT_THAT(film.times, IsEmpty());
+    EXPECT_THAT(film.why_not, HasSubstr("leaves out moments"));
+}
+
+TEST(FilmTimes, OfAStoppedRunTheFirstFramesAreKnown) {
+    EXPECT_THAT(film_times(scene_with(locked), 6, 0, false).times, SizeIs(6));
+    // Here the run may have found out that the bed repeats itself every second period, and left out frames.
+    const Scene open = scene_with("[[film.segment]]\nkind = \"locked\"\n");
+    EXPECT_THAT(film_times(open, 6, 0, false).times, IsEmpty());
+}
+
+TEST(FilmTimes, ARunThatWentOnBeginsWhereItDid) {
+    const FilmTimes film = film_times(scene_with(locked), 6, 0.5, true);
+    ASSERT_THAT(film.times, SizeIs(6));
+    EXPECT_NEAR(film.times.front(), 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace grainreel

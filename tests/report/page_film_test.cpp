@@ -1,0 +1,106 @@
+// The film and its picture as a page can hold them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "render/film/codec/encoder.hpp"
+#include "render/film/codec/film_reader.hpp"
+#include "render/film/files/png.hpp"
+#include "render/report/page_film.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+Picture grey(int width, int height, int level) {
+    Picture picture(width, height);
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+        picture.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 255 : level);
+    return picture;
+}
+
+class PageFilmTest : public testing::Test {
+  protected:
+    void make_film(FilmFormat format, int width, int height) {
+        scene.film.format = format;
+        scene.film.rate = 30;
+        EncoderSettings settings;
+        settings.codec = &codec_of(format);
+        settings.path = here / (std::string("movie.") + codec_of(format).extension);
+        settings.width = width;
+        settings.height = height;
+        Encoder encoder(settings);
+        for (int level = 40; level < 100; level += 10) encoder.add(grey(width, height, level));
+        encoder.finish();
+    }
+
+    TemporaryFolder here;
+    Scene scene;
+};
+
+TEST_F(PageFilmTest, ASmallFilmThatBrowsersPlayIsTakenAsItIs) {
+    make_film(FilmFormat::mp4, 64, 48);
+    const PageFilm film = page_film(scene, here.path());
+    const std::string bytes = test::text_of(here / "movie.mp4");
+    EXPECT_TRUE(std::string(film.bytes.begin(), film.bytes.end()) == bytes);
+    EXPECT_EQ(film.type, "video/mp4");
+    EXPECT_EQ(film.note, "");
+}
+
+// Of another format, with 800 lines: a copy of 720, frame by frame.
+TEST_F(PageFilmTest, AnotherFormatIsCopied) {
+    make_film(FilmFormat::ffv1, 96, 800);
+    const PageFilm film = page_film(scene, here.path());
+    EXPECT_EQ(film.type, "video/mp4");
+    EXPECT_THAT(film.note, HasSubstr("browsers do not play"));
+    std::ofstream(here / "copy.mp4", std::ios::binary)
+        .write(reinterpret_cast<const char*>(film.bytes.data()),
+               static_cast<std::streamsize>(film.bytes.size()));
+    FilmReader reader(here / "copy.mp4");
+    EXPECT_EQ(reader.codec().height, 720);
+    EXPECT_EQ(reader.codec().width, 86);  // 96 x 720 / 800 = 86.4, even
+    // Grey of level g has the luma 16 + 219 g / 255.
+    int frames = 0;
+    while (const AVFrame* frame = reader.next()) {
+        const double luma = 16 + 219 * (40 + 10 * frames++) / 255.0;
+        EXPECT_NEAR(frame->data[0][frame->linesize[0] * 300 + 40], luma, 2);
+    }
+    EXPECT_EQ(frames, 6);
+}
+
+TEST_F(PageFilmTest, WithoutAFilmThereIsNone) {
+    scene.film.format = FilmFormat::mp4;
+    EXPECT_TRUE(page_film(scene, here.path()).bytes.empty());
+    EXPECT_EQ(page_film(scene, here.path()).file, "");
+}
+
+TEST_F(PageFilmTest, ADamagedFilmIsLinkedAndSaidSo) {
+    scene.film.format = FilmFormat::ffv1;
+    test::write_text(here / "movie.mkv", "no film");
+    const PageFilm film = page_film(scene, here.path());
+    EXPECT_TRUE(film.bytes.empty());
+    EXPECT_EQ(film.file, "movie.mkv");
+    EXPECT_THAT(film.note, HasSubstr("no copy could be made"));
+}
+
+TEST_F(PageFilmTest, ThePosterIsAJpegOfAtMost960Pixels) {
+    EXPECT_TRUE(page_poster(here.path()).empty());
+    write_png(here / "poster.png", grey(1920, 1080, 128), {});
+    const std::vector<std::uint8_t> jpeg = page_poster(here.path());
+    ASSERT_GT(jpeg.size(), 100u);
+    std::ofstream(here / "poster.jpg", std::ios::binary)
+        .write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
+    FilmReader reader(here / "poster.jpg");
+    const AVFrame* frame = reader.next();
+    ASSERT_NE(frame, nullptr);
+    EXPECT_EQ(frame->width, 960);
+    EXPECT_EQ(frame->height, 540);
+    EXPECT_NEAR(frame->data[0][frame->linesize[0] * 100 + 100], 128, 2);  // full range: luma is the level
+}
+
+}  // namespace
+}  // namespace grainreel

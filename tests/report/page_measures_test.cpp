@@ -1,0 +1,70 @@
+// Which measures have charts, and what run.json says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "render/report/page_measures.hpp"
+#include "render/report/run_facts.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+TEST(PageMeasures, PlotsOfTheFilmComeFirstAndWhatNeverChangesIsLeftOut) {
+    Scene scene;
+    scene.film.shows.plots = {{"lost_J", "lost energy", {}, Dimension::energy}};
+    MeasureTable table({"step", "time_s", "centre_z_m", "kinetic_J", "contact_number", "lost_J", "lacey"});
+    table.add({0, 0, 0.1, 1, 4, 0, none});
+    table.add({1, 0.1, 0.2, 2, 4, 1, none});
+    const PageMeasures page = page_measures(scene, table);
+    EXPECT_EQ(page.time, 1u);
+    EXPECT_THAT(page.charted, ElementsAre(5u, 2u, 3u));
+    EXPECT_EQ(page.columns[2].unit, "m");
+    EXPECT_EQ(page.columns[3].label, "kinetic energy");
+    EXPECT_THAT(page.rows, ElementsAre(0u, 1u));
+}
+
+TEST(PageMeasures, LongTablesAreThinnedEvenly) {
+    MeasureTable table({"time_s", "kinetic_J"});
+    for (int row = 0; row < 9000; ++row) table.add({0.1 * row, 1.0 * row});
+    const PageMeasures page = page_measures(Scene(), table);
+    EXPECT_LE(page.rows.size(), kMostRowsAtOnce);
+    for (std::size_t k = 0; k < page.rows.size(); ++k)
+        EXPECT_EQ(page.rows[k], 5 * k);  // 9000 / 2000, rounded up
+}
+
+TEST(PageMeasures, WithoutTimeNothingIsCharted) {
+    MeasureTable table({"kinetic_J"});
+    table.add({1});
+    table.add({2});
+    EXPECT_THAT(page_measures(Scene(), table).charted, IsEmpty());
+}
+
+TEST(RunFacts, AreWhatCanBeRead) {
+    const test::TemporaryFolder here;
+    EXPECT_EQ(run_facts(here.path()).status, "unknown");
+    for (const char* text :
+         {"", "[1, 2", "[[[[", "7", "{\"program\": 5, \"written\": {\"film_frames\": \"many\"}}"}) {
+        test::write_text(here / "run.json", text);
+        const RunFacts facts = run_facts(here.path());
+        EXPECT_EQ(facts.status, "unknown") << text;
+        EXPECT_FALSE(facts.film_frames) << text;
+    }
+    test::write_text(here / "run.json",
+                     R"({"status": "complete", "program": {"version": "1.2"}, "written": {"film_frames": 12},
+                         "warnings": ["w", 3]})");
+    const RunFacts facts = run_facts(here.path());
+    EXPECT_EQ(facts.status, "complete");
+    EXPECT_EQ(facts.version, "1.2");
+    EXPECT_EQ(facts.film_frames, 12);
+    EXPECT_THAT(facts.warnings, ElementsAre("w"));
+}
+
+}  // namespace
+}  // namespace grainreel
