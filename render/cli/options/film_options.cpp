@@ -47,6 +47,14 @@ std::filesystem::path output_base() {
     return base;
 }
 
+void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, const std::string& about) {
+    const auto take = [&out](const std::string& folder) {
+        check_typed("--out", folder);
+        out = folder;
+    };
+    verb.add_option_function<std::string>("--out", take, about)->type_name("DIR");
+}
+
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
     film.base = output_base();
     const auto take_out = [&film](const std::string& folder) {

@@ -34,6 +34,8 @@ void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets);
 // Where the film goes, and what is kept of it: --out, --force, --frames, --no-film, --gl. about_out: of
 // --out. Throws UserError when the environment has a value that makes no sense.
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out);
+// --out of a verb that makes no film.
+void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, const std::string& about);
 // Where what a verb makes goes without --out: $GRAINREEL_OUTPUT, else output/.
 std::filesystem::path output_base();
 

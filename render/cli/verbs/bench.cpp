@@ -120,15 +120,9 @@ class Bench final : public Verb {
                 "--size", [this](const std::string& size) { read_size(size, render_.film); },
                 "render: of the picture in pixels [1920x1080]")
             ->type_name("WxH");
-        parser
-            .add_option_function<std::string>(
-                "--out",
-                [this](const std::string& folder) {
-                    check_typed("--out", folder);
-                    render_.out = folder;
-                },
-                "render: keep the picture, and the grains and camera for other renderers, in this folder")
-            ->type_name("DIR");
+        add_out_folder(
+            parser, render_.out,
+            "render: keep the picture, and the grains and camera for other renderers, in this folder");
         parser
             .add_option_function<std::string>(
                 "--style", [this](const std::string& style) { set_style(style, render_); },

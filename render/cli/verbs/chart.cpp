@@ -34,15 +34,9 @@ class ChartVerb final : public Verb {
             ->required()
             ->check(CLI::IsMember(all.names))
             ->type_name("WHICH");
-        parser
-            .add_option_function<std::string>(
-                "--out",
-                [this](const std::string& folder) {
-                    check_typed("--out", folder);
-                    out_ = folder;
-                },
-                "Folder of the tables and pictures; a chart that was stopped there goes on [output/WHICH]")
-            ->type_name("DIR");
+        add_out_folder(
+            parser, out_,
+            "Folder of the tables and pictures; a chart that was stopped there goes on [output/WHICH]");
         parser.add_flag("--quick", quick_, "Coarser, in a few minutes");
         add_reporting(parser, report);
     }

@@ -49,15 +49,8 @@ class StudyVerb final : public Verb {
                         "The study, a TOML file; docs/guide/studies.md tells how one is written")
             ->required()
             ->type_name("FILE");
-        parser
-            .add_option_function<std::string>(
-                "--out",
-                [this](const std::string& folder) {
-                    check_typed("--out", folder);
-                    out_ = folder;
-                },
-                "Folder of the study; a study that was stopped there goes on [output/ and its name]")
-            ->type_name("DIR");
+        add_out_folder(parser, out_,
+                       "Folder of the study; a study that was stopped there goes on [output/ and its name]");
         parser.add_option("--jobs", request_.jobs, "Members at a time [as many as there are processors]")
             ->check(CLI::Range(1, 4096))
             ->type_name("N");
