@@ -22,6 +22,14 @@ TextFile::TextFile(const std::filesystem::path& path) : path_(path), file_(std::
     if (!file_) fail(path, errno);
 }
 
+TextFile::TextFile(const std::filesystem::path& path, std::uintmax_t bytes)
+    : path_(path), file_(std::fopen(path.c_str(), "a")) {
+    if (!file_) fail(path, errno);
+    std::error_code error;
+    std::filesystem::resize_file(path, bytes, error);
+    if (error) fail(path, error.value());
+}
+
 void TextFile::write(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() ||
         std::fflush(file_.get()) != 0) {

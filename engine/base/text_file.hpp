@@ -13,6 +13,8 @@ class TextFile {
   public:
     // Throws RunError when the file cannot be made.
     explicit TextFile(const std::filesystem::path& path);
+    // Goes on with a file that is there, behind its first `bytes`; what comes after them is cut off.
+    TextFile(const std::filesystem::path& path, std::uintmax_t bytes);
 
     // Throws RunError when not all of `text` could be written.
     void write(std::string_view text);

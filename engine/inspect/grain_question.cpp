@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/nearest_image.hpp"
+#include "engine/inspect/forces.hpp"
 #include "engine/inspect/grain_columns.hpp"
 #include "engine/inspect/questions.hpp"
 
@@ -49,7 +51,106 @@ AnswerTable contacts_table(const Snapshot& s, std::size_t grain) {
     return table;
 }
 
+// With what only a moment that was brought back tells.
+AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
+    const std::int32_t id = s.frame.id[grain];
+    AnswerTable table{"contacts",
+                      "What it touches",
+                      {{"partner", Dimension::number, "id; empty of a wall"},
+                       {"what", Dimension::number, "species or wall"},
+                       {"overlap", Dimension::length, ""},
+                       {"normal_force", Dimension::force, "below 0 where it attracts"},
+                       {"tangential_force", Dimension::force, "magnitude"},
+                       {"slides", Dimension::number, "whether friction is all used up"},
+                       {"torque", Dimension::moment, "magnitude, on this grain"},
+                       {"partner_height", Dimension::length, "above the floor"}},
+                      {}};
+    for (const ContactForce& one : s.forces->contacts) {
+        if (one.first != id && one.second != id) continue;
+        const bool is_first = one.first == id;
+        const std::int32_t partner = is_first ? one.second : one.first;
+        AnswerCell number, height;
+        if (partner >= 0) {
+            number = static_cast<std::int64_t>(partner);
+            if (const auto place = s.place_of(partner)) height = s.height(*place);
+        }
+        table.rows.push_back({number, name_of_body(s, partner), one.overlap, one.normal_force,
+                              one.tangential.norm(), one.slides() ? "yes" : "no",
+                              (is_first ? one.torque_on_first : one.torque_on_second).norm(), height});
+    }
+    return table;
+}
+
+AnswerTable forces_table(const Snapshot& s, std::size_t grain) {
+    AnswerTable table{"forces",
+                      "What pushes it",
+                      {{"what", Dimension::number, ""},
+                       {"x", Dimension::force, ""},
+                       {"y", Dimension::force, ""},
+                       {"z", Dimension::force, ""},
+                       {"magnitude", Dimension::force, ""}},
+                      {}};
+    const auto add = [&](const char* what, const Vec3& force) {
+        table.rows.push_back({what, force.x(), force.y(), force.z(), force.norm()});
+    };
+    const Vec3 contacts = contact_force_on(s, s.frame.id[grain]), weight = s.mass(grain) * s.scene.gravity;
+    add("contacts", contacts);
+    add("weight", weight);
+    add("sum", contacts + weight);
+    if (!s.forces->acceleration.empty())
+        add("mass times acceleration", s.mass(grain) * s.forces->acceleration[grain]);
+    return table;
+}
+
+AnswerTable torque_table(const Snapshot& s, std::size_t grain) {
+    const Vec3 sum = contact_torque_on(s, s.frame.id[grain]);
+    return {"torque",
+            "What turns it, about its centre",
+            {{"x", Dimension::moment, ""},
+             {"y", Dimension::moment, ""},
+             {"z", Dimension::moment, ""},
+             {"magnitude", Dimension::moment, ""}},
+            {{sum.x(), sum.y(), sum.z(), sum.norm()}}};
+}
+
+// Grains whose surfaces are closer to its own than a tenth of its diameter.
+AnswerTable neighbours_table(const Snapshot& s, std::size_t grain) {
+    AnswerTable table{"neighbours",
+                      "Grains closer than a tenth of its diameter",
+                      {{"species", Dimension::number, ""}, {"grains", Dimension::number, ""}},
+                      {}};
+    const double depth = s.scene.container.periodic_depth ? s.scene.container.depth : 0;
+    std::vector<std::int64_t> count(s.scene.species.size(), 0);
+    for (std::size_t i = 0; i < s.frame.size(); ++i) {
+        Vec3 way = s.frame.position[i] - s.frame.position[grain];
+        way.x() = nearest_image(way.x(), depth);
+        const double reach = 1.2 * s.frame.radius[grain] + s.frame.radius[i];
+        if (i != grain && way.squaredNorm() < reach * reach)
+            ++count[static_cast<std::size_t>(s.frame.species[i])];
+    }
+    for (std::size_t k = 0; k < count.size(); ++k) table.rows.push_back({s.scene.species[k].name, count[k]});
+    return table;
+}
+
 }  // namespace
+
+Vec3 contact_force_on(const Snapshot& s, std::int32_t id) {
+    Vec3 sum(0, 0, 0);
+    for (const ContactForce& one : s.forces->contacts) {
+        if (one.first == id) sum += one.on_first();
+        if (one.second == id) sum += one.on_second();
+    }
+    return sum;
+}
+
+Vec3 contact_torque_on(const Snapshot& s, std::int32_t id) {
+    Vec3 sum(0, 0, 0);
+    for (const ContactForce& one : s.forces->contacts) {
+        if (one.first == id) sum += one.torque_on_first;
+        if (one.second == id) sum += one.torque_on_second;
+    }
+    return sum;
+}
 
 Answer grain_answer(const Snapshot& s, std::int64_t id) {
     const std::optional<std::size_t> grain = s.place_of(id);
@@ -59,7 +160,15 @@ Answer grain_answer(const Snapshot& s, std::int64_t id) {
                             : fmt::format("no grain has the id {} at this moment; ids go from {} to {}", id,
                                           s.frame.id.front(), s.frame.id.back()));
     Answer answer{{columns_table(s, *grain)}, {}};
-    if (s.contacts) answer.tables.push_back(contacts_table(s, *grain));
+    if (s.forces) {
+        for (const auto& table : {pushes_table, forces_table, torque_table, neighbours_table})
+            answer.tables.push_back(table(s, *grain));
+    } else if (s.contacts) {
+        answer.tables.push_back(contacts_table(s, *grain));
+    }
+    if (!s.forces)
+        answer.notes.emplace_back(
+            "overlaps, tangential forces and torques are not known: they were not brought back");
     return answer;
 }
 

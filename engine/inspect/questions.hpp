@@ -14,12 +14,24 @@ namespace grainreel {
 // outside the container, numbers that are none.
 Answer overview_of(const Snapshot& snapshot);
 
-// All columns of one grain; its contacts, where they are known.
+// All columns of one grain; its contacts, where they are known. Of a moment that was brought back also how
+// they push, their sum against its weight and its acceleration, and its neighbours.
 Answer grain_answer(const Snapshot& snapshot, std::int64_t id);
+
+// Of a moment that was brought back. The wall is named as in contacts, "left slant" or "left_slant": its sums
+// of force and moment, the force by height, and the grains that touch it, at most `most` of them.
+Answer wall_answer(const Snapshot& snapshot, const std::string& name, std::size_t most);
+
+// Likewise: the `most` contacts that overlap most.
+Answer largest_overlap_answer(const Snapshot& snapshot, std::size_t most);
 
 // Grains for which `condition` holds: how many of each species, statistics of their columns, and a list of at
 // most `most` of them.
 Answer where_answer(const Snapshot& snapshot, const std::string& condition, std::size_t most);
+
+// Grains that a plane such as "y=0" or "z = 2 cm" cuts: their circles in it, by species and in a list of at
+// most `most`.
+Answer slice_answer(const Snapshot& snapshot, const std::string& plane, std::size_t most);
 
 // By bins of a column ("height", "x", "y", "z", or "r" about the container's axis) as wide as the mean
 // diameter: grains and solid volume by species, mean speed and mean upward velocity.

@@ -3,17 +3,28 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/frame.hpp"
+#include "engine/run/contact_force.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
+// What only the engine knows of a moment.
+struct SnapshotForces {
+    std::vector<ContactForce> contacts;  // all that touch
+    // m/s2, of each grain of the frame, as its motion to the next step has it. Empty with an integrator whose
+    // steps do not tell it.
+    std::vector<Vec3> acceleration;
+};
+
 struct Snapshot {
     const Scene& scene;
-    Frame frame;            // its grains; touches where they are known
-    bool contacts = false;  // whether they are
-    Frame start;            // the run's first moment
+    Frame frame;                             // its grains; touches where they are known
+    bool contacts = false;                   // whether they are
+    Frame start;                             // the run's first moment
+    std::optional<SnapshotForces> forces{};  // of a moment that was brought back
 
     double density(std::size_t i) const;  // kg/m3, of grain i of the frame
     double mass(std::size_t i) const;     // kg

@@ -43,7 +43,7 @@ std::array<float, 3> floats(const Vec3& v) {
 }  // namespace
 
 struct ContactsWriter::Impl {
-    explicit Impl(const std::filesystem::path& path) : file(NetcdfFile::create(path, NetcdfFormat::cdf2)) {}
+    explicit Impl(NetcdfFile to) : file(std::move(to)) {}
 
     // of(row): the numbers of one, Width of them.
     template <class Value, std::size_t Width, class Of>
@@ -65,7 +65,7 @@ struct ContactsWriter::Impl {
 
 ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::string& title,
                                const std::string& program_version)
-    : impl_(std::make_unique<Impl>(path)) {
+    : impl_(std::make_unique<Impl>(NetcdfFile::create(path, NetcdfFormat::cdf2))) {
     NetcdfFile& file = impl_->file;
     file.attribute(NC_GLOBAL, "title", title);
     file.attribute(NC_GLOBAL, "program", "grainreel");
@@ -81,6 +81,20 @@ ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::str
     impl_->checksum = file.variable("checksum", NC_INT, {row});
     file.end_definitions();
     file.sync(0);
+}
+
+ContactsWriter::ContactsWriter(const std::filesystem::path& path, std::size_t frames) {
+    const std::size_t rows = ContactsReader(path).rows_of_first(frames);
+    impl_ = std::make_unique<Impl>(NetcdfFile::append(path, rows));
+    impl_->rows = rows;
+    const std::array<std::pair<int*, const char*>, 7> variables{{{&impl_->frame, "frame"},
+                                                                 {&impl_->first, "first"},
+                                                                 {&impl_->second, "second"},
+                                                                 {&impl_->normal, "normal"},
+                                                                 {&impl_->tangential, "tangential"},
+                                                                 {&impl_->point, "point"},
+                                                                 {&impl_->checksum, "checksum"}}};
+    for (const auto& [variable, name] : variables) *variable = impl_->file.find_variable(name);
 }
 
 ContactsWriter::~ContactsWriter() = default;
@@ -164,6 +178,12 @@ struct ContactsReader::Impl {
 
 ContactsReader::ContactsReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
 ContactsReader::~ContactsReader() = default;
+
+std::size_t ContactsReader::rows_of_first(std::size_t frames) const {
+    const std::vector<int>& all = impl_->frame_of;
+    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), static_cast<int>(frames)) -
+                                    all.begin());
+}
 
 bool ContactsReader::cut_off() const {
     return impl_->cut_off;

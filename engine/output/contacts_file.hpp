@@ -20,6 +20,9 @@ class ContactsWriter {
     // Throws RunError when the file cannot be written.
     ContactsWriter(const std::filesystem::path& path, const std::string& title,
                    const std::string& program_version);
+    // Goes on with a file that is there, behind the contacts of the trajectory's first `frames`; what comes
+    // after them is cut off. Throws UserError where the file is damaged.
+    ContactsWriter(const std::filesystem::path& path, std::size_t frames);
     ~ContactsWriter();
 
     // The rows are in the file when this returns. Throws RunError when they could not be written; those of
@@ -41,6 +44,8 @@ class ContactsReader {
     // Those of a frame of the trajectory, as they were written; none beyond the last frame. Throws UserError,
     // with the row, when one of them is damaged.
     std::vector<Touch> touches(std::size_t frame) const;
+    // How many rows the trajectory's first `frames` have.
+    std::size_t rows_of_first(std::size_t frames) const;
     // Whether the end of the file is missing, so that the last frames lack contacts.
     bool cut_off() const;
     // Rows that lie in the file beyond those that its header counts.

@@ -49,9 +49,9 @@ struct Variable {
 }  // namespace
 
 struct FieldsWriter::Impl {
-    Impl(const std::filesystem::path& path, const std::vector<const FieldSet*>& all)
-        : file(NetcdfFile::create(path, format_for(all))) {}
+    explicit Impl(NetcdfFile to) : file(std::move(to)) {}
 
+    void find_fields(const FieldSet& set);
     void define_times();
     void define_checksum();
     void define_axes(const FieldSet& set);
@@ -129,9 +129,21 @@ void FieldsWriter::Impl::define_fields(const FieldSet& set) {
     }
 }
 
+// Of a file that is there already.
+void FieldsWriter::Impl::find_fields(const FieldSet& set) {
+    fields.emplace_back();
+    for (const FieldInfo& field : set.fields) {
+        Variable variable{file.find_variable(field.name), {}};
+        for (const std::string& name : field.axes)
+            for (const FieldAxis& axis : set.axes)
+                if (axis.name == name) variable.shape.push_back(axis.at.size());
+        fields.back().push_back(variable);
+    }
+}
+
 FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
                            const std::string& title, const std::string& program_version)
-    : impl_(std::make_unique<Impl>(path, sets)) {
+    : impl_(std::make_unique<Impl>(NetcdfFile::create(path, format_for(sets)))) {
     NetcdfFile& file = impl_->file;
     file.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
     file.attribute(NC_GLOBAL, "title", title);
@@ -148,6 +160,33 @@ FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<
     for (const auto& [name, axis] : impl_->axes)
         file.put(axis.variable, {0}, {axis.axis.at.size()}, axis.axis.at.data());
     file.sync(0);
+}
+
+namespace {
+
+// How many records end before that time.
+std::size_t records_before(const std::filesystem::path& path, double time) {
+    const NetcdfFile file = NetcdfFile::open(path);
+    const std::size_t counted = file.length("time");
+    const std::size_t records = std::min(counted, file.records_on_disk(counted));
+    std::vector<double> bounds(2 * records);
+    if (records > 0) file.get(file.find_variable("time_bounds"), {0, 0}, {records, 2}, bounds.data());
+    std::size_t before = 0;
+    while (before < records && bounds[2 * before + 1] < time) ++before;
+    return before;
+}
+
+}  // namespace
+
+FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
+                           double time) {
+    const std::size_t records = records_before(path, time);
+    impl_ = std::make_unique<Impl>(NetcdfFile::append(path, records));
+    impl_->records = records;
+    impl_->time = impl_->file.find_variable("time");
+    impl_->bounds = impl_->file.find_variable("time_bounds");
+    impl_->checksum = {impl_->file.find_variable("checksum_high"), impl_->file.find_variable("checksum_low")};
+    for (const FieldSet* const set : sets) impl_->find_fields(*set);
 }
 
 FieldsWriter::~FieldsWriter() = default;

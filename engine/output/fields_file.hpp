@@ -20,6 +20,9 @@ class FieldsWriter {
     // Throws RunError when the file cannot be made.
     FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
                  const std::string& title, const std::string& program_version);
+    // Goes on with a file that was written with these sets, behind the records that end before `time` (s);
+    // what comes after them is cut off.
+    FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets, double time);
     ~FieldsWriter();
 
     // What is the mean of the time from `begin` to `end` (s), set by set. It is in the file when this

@@ -7,9 +7,9 @@
 
 namespace grainreel {
 
-RunLog::RunLog(const std::filesystem::path& path) {
+RunLog::RunLog(const std::filesystem::path& path, bool goes_on) {
     try {
-        auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), true);
+        auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), !goes_on);
         logger_ = std::make_unique<spdlog::logger>("run", std::move(sink));
     } catch (const spdlog::spdlog_ex& problem) {
         throw RunError(problem.what());

@@ -15,7 +15,8 @@ namespace grainreel {
 class RunLog {
   public:
     // Throws RunError when the file cannot be made.
-    explicit RunLog(const std::filesystem::path& path);
+    // goes_on: behind what is there already.
+    explicit RunLog(const std::filesystem::path& path, bool goes_on = false);
     ~RunLog();
 
     void info(const std::string& message);

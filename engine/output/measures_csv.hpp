@@ -19,6 +19,10 @@ class MeasuresWriter {
   public:
     MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns);
 
+    // Goes on with a file that is there, behind the rows of steps before `step`; what comes after them is cut
+    // off. Throws UserError where it has other columns.
+    MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns, std::int64_t step);
+
     // The row is on disk when this returns. Throws RunError when it could not be written.
     void write(const Measures& measures);
 
@@ -26,6 +30,14 @@ class MeasuresWriter {
     std::int64_t rows() const { return rows_; }
 
   private:
+    struct Cut {
+        std::uintmax_t bytes = 0;
+        std::int64_t rows = 0;
+    };
+    static Cut cut_before(const std::filesystem::path& path, const std::vector<std::string>& columns,
+                          std::int64_t step);
+    MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns, const Cut& cut);
+
     TextFile file_;
     std::vector<std::string> columns_;
     std::int64_t rows_ = 0;

@@ -16,6 +16,9 @@ class OutflowWriter {
     // Throws RunError when the file cannot be made.
     explicit OutflowWriter(const std::filesystem::path& path);
 
+    // Goes on with a file that is there, behind the rows up to `time` (s); what comes after them is cut off.
+    OutflowWriter(const std::filesystem::path& path, double time);
+
     // time_s, id, type (from 1, as in final.csv), radius in m, place in m, velocity in m/s. The rows are on
     // disk when this returns. Throws RunError when they could not be written.
     void write(const std::vector<Departure>& gone, const Clock& clock);

@@ -41,13 +41,13 @@ bool is_empty_folder(const fs::path& path) {
 
 // All that a run may leave in its folder, beside frames/ and movie.work/ (what a film needs while it is
 // made); the .part are of files cut off while being written.
-constexpr std::array<std::string_view, 26> files_of_runs{
+constexpr std::array<std::string_view, 27> files_of_runs{
     ".lock",          "run.json",        ".run.json.part",  "scene.toml",          ".scene.toml.part",
     "final.csv",      ".final.csv.part", "checkpoint.grs",  "checkpoint.grs.part", "movie.mp4",
     "movie.mp4.part", "movie.webm",      "movie.webm.part", "movie.gif",           "movie.mkv",
     "movie.y4m",      "poster.png",      "poster.png.part", "sheet.png",           "sheet.png.part",
-    "trajectory.nc",  "contacts.nc",     "measures.csv",    "fields.nc",           "outflow.csv",
-    "log.txt"};
+    "trajectory.nc",  "contacts.nc",     "measures.csv",    "outflow.csv",         "log.txt",
+    "fields.nc",      "film_moments.nc"};
 
 bool is_file_of_runs(const fs::path& name) {
     return std::find(files_of_runs.begin(), files_of_runs.end(), name.string()) != files_of_runs.end();
@@ -60,6 +60,14 @@ bool is_frame(const fs::path& name) {
            stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
+// "000000012345.grs"
+bool is_checkpoint_of_ring(const fs::path& name) {
+    const std::string text = name.string(), digits = text.substr(0, text.find('.'));
+    const std::string end = text.substr(digits.size());
+    return !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos &&
+           (end == ".grs" || end == ".grs.part");
+}
+
 bool is_real_folder(const fs::directory_entry& entry) {
     return entry.symlink_status().type() == fs::file_type::directory;
 }
@@ -68,6 +76,10 @@ using IsOurs = std::function<bool(const fs::directory_entry&)>;
 
 bool is_ours_in_frames(const fs::directory_entry& entry) {
     return !is_real_folder(entry) && is_frame(entry.path().filename());
+}
+
+bool is_ours_in_checkpoints(const fs::directory_entry& entry) {
+    return !is_real_folder(entry) && is_checkpoint_of_ring(entry.path().filename());
 }
 
 // The first by name of a folder's entries that no run has written; the folder when it cannot be read.
@@ -87,13 +99,17 @@ std::optional<fs::path> foreign_file(const fs::path& run) {
     };
     const auto is_ours = [&](const fs::directory_entry& entry) {
         const fs::path name = entry.path().filename();
-        return is_real_folder(entry) ? name == "frames" || name == "movie.work" || is_panel(name)
-                                     : is_file_of_runs(name);
+        return is_real_folder(entry)
+                   ? name == "frames" || name == "movie.work" || name == "checkpoints" || is_panel(name)
+                   : is_file_of_runs(name);
     };
     if (auto foreign = first_foreign(run, is_ours)) return foreign;
     const fs::path frames = run / "frames";
     if (is_real_folder(fs::directory_entry(frames)))
         if (auto foreign = first_foreign(frames, is_ours_in_frames)) return foreign;
+    const fs::path checkpoints = run / "checkpoints";
+    if (is_real_folder(fs::directory_entry(checkpoints)))
+        if (auto foreign = first_foreign(checkpoints, is_ours_in_checkpoints)) return foreign;
     for (const std::string& panel : panels)
         if (panel.find('/') == std::string::npos && is_real_folder(fs::directory_entry(run / panel)))
             if (auto foreign = foreign_file(run / panel)) return foreign;
@@ -139,6 +155,11 @@ fs::path without_trailing_slash(const fs::path& path) {
 }  // namespace
 
 RunFolder::RunFolder(const RunFolderRequest& request) : command_(request.command) {
+    if (request.goes_on) {
+        lock_ = locked(*request.out);
+        goes_on_ = true;
+        return;
+    }
     if (request.out) {
         take(*request.out, request.force);
         return;
@@ -235,7 +256,7 @@ void RunFolder::remove_previous() {
 }
 
 void RunFolder::discard() {
-    if (!lock_->is_there()) return;
+    if (goes_on_ || !lock_->is_there()) return;
     std::error_code ignored;
     if (adopted_) {
         for (const fs::directory_entry& entry : fs::directory_iterator(path(), ignored))

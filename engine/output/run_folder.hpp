@@ -16,6 +16,7 @@ struct RunFolderRequest {
     std::optional<std::filesystem::path>
         out;                // the wanted folder, new or empty; without it base/name, base/name-2, ...
     bool force = false;     // an `out` that holds a run is replaced
+    bool goes_on = false;   // `out` is a run's folder, and its run goes on
     std::string command{};  // told to others who want the folder
 };
 
@@ -40,7 +41,8 @@ class RunFolder {
     void remove_previous();
 
     // The new run never began: its folder is removed, or emptied when it was there before, and the previous
-    // run is put back. A folder of that name that somebody else has put there is left alone.
+    // run is put back. A folder of that name that somebody else has put there is left alone, and so is that
+    // of a run that was to go on.
     void discard();
 
   private:
@@ -56,6 +58,7 @@ class RunFolder {
     std::filesystem::path previous_;
     Lock lock_, previous_lock_;
     bool adopted_ = false;  // the folder was there before, empty
+    bool goes_on_ = false;  // it was there before, with a run
 };
 
 }  // namespace grainreel

@@ -141,6 +141,25 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
     if (r.status == RunStatus::running || r.status == RunStatus::interrupted) reserve_room(path);
 }
 
+namespace {
+
+std::string text_in(const std::filesystem::path& path, const char* key) {
+    std::ifstream file(path);
+    const Json document = Json::parse(file, nullptr, false);
+    if (!document.is_object() || !document.contains(key) || !document[key].is_string()) return {};
+    return document[key].get<std::string>();
+}
+
+}  // namespace
+
+std::string scene_in_run_json(const std::filesystem::path& path) {
+    return text_in(path, "scene");
+}
+
+std::string status_in_run_json(const std::filesystem::path& path) {
+    return text_in(path, "status");
+}
+
 std::vector<std::string> panels_in_run_json(const std::filesystem::path& path) {
     std::ifstream file(path);
     const Json document = Json::parse(file, nullptr, false);

@@ -69,6 +69,9 @@ std::string utc_now();
 // Throws RunError when the file cannot be written; what it held before stays then.
 void write_run_json(const std::filesystem::path& path, const RunRecord& record);
 
+// The scene file that such a file names, and its status; empty where it says none.
+std::string scene_in_run_json(const std::filesystem::path& path);
+std::string status_in_run_json(const std::filesystem::path& path);
 // `panels` of such a file; empty when it has none or is no such file.
 std::vector<std::string> panels_in_run_json(const std::filesystem::path& path);
 

@@ -41,6 +41,9 @@ class TrajectoryWriter {
   public:
     // Throws RunError when the file cannot be written.
     TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info);
+    // Goes on with a file that was written with this info, behind its first `frames`; what comes after them
+    // is cut off. Throws UserError where the file lacks some of them.
+    TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info, std::size_t frames);
     ~TrajectoryWriter();
 
     // The frame is in the file when this returns; a program killed later leaves it readable. Throws RunError

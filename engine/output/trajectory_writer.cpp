@@ -24,13 +24,15 @@ NetcdfFormat format_for(std::size_t capacity) {
 }  // namespace
 
 struct TrajectoryWriter::Impl {
-    Impl(const std::filesystem::path& path, const TrajectoryInfo& trajectory)
+    Impl(const std::filesystem::path& path, const TrajectoryInfo& trajectory, NetcdfFile to)
         : name(path.string()),
           info(trajectory),
           places(std::max<std::size_t>(trajectory.capacity, 1)),
-          file(NetcdfFile::create(path, format_for(trajectory.capacity))) {}
+          file(std::move(to)) {}
 
     void define();
+    void find_variables();
+    void read_kept(const std::filesystem::path& path);
     void define_dimensions();
     void define_bodies();
     void define_variable(const TrajectoryVariable& variable, const char* of);
@@ -95,6 +97,25 @@ void TrajectoryWriter::Impl::define_dimensions() {
 void TrajectoryWriter::Impl::define_bodies() {
     for (const TrajectoryVariable& variable : body_variables) define_variable(variable, "body");
     file.attribute(variables["body_place"], "names", fmt::format("{}", fmt::join(info.planes, "\n")));
+}
+
+// Of a file that is there already.
+void TrajectoryWriter::Impl::find_variables() {
+    const auto find = [&](const char* variable) { variables[variable] = file.find_variable(variable); };
+    for (const TrajectoryVariable& variable : frame_variables) find(variable.name);
+    for (const TrajectoryVariable& variable : grain_variables) find(variable.name);
+    if (!info.planes.empty())
+        for (const TrajectoryVariable& variable : body_variables) find(variable.name);
+    if (info.orientation) find(orientation_variable.name);
+    if (info.traffic) find(present_variable.name);
+    find(frame_checksum);
+    find(grain_checksum);
+}
+
+// Where all grains were last that there have been: the frames of the file tell it.
+void TrajectoryWriter::Impl::read_kept(const std::filesystem::path& path) {
+    const TrajectoryReader before(path);
+    for (std::size_t k = 0; k < frames; ++k) keep(before.read(k));
 }
 
 // of: "atom" or "body"; null for one of the frame itself.
@@ -233,9 +254,17 @@ void TrajectoryWriter::Impl::write_sum(const char* variable, const Checksum& sum
 }
 
 TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info)
-    : impl_(std::make_unique<Impl>(path, info)) {
+    : impl_(std::make_unique<Impl>(path, info, NetcdfFile::create(path, format_for(info.capacity)))) {
     impl_->define();
     impl_->write_labels();
+}
+
+TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info,
+                                   std::size_t frames)
+    : impl_(std::make_unique<Impl>(path, info, NetcdfFile::append(path, frames))) {
+    impl_->find_variables();
+    impl_->frames = frames;
+    if (info.traffic) impl_->read_kept(path);
 }
 
 TrajectoryWriter::~TrajectoryWriter() = default;

@@ -83,6 +83,7 @@ struct Simulation::Impl {
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     void take_grains();
     void go_on();
+    void check_not_over() const;
     void set_orientations();
     bool pack_rain(const PackingWatcher& watcher, PackingProgress& progress);
     std::int32_t insert(const std::vector<NewGrain>& more);
@@ -101,7 +102,21 @@ void check_start(const Scene& scene, const Plan& plan) {
 }
 
 Simulation::Simulation(const Scene& scene, const Plan& plan, int threads)
-    : impl_(std::make_unique<Impl>(scene, plan, threads)) {}
+    : impl_(std::make_unique<Impl>(scene, plan, threads)) {
+    if (impl_->continued) impl_->check_not_over();
+}
+Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+Simulation Simulation::at_checkpoint(const Scene& scene, const Plan& plan,
+                                     const std::filesystem::path& checkpoint, int threads) {
+    Scene there = scene;
+    there.start = {};
+    there.start.method = Start::Method::file;
+    there.start.file = checkpoint.string();
+    there.start.keep_clock = true;
+    return Simulation(std::make_unique<Impl>(there, plan, threads));
+}
+
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
@@ -136,6 +151,9 @@ void Simulation::Impl::go_on() {
     if (opened) open_outlet(scene, around);
     take_gathered(gathered);
     observers.start(moment(), contacts());
+}
+
+void Simulation::Impl::check_not_over() const {
     if (step >= plan.steps)
         throw UserError(
             fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
@@ -408,6 +426,26 @@ std::vector<Simulation::ContactRecord> Simulation::contacts() const {
         return a.first != b.first ? a.first < b.first : a.second < b.second;
     });
     return records;
+}
+
+std::vector<ContactForce> Simulation::contact_forces() const {
+    const Impl& m = *impl_;
+    const auto species = [&](std::int32_t grain) {
+        return static_cast<std::size_t>(m.grains.species[grain]);
+    };
+    std::vector<ContactForce> forces;
+    m.loop->visit_contacts(m.step, [&](const ContactView& c) {
+        const bool pair = c.second >= 0;
+        const PairPlan& law =
+            pair ? m.plan.between(species(c.first), species(c.second)) : m.plan.wall[species(c.first)];
+        forces.push_back({m.grains.id[c.first], pair ? m.grains.id[c.second] : c.second, c.normal, c.overlap,
+                          c.normal_force, c.tangential, c.torque_on_first,
+                          pair ? c.torque_on_second : Vec3::Zero(), law.friction, c.point});
+    });
+    std::sort(forces.begin(), forces.end(), [](const ContactForce& a, const ContactForce& b) {
+        return a.first != b.first ? a.first < b.first : a.second < b.second;
+    });
+    return forces;
 }
 
 void Simulation::save_checkpoint(const std::filesystem::path& path) const {

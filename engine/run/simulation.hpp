@@ -13,6 +13,7 @@
 #include "engine/measure/field.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/run/contact_force.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/step/traffic.hpp"
 
@@ -44,6 +45,11 @@ class Simulation {
     // threads: 0 takes what the machine gives. Takes the grains of a file or a list, and throws UserError
     // where they do not fit the scene.
     Simulation(const Scene& scene, const Plan& plan, int threads);
+    // The run of the scene as a checkpoint of it has it, which may be its last step. Takes the place of the
+    // scene's own start and of pack(). Throws UserError where the checkpoint cannot be used, or is of another
+    // run.
+    static Simulation at_checkpoint(const Scene& scene, const Plan& plan,
+                                    const std::filesystem::path& checkpoint, int threads);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
 
@@ -86,12 +92,15 @@ class Simulation {
         bool operator==(const ContactRecord&) const = default;
     };
     std::vector<ContactRecord> contacts() const;
+    // All contacts that touch now, with what they do to the grains; in the same order.
+    std::vector<ContactForce> contact_forces() const;
 
     // Everything needed to go on bit-identically; written to a temporary name and renamed.
     void save_checkpoint(const std::filesystem::path& path) const;
 
   private:
     struct Impl;
+    explicit Simulation(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
 

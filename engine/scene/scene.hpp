@@ -251,6 +251,10 @@ struct Output {
     bool orientation = false;                 // keep orientations in the trajectory
     bool contacts = false;                    // write contacts.nc beside it
     bool trajectory = true;
+    // Keep the moments of the film's pictures in film_moments.nc; where they are few when empty.
+    std::optional<bool> film_moments;
+    // Bytes of all checkpoints that are kept of a run's way; none are kept when empty.
+    std::optional<std::int64_t> checkpoints = 64'000'000;
     std::vector<std::string> instruments;  // what is measured beside the usual columns
     FieldOutput fields;
     bool operator==(const Output&) const = default;

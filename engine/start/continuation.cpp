@@ -44,6 +44,11 @@ std::vector<Value> values_of(std::string_view text) {
             values.emplace_back(join_path(table, line.substr(0, equal)), line.substr(equal + 3));
         }
     }
+    return values;
+}
+
+std::vector<Value> deciding_values_of(std::string_view text) {
+    std::vector<Value> values = values_of(text);
     std::erase_if(values, [](const Value& value) { return !decides_future(value.first); });
     return values;
 }
@@ -109,14 +114,32 @@ std::string scene_to_keep(const Scene& scene, const Plan& plan) {
     return resolved_scene(kept, plan);
 }
 
-std::vector<KeyDifference> deciding_differences(std::string_view then, std::string_view now) {
-    const std::vector<Value> before = values_of(then), after = values_of(now);
+namespace {
+
+std::vector<KeyDifference> differences_between(const std::vector<Value>& before,
+                                               const std::vector<Value>& after) {
     const Lookup old(before.begin(), before.end()), today(after.begin(), after.end());
     std::vector<KeyDifference> differences;
     for (const auto& [key, value] : after)
         if (value_at(old, key) != value) differences.push_back({key, value_at(old, key), value});
     for (const auto& [key, value] : before)
         if (!today.contains(key)) differences.push_back({key, value, ""});
+    return differences;
+}
+
+}  // namespace
+
+std::vector<KeyDifference> differences_of_table(std::string_view then, std::string_view now,
+                                                std::string_view table) {
+    std::vector<Value> before = values_of(then), after = values_of(now);
+    for (std::vector<Value>* values : {&before, &after})
+        std::erase_if(*values, [&](const Value& value) { return !lies_in(value.first, table); });
+    return differences_between(before, after);
+}
+
+std::vector<KeyDifference> deciding_differences(std::string_view then, std::string_view now) {
+    std::vector<KeyDifference> differences =
+        differences_between(deciding_values_of(then), deciding_values_of(now));
     std::stable_partition(differences.begin(), differences.end(),
                           [](const auto& d) { return !is_chosen(d); });
     return differences;
@@ -127,18 +150,18 @@ void check_same_future(const std::string& kept, const Scene& scene, const Plan& 
     const std::vector<KeyDifference> differences = deciding_differences(kept, today);
     if (differences.empty()) return;
     const auto& [key, then, now] = differences.front();
-    const std::vector<Value> values = values_of(today);
+    const std::vector<Value> values = deciding_values_of(today);
     const std::string between = value_at({values.begin(), values.end()}, parent_of(key) + ".between");
     const char* advice = is_chosen(differences.front())
                              ? "take the scene.toml of that run, which has what its plan chose"
                              : "put back what it was";
-    throw UserError(
-        fmt::format("{}: '{}'{} is {}, but it was {} in the run that '{}' is from{}; {}, or set "
-                    "start.keep_clock = false to "
-                    "start anew from its grains",
-                    place_of(scene, key, between), shown(key), between.empty() ? "" : " of " + shown(between),
-                    now.empty() ? "not there" : shown(now), then.empty() ? "not there" : shown(then),
-                    scene.start.file, others_text(differences), advice));
+    // A run that is only taken up again has its own start.
+    const bool by_scene = scene.written.contains("start.keep_clock");
+    throw UserError(fmt::format(
+        "{}: '{}'{} is {}, but it was {} in the run that '{}' is from{}; {}{}", place_of(scene, key, between),
+        shown(key), between.empty() ? "" : " of " + shown(between), now.empty() ? "not there" : shown(now),
+        then.empty() ? "not there" : shown(then), scene.start.file, others_text(differences), advice,
+        by_scene ? ", or set start.keep_clock = false to start anew from its grains" : ""));
 }
 
 }  // namespace grainreel

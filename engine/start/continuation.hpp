@@ -28,6 +28,10 @@ struct KeyDifference {
 // chose.
 std::vector<KeyDifference> deciding_differences(std::string_view then, std::string_view now);
 
+// Likewise, all keys of one table, such as "output".
+std::vector<KeyDifference> differences_of_table(std::string_view then, std::string_view now,
+                                                std::string_view table);
+
 // Throws UserError, at the key that differs, when a run of the kept scene cannot go on in this one.
 void check_same_future(const std::string& kept, const Scene& scene, const Plan& plan);
 

@@ -155,6 +155,27 @@ bool is_checkpoint(const std::filesystem::path& path) {
     return in && name == kName;
 }
 
+std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path) {
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(path, failed);
+    std::ifstream in(path, std::ios::binary);
+    std::string name(kName.size(), '\0');
+    char version = 0;
+    std::uint64_t sum = 0, length = 0;
+    in.read(name.data(), static_cast<std::streamsize>(name.size()));
+    in.get(version);
+    in.read(reinterpret_cast<char*>(&sum), sizeof sum);
+    in.read(reinterpret_cast<char*>(&length), sizeof length);
+    if (failed || !in || name != kName || version != kVersion || length > size) return std::nullopt;
+    CheckpointLabel label;
+    label.scene.resize(length);
+    in.read(label.scene.data(), static_cast<std::streamsize>(length));
+    CheckpointHeader header;
+    in.read(reinterpret_cast<char*>(&header), sizeof header);
+    label.step = header.step;
+    return in && label.step >= 0 ? std::optional(label) : std::nullopt;
+}
+
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
                                           StepLoop& loop, std::string& gathered,
                                           std::vector<std::int64_t>& given) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,14 @@ void write_state(std::ostream& out, std::int64_t step, const Grains& grains, con
 
 // Whether it is one, of this version or another.
 bool is_checkpoint(const std::filesystem::path& path);
+
+// What a checkpoint says of itself, without looking at the rest: its step, and the scene as it was used.
+// None where there is no such file, or it is of another version or cut off.
+struct CheckpointLabel {
+    std::int64_t step = 0;
+    std::string scene;
+};
+std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path);
 
 // Both throw UserError, at the scene's `start.file` or at the key that differs, when the file is missing,
 // damaged, of another version, or does not fit the scene; nothing in it is believed.

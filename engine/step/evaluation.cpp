@@ -24,7 +24,8 @@ void Evaluations::set_kicks(KickInput& kicks) const {
     kicks.end_kick = step_ * scheme_.stages[stage_before].kick;
     kicks.begin_kick = stage_ == 0 ? step_ * scheme_.opening_kick : 0;
     kicks.drift = step_ * scheme_.stages[stage_].drift;
-    if (stage_ == 0 && !begins_run_ && !scheme_.corrects) kicks.drift += step_ * scheme_.closing_drift;
+    const bool goes_on = stage_ == 0 && !begins_run_ && !scheme_.corrects;
+    kicks.closing_drift = goes_on ? step_ * scheme_.closing_drift : 0;
 }
 
 }  // namespace grainreel

@@ -40,7 +40,7 @@ void FilmRun::check_film(const Scene& scene, std::int64_t frames) const {
 void FilmRun::make_folder(RunFolderRequest request) {
     request.command = request_.command;
     folder_.emplace(request);
-    log_.emplace(folder_->path() / "log.txt");
+    log_.emplace(folder_->path() / "log.txt", request.goes_on);
     listener_.keep_log(&*log_);
 }
 

@@ -44,9 +44,20 @@ MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scen
     make_folder({scene.name, request.base, request.out, request.force});
 }
 
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+                   ResumePoint point)
+    : FilmRun(request, listener),
+      pictures_(schedule(scene, plan, wants_pictures())),
+      run_(scene, plan, std::move(point)) {
+    threads_ = threads_for(scene, wants_pictures());
+    check_film(scene, static_cast<std::int64_t>(pictures_.instants.size()));
+    make_folder({.name = scene.name, .out = request.out, .goes_on = true});
+    mark_begun();
+}
+
 bool MovieRun::work() {
     describe();
-    if (!pack()) return false;
+    if (!run_.packed() && !pack()) return false;
     mark_begun();
     run_.start(pictures_);
     pictures_planned_ = run_.shots();

@@ -17,6 +17,9 @@ class MovieRun final : public FilmRun {
   public:
     // Throws UserError for what scene, plan or options get wrong; nothing is on disk then.
     MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
+    // The run in the folder request.out goes on from that point.
+    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+             ResumePoint point);
 
   private:
     bool work() override;

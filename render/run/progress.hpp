@@ -7,7 +7,17 @@
 namespace grainreel {
 
 struct Progress {
-    enum class Stage { growing, raining, settling, vibrating, charting, timing, drawing, studying };
+    enum class Stage {
+        growing,
+        raining,
+        settling,
+        vibrating,
+        charting,
+        timing,
+        drawing,
+        studying,
+        replaying
+    };
     Stage stage = Stage::growing;
     double done = 0;                              // of this stage, 0 to 1
     std::string what;                             // while charting, timing or studying

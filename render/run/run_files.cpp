@@ -1,6 +1,9 @@
 #include "render/run/run_files.hpp"
 
+#include <algorithm>
+
 #include "engine/scene/bed.hpp"
+#include "render/run/resume/kept_files.hpp"
 
 namespace grainreel {
 
@@ -28,9 +31,18 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
 
 }  // namespace
 
+double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pictures) {
+    constexpr double most_bytes = 100e6, bytes_a_grain = 64;
+    if (!scene.output.trajectory) return 0;
+    const double bytes = bytes_a_grain * static_cast<double>(pictures) * static_cast<double>(plan.capacity);
+    return scene.output.film_moments.value_or(bytes <= most_bytes) ? bytes : 0;
+}
+
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                    const Simulation& simulation, const std::string& program_version)
-    : clock_(plan.clock),
+    : folder_(folder),
+      info_(trajectory_info(scene, plan, program_version)),
+      clock_(plan.clock),
       field_times_(plan.fields),
       measures_(folder / "measures.csv", simulation.measured()),
       departed_(scene) {
@@ -39,8 +51,57 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
     if (const auto sets = simulation.field_sets(); !sets.empty())
         fields_.emplace(folder / "fields.nc", sets, scene.title, program_version);
     if (plan.trajectory_every == 0) return;
-    trajectory_.emplace(folder / "trajectory.nc", trajectory_info(scene, plan, program_version));
+    trajectory_.emplace(folder / "trajectory.nc", info_);
     if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, program_version);
+}
+
+RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+                   const Simulation& simulation, const std::string& program_version)
+    : folder_(folder),
+      info_(trajectory_info(scene, plan, program_version)),
+      clock_(plan.clock),
+      field_times_(plan.fields),
+      measures_(folder / "measures.csv", simulation.measured(), simulation.step()),
+      departed_(scene) {
+    const double now = plan.clock.time(simulation.step());
+    if (plan.opens) {
+        outflow_.emplace(folder / "outflow.csv", now);
+        if (std::optional<OutflowRecord> before = OutflowRecord::read(folder / "outflow.csv", scene))
+            departed_ = std::move(*before);
+    }
+    if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
+    take_over_rows(simulation);
+    if (const auto sets = simulation.field_sets(); !sets.empty())
+        fields_.emplace(folder / "fields.nc", sets, now);
+    if (plan.trajectory_every == 0) return;
+    const std::vector<std::int64_t> steps = steps_in_trajectory(folder / "trajectory.nc");
+    const auto frames = static_cast<std::size_t>(
+        std::lower_bound(steps.begin(), steps.end(), simulation.step()) - steps.begin());
+    trajectory_.emplace(folder / "trajectory.nc", info_, frames);
+    if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", frames);
+}
+
+// Of measures.csv, for plots and for the end's comparison with the beginning.
+void RunFiles::take_over_rows(const Simulation& simulation) {
+    const std::shared_ptr<const MeasureTable> rows = read_measures(folder_ / "measures.csv");
+    if (!rows) return;
+    const auto names = std::make_shared<const std::vector<std::string>>(simulation.measured());
+    for (std::size_t row = 0; row < rows->rows(); ++row) {
+        std::vector<double> values;
+        for (std::size_t k = 0; k < names->size(); ++k)
+            values.push_back(rows->values(k, row, row + 1).front());
+        if (table_) table_->add(values);
+        last_ = Measures(names, std::move(values));
+        if (!first_) first_ = last_;
+    }
+}
+
+void RunFiles::keep_film_moments(std::size_t frames) {
+    film_moments_.emplace(folder_ / kFilmMoments, info_, frames);
+}
+
+void RunFiles::keep_film_moments() {
+    film_moments_.emplace(folder_ / kFilmMoments, info_);
 }
 
 void RunFiles::add_frame(const Frame& frame, const Simulation& simulation) {

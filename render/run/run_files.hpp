@@ -19,14 +19,31 @@
 
 namespace grainreel {
 
+// The moments of the film's pictures, in the format of trajectory.nc: frame k is picture k.
+inline constexpr const char* kFilmMoments = "film_moments.nc";
+
+// Bytes of that file for so many pictures; 0 where the scene keeps none.
+double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pictures);
+
 class RunFiles {
   public:
     // With room for all grains that the plan expects. Throws RunError when a file cannot be made.
     RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version);
+    // Likewise, of a run that goes on in its folder from where the simulation is: what its files have of that
+    // step and later ones is cut off first. Throws UserError where they lack something of what was before.
+    struct GoesOn {};
+    RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+             const Simulation& simulation, const std::string& program_version);
 
     // The frame, and the contacts of the same moment when the scene asks for them.
     void add_frame(const Frame& frame, const Simulation& simulation);
+    // From now on: moments of the film's pictures, in a file of their own.
+    void keep_film_moments();
+    // Behind the first `frames` of them.
+    void keep_film_moments(std::size_t frames);
+    bool keeps_film_moments() const { return film_moments_.has_value(); }
+    void add_film_moment(const Frame& frame) { film_moments_->write(frame); }
     void add_measures(const Measures& measures);
     // What observers give on grids, at the end of a record.
     bool has_fields() const { return fields_.has_value(); }
@@ -47,7 +64,11 @@ class RunFiles {
     const std::optional<Measures>& last_measures() const { return last_; }
 
   private:
-    std::optional<TrajectoryWriter> trajectory_;
+    void take_over_rows(const Simulation& simulation);
+
+    std::filesystem::path folder_;
+    TrajectoryInfo info_;  // of the trajectory, and of the film's moments
+    std::optional<TrajectoryWriter> trajectory_, film_moments_;
     std::optional<ContactsWriter> contacts_;
     Clock clock_;
     FieldTimes field_times_;

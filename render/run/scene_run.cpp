@@ -12,8 +12,31 @@
 
 namespace grainreel {
 
+namespace {
+
+// A hard link that takes the place of what `name` was. False where the file system knows none.
+bool give_second_name(const std::filesystem::path& file, const std::filesystem::path& name) {
+    const std::filesystem::path part = name.string() + ".part";
+    std::error_code error;
+    std::filesystem::remove(part, error);
+    std::filesystem::create_hard_link(file, part, error);
+    if (!error) std::filesystem::rename(part, name, error);
+    return !error;
+}
+
+}  // namespace
+
 SceneRun::SceneRun(const Scene& scene, const Plan& plan, int threads)
     : scene_(scene), plan_(plan), simulation_(scene, plan, threads) {}
+
+SceneRun::SceneRun(const Scene& scene, const Plan& plan, ResumePoint point)
+    : scene_(scene),
+      plan_(plan),
+      simulation_(std::move(point.simulation)),
+      packed_(true),
+      first_step_(point.first),
+      goes_on_(true),
+      pictures_kept_(point.pictures) {}
 
 void SceneRun::use_folder(const FolderLock& folder, const std::string& program_version) {
     folder_ = &folder;
@@ -92,17 +115,34 @@ void SceneRun::start(const Pictures& pictures) {
     const std::vector<Shot> shots = shots_of(pictures);
     segments_ = pictures.segments;
     bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
-    files_.emplace(folder_->folder(), scene_, plan_, simulation_, program_version_);
+    open_files(shots);
+    if (scene_.output.checkpoints)
+        ring_.emplace(folder_->folder(), *scene_.output.checkpoints, simulation_.step(), plan_.steps);
     want_moments(shots);
     agenda_.emplace(shots, Rhythm(plan_.trajectory_every, plan_.trajectory_periods),
-                    Rhythm(plan_.measures_every, plan_.measures_periods), first_step_, plan_.steps,
+                    Rhythm(plan_.measures_every, plan_.measures_periods), simulation_.step(), plan_.steps,
                     kept_.steps(), plan_.clock, files_->has_fields() ? &plan_.fields : nullptr);
+    if (simulation_.step() > first_step_) agenda_->goes_on();
     // As far as one knows: what a bed of several periods leaves out is found later.
     shots_ = std::count_if(shots.begin(), shots.end(), [&](const Shot& shot) {
         const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));
         return shot.step >= first_step_ && bed_periods_->shows(rule, shot);
     });
     save_checkpoint();  // of a packing that may have taken hours
+}
+
+void SceneRun::open_files(const std::vector<Shot>& shots) {
+    const std::filesystem::path& folder = folder_->folder();
+    if (!goes_on_) {
+        files_.emplace(folder, scene_, plan_, simulation_, program_version_);
+        if (film_moments_bytes(scene_, plan_, std::ssize(shots)) > 0) files_->keep_film_moments();
+        return;
+    }
+    files_.emplace(RunFiles::GoesOn(), folder, scene_, plan_, simulation_, program_version_);
+    std::error_code ignored;
+    if (shots.empty() || !std::filesystem::exists(folder / kFilmMoments, ignored)) return;
+    files_->keep_film_moments(pictures_kept_);
+    earlier_.emplace(scene_, plan_.clock, folder, shots, pictures_kept_, files_->measures(), *files_);
 }
 
 // Whatever number of periods the bed will turn out to repeat itself after.
@@ -116,6 +156,10 @@ void SceneRun::want_moments(const std::vector<Shot>& shots) {
 
 std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     if (std::optional<Taken> picture = waiting()) return picture;
+    if (earlier_ && !go_on()) return std::nullopt;
+    if (earlier_)
+        if (std::optional<Taken> picture = earlier_->next()) return picture;
+    earlier_.reset();
     while (std::optional<Stop> stop = agenda_->next()) {
         if (!advance_to(stop->step, go_on)) return std::nullopt;
         look_at_bed_periods();
@@ -164,7 +208,7 @@ bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
         const double work = static_cast<double>(to - from) * static_cast<double>(simulation_.grains());
         particle_steps_ += work;
         rate_.add(work, seconds);
-        if (checkpoints_.due()) save_checkpoint();
+        if (checkpoints_.due() || ring_due()) save_checkpoint();
     }
     return go_on();
 }
@@ -186,6 +230,10 @@ FramePtr SceneRun::serve(const Stop& stop) {
     }
     if (stop.moment) kept_.keep(*frame);
     if (stop.segments.empty()) return frame;
+    if (files_->keeps_film_moments()) {
+        const auto timer = times_.during("writing");
+        files_->add_film_moment(*frame);
+    }
     parts_->add(*frame, rule(stop.segments.back()), bed_periods_->shown(), Parts(*this));
     kept_.done_with(stop.step);
     return frame;
@@ -200,11 +248,25 @@ void SceneRun::add_measures() {
     files_->add_measures(simulation_.measures());
 }
 
+bool SceneRun::ring_due() const {
+    return ring_ && ring_->due(simulation_.step()) && checkpoints_.affordable();
+}
+
+// One of the ring is the run's last one too, under a second name.
 void SceneRun::save_checkpoint() {
     folder_->check_there();
     const auto timer = times_.during("writing");
     const Stopwatch writing;
-    simulation_.save_checkpoint(path_of("checkpoint.grs"));
+    const std::filesystem::path last = path_of("checkpoint.grs");
+    const auto save = [&](const std::filesystem::path& file) { simulation_.save_checkpoint(file); };
+    if (!ring_ || !ring_->due(simulation_.step())) {
+        save(last);
+    } else {
+        ring_->add(simulation_.step(), [&](const std::filesystem::path& file) {
+            save(file);
+            if (!give_second_name(file, last)) save(last);
+        });
+    }
     checkpoints_.saved(writing.seconds());
 }
 
@@ -234,11 +296,13 @@ std::string SceneRun::files_text() const {
     std::string text;
     if (plan_.trajectory_every > 0)
         text += fmt::format("trajectory.nc ({} frames), ", files_->trajectory_frames());
+    if (files_->keeps_film_moments()) text += "film_moments.nc, ";
     if (files_->has_contacts()) text += "contacts.nc, ";
     if (files_->has_fields()) text += fmt::format("fields.nc ({} records), ", files_->field_records());
     if (const auto rows = files_->outflow_rows()) text += fmt::format("outflow.csv ({} grains), ", *rows);
-    return text + fmt::format("measures.csv ({} rows), final.csv, checkpoint.grs, scene.toml, run.json",
-                              files_->measures_rows());
+    text += fmt::format("measures.csv ({} rows), final.csv, checkpoint.grs, ", files_->measures_rows());
+    if (ring_) text += fmt::format("checkpoints/ ({}), ", ring_->kept().size());
+    return text + "scene.toml, run.json";
 }
 
 void SceneRun::describe(RunRecord& record) const {

@@ -11,6 +11,7 @@
 #include "engine/output/folder_lock.hpp"
 #include "engine/output/run_json.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/replay/checkpoint_ring.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/run/checkpoint_pace.hpp"
@@ -21,6 +22,8 @@
 #include "render/run/moments/bed_periods.hpp"
 #include "render/run/moments/kept_moments.hpp"
 #include "render/run/pace.hpp"
+#include "render/run/resume/earlier_pictures.hpp"
+#include "render/run/resume/resume_point.hpp"
 #include "render/run/run_files.hpp"
 #include "render/run/stage_times.hpp"
 
@@ -30,6 +33,8 @@ class SceneRun final : public FrameSource {
   public:
     // Throws UserError for what scene or plan get wrong; nothing is on disk then.
     SceneRun(const Scene& scene, const Plan& plan, int threads);
+    // A run that goes on in its folder. It is packed.
+    SceneRun(const Scene& scene, const Plan& plan, ResumePoint point);
 
     // Writes scene.toml there; the other files follow with start(). The lock outlives the run; from here
     // pack() and next() throw RunError soon after the folder is gone.
@@ -82,7 +87,9 @@ class SceneRun final : public FrameSource {
     void look_at_bed_periods();
     void add_measures();
     const FilmSegment& rule(int segment) const { return segments_.at(static_cast<std::size_t>(segment)); }
+    bool ring_due() const;
     void save_checkpoint();
+    void open_files(const std::vector<Shot>& shots);
     std::filesystem::path path_of(const char* file) const { return folder_->folder() / file; }
 
     Scene scene_;
@@ -93,6 +100,9 @@ class SceneRun final : public FrameSource {
     PackingResult packing_;
     bool packed_ = false;
     std::int64_t first_step_ = 0, shots_ = 0;
+    bool goes_on_ = false;           // in the folder of an earlier run, which it is
+    std::size_t pictures_kept_ = 0;  // of that
+    std::optional<EarlierPictures> earlier_;
     std::optional<RunFiles> files_;
     std::optional<Agenda> agenda_;
     std::optional<BedPeriods> bed_periods_;
@@ -104,6 +114,7 @@ class SceneRun final : public FrameSource {
     StageTimes times_;
     Pace pace_;
     CheckpointPace checkpoints_;
+    std::optional<CheckpointRing> ring_;
     double particle_steps_ = 0;                // of vibration
     RecentRate rate_;                          // particle-steps/s
     std::optional<std::uint64_t> state_hash_;  // of the end state

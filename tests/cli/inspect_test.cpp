@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
@@ -12,6 +13,7 @@
 #include "engine/inspect/grain_columns.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {
@@ -154,6 +156,19 @@ TEST(Questions, AHistogramHasEveryGrainOnce) {
     for (const auto& row : table.rows) EXPECT_EQ(number(row[2]) + number(row[3]), 16);
 }
 
+// A plane at the height of half a radius above the centres of the lowest layer.
+TEST(Questions, ASliceHasTheCirclesOfALayer) {
+    const Bed bed;
+    const Answer answer = slice_answer(bed.snapshot, "z = 3 mm", 100);
+    ASSERT_EQ(answer.tables[1].rows.size(), 16u);
+    EXPECT_EQ(number(answer.tables[0].rows[0][1]), 16);
+    EXPECT_NEAR(number(answer.tables[1].rows[7][5]), std::sqrt(3) / 2 * d / 2, 1e-15);
+    EXPECT_EQ(slice_answer(bed.snapshot, "y=0", 100).tables[1].rows.size(),
+              0u);  // between two rows that touch it
+    EXPECT_THROW(slice_answer(bed.snapshot, "w=0", 100), UserError);
+    EXPECT_THROW(slice_answer(bed.snapshot, "y = 2 s", 100), UserError);
+}
+
 // Of a cubic lattice of spacing d: partners at d (6), d sqrt 2 (12), d sqrt 3 (8), 2 d (6) ..., none between.
 TEST(Questions, ThePairDistributionOfALatticeHasItsShells) {
     Bed bed;
@@ -233,6 +248,96 @@ TEST(InspectProgram, AnswersFromARunOnDisk) {
     EXPECT_THAT(late.err, HasSubstr("--at: 9 s is outside the run"));
     EXPECT_EQ(run_program({"inspect", "run", "--grain", "7"}, {.folder = folder.path()}).status, 2);
     EXPECT_EQ(run_program({"inspect", "nowhere"}, {.folder = folder.path()}).status, 2);
+}
+
+// A run of fifty grains with a film, in run/.
+class InspectedMoment : public testing::Test {
+  protected:
+    void SetUp() override {
+        write_small_scene(folder.path());
+        const Ended run = run_program({"movie", "fifty.toml", "--out", "run", "--duration", "0.12 s", "--set",
+                                       "start.settle_limit=0.02 s", "--set", "run.contact_corrections=false"},
+                                      {.folder = folder.path()});
+        ASSERT_EQ(run.status, 0) << run.err;
+    }
+    Ended inspect(std::vector<std::string> words) const {
+        words.insert(words.begin(), {"inspect", "run"});
+        return run_program(words, {.folder = folder.path()});
+    }
+    nlohmann::json answer(std::vector<std::string> words) const {
+        words.push_back("--json");
+        const Ended ended = inspect(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return nlohmann::json::parse(ended.out);
+    }
+    std::string refusal(const std::vector<std::string>& words) const {
+        const Ended ended = inspect(words);
+        EXPECT_EQ(ended.status, 2) << ended.out;
+        EXPECT_EQ(ended.out, "");
+        return ended.err;
+    }
+
+    TemporaryFolder folder;
+};
+
+// Newton's second law, of each grain, at a moment that the run did not keep.
+TEST_F(InspectedMoment, TheForcesOnAGrainAddUpToItsAcceleration) {
+    for (const char* id : {"0", "17", "45"}) {
+        const auto told = answer({"--at", "0.0731 s", "--grain", id})["tables"];
+        const auto& rows = told["forces"]["rows"];
+        ASSERT_EQ(rows.size(), 4u);
+        const double scale = std::max(rows[0][4].get<double>(), rows[1][4].get<double>());
+        for (int axis = 1; axis <= 3; ++axis) {
+            const auto at = [&](int row) { return rows[row][axis].get<double>(); };
+            EXPECT_NEAR(at(2), at(0) + at(1), 1e-12 * scale);
+            EXPECT_NEAR(at(3), at(2), 1e-6 * scale) << id;
+        }
+        EXPECT_EQ(told["grain"]["rows"].size(), 1u);
+    }
+}
+
+TEST_F(InspectedMoment, AWallTellsWhoTouchesIt) {
+    const auto told = answer({"--wall", "floor", "--limit", "1000"})["tables"];
+    const auto& sum = told["wall"]["rows"][0];
+    double normal = 0;
+    for (const auto& one : told["touching"]["rows"]) normal += one[4].get<double>();
+    EXPECT_EQ(told["touching"]["rows"].size(), sum[0].get<std::size_t>());
+    EXPECT_NEAR(normal, sum[4].get<double>(), 1e-9 * normal);
+    EXPECT_NEAR(-sum[3].get<double>(), normal, 1e-9 * normal);  // the floor is level, friction along it
+    EXPECT_THAT(refusal({"--wall", "roof"}),
+                HasSubstr("--wall: 'roof' is no wall of this scene; it has floor"));
+}
+
+TEST_F(InspectedMoment, AFrameOfTheFilmHasTheMomentOfItsPicture) {
+    const auto moment = [&](const std::string& frame) {
+        return answer({"--frame", frame})["tables"]["moment"]["rows"][0][0].get<double>();
+    };
+    EXPECT_NEAR(moment("0"), 0, 1e-12);
+    EXPECT_NEAR(moment("5"), 5 * 0.5 / 30, 1e-4);  // playback over rate, to the nearest step
+    EXPECT_THAT(refusal({"--frame", "1000"}), HasSubstr("--frame: the film has the frames 0 to "));
+    std::filesystem::remove(folder / "run/film_moments.nc");
+    EXPECT_THAT(refusal({"--frame", "1"}), HasSubstr("has no film_moments.nc"));
+}
+
+TEST_F(InspectedMoment, WhatCannotComeBackIsToldInOneLine) {
+    const auto kept = answer({"--at", "0.0731 s", "--no-replay"});
+    EXPECT_THAT(kept["notes"].dump(), HasSubstr("0.0731 s was not kept; this is the nearest kept moment"));
+    EXPECT_THAT(refusal({"--at", "0.2 s"}),
+                HasSubstr("--at: 0.2 s is outside the run, which goes from 0 to 0.12 s"));
+    EXPECT_THAT(refusal({"--no-replay", "--wall", "floor"}), HasSubstr("--no-replay: forces on walls"));
+    std::filesystem::remove_all(folder / "run/checkpoints");
+    EXPECT_THAT(refusal({"--at", "0.0731 s"}), HasSubstr("has no checkpoint of 0.0731 s or before"));
+    std::filesystem::remove(folder / "run/checkpoint.grs");
+    EXPECT_THAT(refusal({"--at", "0.0731 s"}), HasSubstr("has no checkpoints"));
+    EXPECT_EQ(answer({"--grain", "3"})["tables"].contains("forces"), false);
+}
+
+TEST_F(InspectedMoment, ThePictureIsDrawnOnce) {
+    EXPECT_EQ(inspect({"--grain", "12", "--png", "grain.png"}).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "grain.png"));
+    EXPECT_THAT(refusal({"--grain", "12", "--png", "grain.png"}),
+                HasSubstr("--png grain.png: exists already"));
+    EXPECT_THAT(refusal({"--grain", "12", "--png", "grain.jpg"}), HasSubstr("ends in .png"));
 }
 
 }  // namespace

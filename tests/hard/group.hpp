@@ -73,6 +73,7 @@ Group damaged_trajectories(const Ground& ground);
 Group mutated_scenes(const Ground& ground);
 Group changed_continuations(const Ground& ground);
 Group killed_runs(const Ground& ground);
+Group resumed_runs(const Ground& ground);
 Group full_disks(const Ground& ground);
 
 }  // namespace grainreel::hard

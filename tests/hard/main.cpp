@@ -123,8 +123,9 @@ int day(const Wanted& wanted) {
     Ground ground = lay_ground(folder.path());
     if (mounts) ground.full = folder / "full";
     bool well = true, any = false;
-    for (const Group& group : {damaged_trajectories(ground), mutated_scenes(ground),
-                               changed_continuations(ground), killed_runs(ground), full_disks(ground)}) {
+    for (const Group& group :
+         {damaged_trajectories(ground), mutated_scenes(ground), changed_continuations(ground),
+          killed_runs(ground), resumed_runs(ground), full_disks(ground)}) {
         if (!wanted.group.empty() && wanted.group != group.name) continue;
         any = true;
         well = Run(group, wanted, folder.path()).all() && well;

@@ -48,6 +48,27 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& path, NetcdfFormat fo
     return file;
 }
 
+NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t records) {
+    const NetcdfHeader header = read_netcdf_header(path);
+    std::error_code error;
+    const std::uintmax_t end = header.begin + header.record * records;
+    if ((records > 0 && end > std::filesystem::file_size(path, error)) || error)
+        throw UserError(
+            fmt::format("{}: was cut off; it lacks some of its first {} records", path.string(), records));
+    std::filesystem::resize_file(path, end, error);
+    if (error) throw RunError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
+    set_record_count(path, records);
+    int id = -1;
+    std::size_t buffer = buffer_size;
+    if (const int status = nc__open(path.c_str(), NC_WRITE, &buffer, &id); status != NC_NOERR)
+        throw RunError(fmt::format("{}: cannot be written: {}", path.string(), nc_strerror(status)));
+    NetcdfFile file(path, id, true);
+    file.records_ = records;
+    int old_mode = 0;
+    file.wrote(nc_set_fill(id, NC_NOFILL, &old_mode));
+    return file;
+}
+
 NetcdfFile NetcdfFile::open(const std::filesystem::path& path) {
     const NetcdfHeader header = read_netcdf_header(path);
     int id = -1;

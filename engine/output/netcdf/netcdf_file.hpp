@@ -18,6 +18,9 @@ class NetcdfFile {
   public:
     // Makes the file, in define mode, without fill values: every variable of a record must be written.
     static NetcdfFile create(const std::filesystem::path& path, NetcdfFormat format);
+    // Opens one that create() made, to write on behind its first `records`; whatever comes behind them is cut
+    // off. Throws UserError when there are fewer, or as open() does, and RunError when it cannot be written.
+    static NetcdfFile append(const std::filesystem::path& path, std::size_t records);
     // Opens it for reading. Throws UserError when it is missing, no classic NetCDF file, or its header is
     // damaged.
     static NetcdfFile open(const std::filesystem::path& path);

@@ -5,6 +5,7 @@
 
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "engine/scene/text/data_size.hpp"
 
 namespace grainreel {
 namespace {
@@ -85,6 +86,22 @@ const char* without_trajectory(const Output& output) {
     return output.trajectory ? nullptr : "no trajectory is kept";
 }
 
+void read_checkpoints(Document& document, const Scene&, const std::string& path, Output& into) {
+    const auto text = document.text(path);
+    if (!text) return;
+    const bool none = *text == "none";
+    into.checkpoints = none ? std::nullopt : parse_data_size(*text);
+    if (!none && !into.checkpoints)
+        document.fail(path,
+                      fmt::format("must be a size in kB, MB, GB, KiB, MiB or GiB, or \"none\", but is {}; "
+                                  "write for example \"64 MB\"",
+                                  document.written_value(path)));
+}
+
+std::string checkpoints_text(const Output& from, const Scene&) {
+    return quoted(from.checkpoints ? fmt::format("{} B", *from.checkpoints) : "none");
+}
+
 const KeyTable<Output>& output_table() {
     using O = Output;
     static const KeyTable<O> table{
@@ -98,6 +115,18 @@ const KeyTable<Output>& output_table() {
         flag("orientation", &O::orientation, initial(), "Orientations in the trajectory.")
             .useless_for(without_trajectory),
         flag("contacts", &O::contacts, initial(), "Contacts and forces in contacts.nc.").written_at(1),
+        bound(
+            entry(
+                "film_moments", KeyKind::flag, note("true where they take at most 100 MB"),
+                "The moments of the film's pictures in film_moments.nc, for `inspect --frame` and `resume`."),
+            &O::film_moments)
+            .written_at(1),
+        bound_by<O>(
+            entry("checkpoints", KeyKind::text, literal("\"64 MB\""),
+                  "Largest size of the folder checkpoints, which holds at most 20 of them over the whole "
+                  "run; \"none\": no such folder."),
+            read_checkpoints, checkpoints_text)
+            .written_at(1),
         bound_by<O>(
             entry("instruments", KeyKind::name_list, note("those whose columns the film shows"),
                   "What is measured beside the usual columns of measures.csv: \"bed\", \"convection\", "

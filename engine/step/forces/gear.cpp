@@ -38,7 +38,7 @@ Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32
         grains.motion[i].spin += h * d.spin_acceleration + h * h / 2 * d.spin_jerk;
         d.spin_acceleration += h * d.spin_jerk;
     }
-    turn(grains, in, begin, end);
+    turn(grains, in, in.drift, begin, end);
     round_motion(grains, in, begin, end);
     return fastest;
 }

@@ -80,13 +80,15 @@ struct MotionRecord {
     }
 };
 
-// A pass over the grains that ends a step, begins one, or both.
-template <bool ends, bool begins, bool rubs, bool drags>
+// A pass over the grains that ends a step, begins one, or both; `closes`: with a drift between the two. That
+// drift and the next one are two sums, so that a run in pieces has the bits of the run in one.
+template <bool ends, bool begins, bool closes, bool rubs, bool drags>
 HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     using Whole = MotionRecord<rubs>;
     constexpr int size = Whole::size;
     const Numbers at(grains, in);
     const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
+    const Record<4> closing = record_of(Vec3(in.closing_drift, in.closing_drift, in.closing_drift));
     const Record<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
     const Record<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
     const Vec3 no_minus_zero = in.gravity + Vec3::Zero();  // the same bits as with a load of zero
@@ -103,7 +105,9 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
             now = multiply_add(next, gains, now);
             double* place = at.place + 4 * i;
             const double radius = place[3];
-            put(multiply_add(whole, first_four(now), record_at<4>(place)), place);
+            Record<4> moved = record_at<4>(place);
+            if (closes) moved = multiply_add(closing, first_four(now), moved);
+            put(multiply_add(whole, first_four(now), moved), place);
             if (has_load.value) put(nothing, load);
             const Record<size> relative = now - frame;
             fastest = larger_size(fastest, first_four(relative));
@@ -126,10 +130,10 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
     return {f[0], f[1], f[2]};
 }
 
-template <bool ends, bool begins>
+template <bool ends, bool begins, bool closes = false>
 HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     const auto of = [&](auto rubs, auto drags) HWY_ATTR {
-        return pass_of<ends, begins, rubs.value, drags.value>(grains, in, begin, end);
+        return pass_of<ends, begins, closes, rubs.value, drags.value>(grains, in, begin, end);
     };
     const std::true_type yes;
     const std::false_type no;
@@ -146,7 +150,17 @@ Vec3 second_half(Grains& grains, const KickInput& in, std::int32_t begin, std::i
 }
 
 Vec3 both_halves(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
-    return pass<true, true>(grains, in, begin, end);
+    return in.closing_drift == 0 ? pass<true, true>(grains, in, begin, end)
+                                 : pass<true, true, true>(grains, in, begin, end);
+}
+
+void only_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const Numbers at(grains, in);
+    const Record<4> whole = record_of(Vec3(in.drift, in.drift, in.drift));
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+        double* place = at.place + 4 * i;
+        put(multiply_add(whole, record_at<4>(at.motion + 8 * i), record_at<4>(place)), place);
+    }
 }
 
 }  // namespace grainreel::HWY_NAMESPACE
@@ -166,20 +180,21 @@ Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
 
 }  // namespace
 
-void turn(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+void turn(Grains& grains, const KickInput& in, double time, std::int32_t begin, std::int32_t end) {
     if (!in.rubs || grains.orientation.empty()) return;
     for (std::int32_t i = begin; i < end; ++i) {
-        grains.orientation[i] = turned(grains.orientation[i], grains.motion[i].spin, in.drift);
+        grains.orientation[i] = turned(grains.orientation[i], grains.motion[i].spin, time);
     }
 }
 
 HWY_EXPORT(first_half);
 HWY_EXPORT(second_half);
 HWY_EXPORT(both_halves);
+HWY_EXPORT(only_drift);
 
 Vec3 kick_and_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     const Vec3 fastest = HWY_DYNAMIC_DISPATCH(first_half)(grains, in, begin, end);
-    turn(grains, in, begin, end);
+    turn(grains, in, in.drift, begin, end);
     return fastest;
 }
 
@@ -189,14 +204,14 @@ void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t 
 
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     const Vec3 fastest = HWY_DYNAMIC_DISPATCH(both_halves)(grains, in, begin, end);
-    turn(grains, in, begin, end);
+    if (in.closing_drift != 0) turn(grains, in, in.closing_drift, begin, end);
+    turn(grains, in, in.drift, begin, end);
     return fastest;
 }
 
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t i = begin; i < end; ++i)
-        grains.place[i].position += in.drift * grains.motion[i].velocity;
-    turn(grains, in, begin, end);
+    HWY_DYNAMIC_DISPATCH(only_drift)(grains, in, begin, end);
+    turn(grains, in, in.drift, begin, end);
 }
 
 void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {

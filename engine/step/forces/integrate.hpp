@@ -10,13 +10,14 @@
 namespace grainreel {
 
 struct KickInput {
-    Vec3 gravity{0, 0, 0};  // m/s2
-    bool rubs = false;      // spins follow torques
-    double keep = 1;        // share of velocity and spin that drag leaves after an ending kick
-    Vec3 frame{0, 0, 0};    // m/s; speeds are measured and motion is rounded relative to this velocity
-    double end_kick = 0;    // s, length of the kick that ends a step
-    double begin_kick = 0;  // s, length of the kick that begins the next step, by the same forces
-    double drift = 0;       // s, length of the drift
+    Vec3 gravity{0, 0, 0};     // m/s2
+    bool rubs = false;         // spins follow torques
+    double keep = 1;           // share of velocity and spin that drag leaves after an ending kick
+    Vec3 frame{0, 0, 0};       // m/s; speeds are measured and motion is rounded relative to this velocity
+    double end_kick = 0;       // s, length of the kick that ends a step
+    double begin_kick = 0;     // s, length of the kick that begins the next step, by the same forces
+    double closing_drift = 0;  // s, length of the drift that ends a step, where the next one begins at once
+    double drift = 0;          // s, length of the drift that begins a step
     const Loaded* loaded = nullptr;  // grains that may have a load; nullptr: all may
 };
 
@@ -34,11 +35,11 @@ void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t 
 // Ends one step and begins the next in one pass. The bits are the same as with kick() and kick_and_drift().
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// A drift without a kick. The loads stay.
+// A drift of the length `in.drift` without a kick. The loads stay.
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// Turns the orientations of the grains, where they are in use, by their spins for `in.drift`.
-void turn(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+// Turns the orientations of the grains, where they are in use, by their spins for `time` (s).
+void turn(Grains& grains, const KickInput& in, double time, std::int32_t begin, std::int32_t end);
 
 // Gear's method with four values for positions and three for spins. predict() goes to the end of `in.drift`
 // and returns what kick_and_drift() returns. correct() then applies the new forces. begin_derivatives() sets

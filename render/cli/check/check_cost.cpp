@@ -67,6 +67,10 @@ void print_files(const Scene& scene, const Plan& plan, const std::vector<Segment
     list.line("", fmt::format("measures {}, {} rows, one every {}", data_size_text(disk.measures),
                               grouped(disk.measures_rows),
                               interval_text(plan.measures_periods, plan.measures_every, plan)));
+    if (disk.checkpoints + disk.film_moments > 0)
+        list.line("",
+                  fmt::format("so that any moment comes back: checkpoints up to {}, moments of the film {}",
+                              data_size_text(disk.checkpoints), data_size_text(disk.film_moments)));
 }
 
 void print_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {

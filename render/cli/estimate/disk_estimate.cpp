@@ -1,13 +1,18 @@
 #include "render/cli/estimate/disk_estimate.hpp"
 
+#include <algorithm>
+
+#include "engine/replay/checkpoint_ring.hpp"
 #include "render/film/files/film_limits.hpp"
+#include "render/run/run_files.hpp"
 
 namespace grainreel {
 namespace {
 
 constexpr double trajectory_bytes = 64;  // a grain and frame: id, type, radius, x in double, v, spin
 constexpr double orientation_bytes = 16;
-constexpr double measures_bytes = 400;  // a row
+constexpr double measures_bytes = 400;     // a row
+constexpr double checkpoint_bytes = 1300;  // a grain: lists and histories
 constexpr double end_state_bytes =
     1500;  // a grain: its row of final.csv, and lists and histories of the checkpoint
 
@@ -29,6 +34,10 @@ DiskEstimate estimate_disk(const Scene& scene, const Plan& plan, std::int64_t pi
     disk.measures_rows = moments(plan.steps, plan.measures_every);
     disk.measures = static_cast<double>(disk.measures_rows) * measures_bytes;
     if (pictures > 0) disk.film = estimated_film_size(scene.film, pictures);
+    disk.film_moments = film_moments_bytes(scene, plan, pictures);
+    if (scene.output.checkpoints)
+        disk.checkpoints = std::min(static_cast<double>(*scene.output.checkpoints),
+                                    static_cast<double>(CheckpointRing::kMost) * grains * checkpoint_bytes);
     disk.end_state = grains * end_state_bytes;
     return disk;
 }

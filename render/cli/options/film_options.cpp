@@ -25,6 +25,8 @@ gl::Provider provider_of(const std::string& word, const std::string& said_by) {
         fmt::format("{}={}: no such maker of OpenGL contexts; choose osmesa or egl", said_by, excerpt(word)));
 }
 
+}  // namespace
+
 void add_gl(CLI::App& verb, gl::Provider& provider) {
     if (const auto word = variable("GRAINREEL_GL")) provider = provider_of(*word, "GRAINREEL_GL");
     verb.add_option_function<std::string>(
@@ -33,8 +35,6 @@ void add_gl(CLI::App& verb, gl::Provider& provider) {
             "[$GRAINREEL_GL, else osmesa]")
         ->type_name("WHICH");
 }
-
-}  // namespace
 
 void check_typed(const std::string& option, const std::string& text) {
     if (const std::string wrong = complaint_of_utf8(text); !wrong.empty())

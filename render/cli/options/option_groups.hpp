@@ -36,6 +36,8 @@ void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets);
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out);
 // --out of a verb that makes no film.
 void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, const std::string& about);
+// --gl: what makes OpenGL contexts.
+void add_gl(CLI::App& verb, gl::Provider& provider);
 // Where what a verb makes goes without --out: $GRAINREEL_OUTPUT, else output/.
 std::filesystem::path output_base();
 

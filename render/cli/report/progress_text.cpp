@@ -24,6 +24,8 @@ std::string to_string(Progress::Stage stage) {
             return "drawing";
         case Progress::Stage::studying:
             return "studying";
+        case Progress::Stage::replaying:
+            return "replaying";
         case Progress::Stage::vibrating:
             break;
     }

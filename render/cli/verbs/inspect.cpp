@@ -1,6 +1,5 @@
 // The verb `inspect`: questions to a moment of a run.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -14,8 +13,11 @@
 #include "render/cli/options/option_groups.hpp"
 #include "render/cli/report/result.hpp"
 #include "render/cli/verbs/verb.hpp"
+#include "render/run/frames/asked_moment.hpp"
 #include "render/run/frames/recorded_run.hpp"
+#include "render/run/pick/answer_picture.hpp"
 #include "render/run/pick/pixel_question.hpp"
+#include "render/run/stage_times.hpp"
 
 namespace grainreel {
 namespace {
@@ -35,7 +37,10 @@ class Inspect final : public Verb {
   public:
     Inspect()
         : Verb("inspect", "Ask a moment of a run: who is this grain, where are the big ones",
-               "Without a question: the moment on one screen.\n\n" + about_columns() +
+               "Without a question: the moment on one screen. A moment that the run did not keep is brought "
+               "back "
+               "from its checkpoints,\nand so are the forces.\n\n" +
+                   about_columns() +
                    "\nExample:  grainreel inspect output/gravel --at 1.2s --where \"species == big and "
                    "height > 2 "
                    "cm\"\n\nExit status: 0 done, 2 a mistake in the options, or a run that cannot be read.") {
@@ -45,17 +50,25 @@ class Inspect final : public Verb {
         parser.add_option("RUN", run_, "Folder of a run, with its scene.toml and trajectory.nc")
             ->required()
             ->type_name("DIR");
-        CLI::Option* at =
-            add_time(parser, "--at", at_, "Moment: the kept one that is nearest [the run's last]");
-        CLI::Option* cycle = parser.add_option("--cycle", cycle_, "Moment in periods of the drive, as in 40");
-        cycle->type_name("N")->excludes(at);
+        CLI::Option* at = add_time(parser, "--at", moment_.at, "Moment [the last that the run kept]");
+        parser.add_option("--frame", moment_.frame, "Moment of this frame of the film, counted from 0")
+            ->type_name("N")
+            ->excludes(at);
+        CLI::Option* cycle =
+            parser.add_option("--cycle", moment_.cycle, "Moment in periods of the drive, as in 40");
+        cycle->type_name("N")->excludes(at)->excludes(parser.get_option("--frame"));
         parser.add_option("--phase", phase_, "With --cycle: so far into the period, from 0 to 1 [0]")
             ->type_name("TURN")
             ->needs(cycle)
             ->check(CLI::Range(0.0, 1.0));
+        parser.add_flag("--no-replay", no_replay_,
+                        "Give what was kept alone: the kept moment that is nearest");
         add_questions(parser);
+        parser.add_option("--png", picture_, "Draw the moment too, with the grains of the answer ringed")
+            ->type_name("FILE");
+        add_gl(parser, gl_);
         add_sets(parser, sets_,
-                 "With --pixel: another value for a key of [film], as for render; may be repeated");
+                 "With --pixel or --png: another value for a key of [film], as for render; may be repeated");
         add_picture_keys(parser, sets_);
         parser.add_option("--limit", limit_, "Longest list of grains [10]")
             ->type_name("N")
@@ -66,14 +79,14 @@ class Inspect final : public Verb {
     }
 
     int run(Reporter& reporter) override {
+        if (!picture_.empty()) check_picture_file(picture_);
         const RecordedRun record(run_, sets_for_contacts());
         for (const std::string& line : record.news()) reporter.detail(line);
-        const std::size_t index = moment_of(record);
-        const Snapshot snapshot = snapshot_at(record, index);
-        if (!json_ && !csv_)
-            reporter.info(fmt::format("{}: {:.6g} s, kept moment {} of {}", record.folder().string(),
-                                      snapshot.frame.time, index + 1, record.moments().size()));
-        const Answer answer = answer_of(record, snapshot);
+        MomentFinder finder(record);
+        const Snapshot snapshot = snapshot_of(finder, record, reporter);
+        Answer answer = answer_of(finder, snapshot, reporter);
+        if (!picture_.empty()) draw_answer(snapshot, grains_in(answer), film_time_, picture_, gl_);
+        answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
         print_result(json_ ? json_of(answer) : csv_ ? csv_of(answer) : text_of(answer));
         return 0;
     }
@@ -83,11 +96,18 @@ class Inspect final : public Verb {
   private:
     void add_questions(CLI::App& parser) {
         std::vector<CLI::Option*> questions = {
-            parser.add_option("--grain", grain_, "This grain: place, velocity, contacts")->type_name("ID"),
+            parser.add_option("--grain", grain_, "This grain: place, velocity, contacts, what pushes it")
+                ->type_name("ID"),
+            parser
+                .add_option("--wall", wall_, "This wall, as in floor: force and moment on it, who touches it")
+                ->type_name("NAME"),
+            parser.add_flag("--largest-overlap", largest_overlap_, "The contacts that overlap most"),
             parser.add_option("--where", where_, "Grains for which this holds: count, statistics, list")
                 ->type_name("CONDITION"),
             parser.add_option("--profile", profile_, "By bins along height, x, y, z, or r from the axis")
                 ->type_name("DIRECTION"),
+            parser.add_option("--slice", slice_, "Grains that this plane cuts, as in y=0 or \"z = 2 cm\"")
+                ->type_name("PLANE"),
             parser.add_option("--histogram", histogram_, "How many grains have which value")
                 ->type_name("QUANTITY"),
             parser.add_flag("--pair-distribution", pairs_, "Radial distribution function of the centres"),
@@ -102,9 +122,9 @@ class Inspect final : public Verb {
         parser.add_flag("--through", through_, "With --pixel: what lies behind it, too")
             ->needs(questions.back());
         parser
-            .add_option("--film-time", film_time_, "With --pixel: where a camera that moves is then, s [0]")
-            ->type_name("TIME")
-            ->needs(questions.back());
+            .add_option("--film-time", film_time_,
+                        "With --pixel or --png: where a camera that moves is then, s [0]")
+            ->type_name("TIME");
         parser.add_option("--bins", bins_, "With --histogram: how many [20]")
             ->type_name("N")
             ->check(CLI::Range(1, 10000));
@@ -119,32 +139,64 @@ class Inspect final : public Verb {
         return sets;
     }
 
-    // The kept moment that is asked for.
-    std::size_t moment_of(const RecordedRun& record) const {
-        if (at_) return near_kept(record, *at_, "--at");
-        if (!cycle_) return record.moments().size() - 1;
-        if (!record.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
-        const Clock& clock = record.clock();
-        return near_kept(record, clock.time(clock.step_at(*cycle_ + phase_)), "--cycle");
+    // Whether the question is about what only the engine knows.
+    bool asks_for_forces() const { return wall_ || largest_overlap_; }
+
+    // Whether a condition or a histogram needs contacts that the run did not keep.
+    bool names_contacts() const {
+        const std::string words = where_.value_or("") + histogram_.value_or("");
+        return words.find("contact") != std::string::npos;
     }
 
-    static std::size_t near_kept(const RecordedRun& record, double time, const char* option) {
-        const Span span = record.span();
-        const double hair = 1e-9 + 1e-9 * std::abs(time);
-        if (!(time >= span.from - hair && time <= span.to + hair))
-            throw UserError(fmt::format("{}: {:.6g} s is outside the run, which kept {:.6g} to {:.6g} s",
-                                        option, time, span.from, span.to));
-        return record.nearest(time);
+    Snapshot snapshot_of(MomentFinder& finder, const RecordedRun& record, Reporter& reporter) {
+        if (moment_.cycle) *moment_.cycle += phase_;
+        const AskedMoment asked = finder.find(moment_);
+        const bool more = grain_ || asks_for_forces() || (names_contacts() && !record.supply().contacts);
+        if (no_replay_ && asks_for_forces())
+            throw UserError(
+                "--no-replay: forces on walls and overlaps are not kept, they are brought back; leave it "
+                "out");
+        const bool cannot = grain_ && asked.kept && !finder.can_bring_back(asked);
+        if (no_replay_ || (asked.kept && !more) || cannot) {
+            if (!asked.kept)
+                missing_.push_back(
+                    fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
+            tell(reporter, fmt::format("{}: {:.6g} s, kept moment {} of {}", record.folder().string(),
+                                       record.moments()[asked.nearest].time, asked.nearest + 1,
+                                       record.moments().size()));
+            return finder.kept(asked.nearest);
+        }
+        Snapshot snapshot = finder.brought_back(asked, watcher_of(reporter));
+        tell(reporter, fmt::format("{}: {:.6g} s, brought back (step {})", record.folder().string(),
+                                   snapshot.frame.time, snapshot.frame.step));
+        return snapshot;
     }
 
-    static Snapshot snapshot_at(const RecordedRun& record, std::size_t index) {
-        return {record.scene(), record.frame(index), record.supply().contacts, record.first_whole()};
+    void tell(Reporter& reporter, const std::string& text) const {
+        if (!json_ && !csv_) reporter.info(text);
     }
 
-    Answer answer_of(const RecordedRun& record, const Snapshot& snapshot) const {
+    // Shows progress once a replay has gone on for a second.
+    static ReplayWatcher watcher_of(Reporter& reporter) {
+        return [&reporter, watch = Stopwatch()](double done) {
+            Progress progress;
+            progress.stage = Progress::Stage::replaying;
+            progress.done = done;
+            progress.elapsed = watch.seconds();
+            if (progress.elapsed < 1) return true;
+            if (done > 0) progress.remaining = progress.elapsed * (1 - done) / done;
+            reporter.progress(progress);
+            return true;
+        };
+    }
+
+    Answer answer_of(MomentFinder& finder, const Snapshot& snapshot, Reporter& reporter) const {
+        if (wall_) return named("--wall", [&] { return wall_answer(snapshot, *wall_, limit_); });
+        if (largest_overlap_) return largest_overlap_answer(snapshot, limit_);
         if (grain_) return named("--grain", [&] { return grain_answer(snapshot, *grain_); });
         if (where_) return named("--where", [&] { return where_answer(snapshot, *where_, limit_); });
         if (profile_) return named("--profile", [&] { return profile_answer(snapshot, *profile_); });
+        if (slice_) return named("--slice", [&] { return slice_answer(snapshot, *slice_, limit_); });
         if (histogram_)
             return named("--histogram", [&] {
                 return histogram_answer(snapshot, *histogram_, static_cast<std::size_t>(bins_));
@@ -155,7 +207,10 @@ class Inspect final : public Verb {
             });
         if (pairs_) return named("--pair-distribution", [&] { return pair_distribution_answer(snapshot); });
         if (compare_) {
-            const Snapshot before = snapshot_at(record, near_kept(record, *compare_, "--compare"));
+            const AskedMoment earlier = finder.find({.at = compare_, .at_option = "--compare"});
+            const bool replay = !earlier.kept && !no_replay_;
+            const Snapshot before =
+                replay ? finder.brought_back(earlier, watcher_of(reporter)) : finder.kept(earlier.nearest);
             return named("--compare", [&] { return compare_answer(before, snapshot, limit_); });
         }
         return overview_of(snapshot);
@@ -163,7 +218,7 @@ class Inspect final : public Verb {
 
     // A mistake in a question gets the option's name.
     template <class Ask>
-    static Answer named(const char* option, const Ask& ask) {
+    static auto named(const char* option, const Ask& ask) -> decltype(ask()) {
         try {
             return ask();
         } catch (const UserError& mistake) {
@@ -173,14 +228,18 @@ class Inspect final : public Verb {
 
     fs::path run_;
     Assignments sets_;
+    fs::path picture_;
+    gl::Provider gl_ = gl::Provider::automatic;
     std::vector<double> pixel_;
     bool through_ = false;
     double film_time_ = 0;
-    std::optional<double> at_, cycle_, compare_;
+    MomentRequest moment_;
+    std::optional<double> compare_;
     double phase_ = 0;
     std::optional<std::int64_t> grain_;
-    std::optional<std::string> where_, profile_, histogram_;
-    bool pairs_ = false, json_ = false, csv_ = false;
+    std::optional<std::string> wall_, where_, profile_, slice_, histogram_;
+    bool pairs_ = false, largest_overlap_ = false, no_replay_ = false, json_ = false, csv_ = false;
+    std::vector<std::string> missing_;  // what an answer lacks
     int bins_ = 20;
     std::size_t limit_ = 10;
 };

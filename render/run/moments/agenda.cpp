@@ -25,14 +25,17 @@ Agenda::Agenda(std::vector<Shot> shots, const Rhythm& trajectory, const Rhythm& 
       last_(last),
       at_(first) {
     std::erase_if(shots_, [&](const Shot& shot) { return shot.step < first || shot.step > last; });
+    moments_.erase(moments_.begin(), moments_.lower_bound(first));
 }
 
 std::optional<Stop> Agenda::next() {
     if (at_ > last_) return std::nullopt;
     const std::int64_t shot = shot_ < shots_.size() ? shots_[shot_].step : never;
-    const std::int64_t fields = fields_ ? fields_->next_end(std::max(at_, first_ + 1)) : never;
+    const std::int64_t fields =
+        fields_ ? fields_->next_end(std::max(at_, begins_ ? first_ + 1 : first_)) : never;
     const std::int64_t trajectory = trajectory_.next(at_, clock_);
-    const std::int64_t measures = at_ == first_ ? first_ : measures_.next(at_, clock_);
+    const bool begins = begins_ && at_ == first_;
+    const std::int64_t measures = begins ? first_ : measures_.next(at_, clock_);
     const std::int64_t moment = moments_.empty() ? never : *moments_.begin();
 
     Stop stop;

@@ -31,6 +31,9 @@ class Agenda {
            std::int64_t last, std::set<std::int64_t> moments = {}, const Clock& clock = {},
            const FieldTimes* fields = nullptr);
 
+    // The run has begun before `first`: measures come there only where they are due.
+    void goes_on() { begins_ = false; }
+
     // The next stop, in rising order of step; the last is at `last`. Empty after it.
     std::optional<Stop> next();
 
@@ -45,6 +48,7 @@ class Agenda {
     std::optional<FieldTimes> fields_;
     std::int64_t first_, last_;
     std::int64_t at_;  // steps below are done with
+    bool begins_ = true;
 };
 
 }  // namespace grainreel

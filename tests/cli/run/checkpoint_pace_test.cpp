@@ -14,11 +14,11 @@ TEST(CheckpointPace, TheFirstSecondsHaveOneAndLaterEveryHalfMinute) {
     }
 }
 
-TEST(CheckpointPace, ACostlyOneComesAtMostAFiftiethOfTheTime) {
+TEST(CheckpointPace, ACostlyOneTakesAtMostAHundredthOfTheTime) {
     CheckpointPace pace;
     pace.saved(3);
-    EXPECT_FALSE(pace.due(50 * 3 - 1));
-    EXPECT_TRUE(pace.due(50 * 3 + 1));
+    EXPECT_FALSE(pace.due(100 * 3 - 1));
+    EXPECT_TRUE(pace.due(100 * 3 + 1));
 }
 
 }  // namespace

@@ -1,0 +1,185 @@
+// Questions to the contacts of a moment that was brought back.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/inspect/questions.hpp"
+#include "engine/state/container_faces.hpp"
+
+namespace grainreel {
+namespace {
+
+using Forces = std::vector<const ContactForce*>;
+
+std::vector<std::string> wall_names(const Snapshot& s) {
+    std::vector<std::string> names;
+    for (const Face& face : container_faces(s.scene.container, s.scene.drive)) names.push_back(face.name);
+    for (const Face& face : free_faces(s.scene.walls)) names.push_back(face.name);
+    return names;
+}
+
+// As contacts count the faces; "left_slant" is "left slant".
+std::int32_t wall_named(const Snapshot& s, std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const std::vector<std::string> names = wall_names(s);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        std::string known = names[k];
+        std::replace(known.begin(), known.end(), '_', ' ');
+        if (known == name) return -1 - static_cast<std::int32_t>(k);
+    }
+    throw UserError(names.empty() ? "the scene has no walls"
+                                  : fmt::format("'{}' is no wall of this scene; it has {}", name,
+                                                fmt::join(names, ", ")));
+}
+
+AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
+    Vec3 force(0, 0, 0), moment(0, 0, 0);
+    double normal = 0;
+    for (const ContactForce* one : on_wall) {
+        force += one->on_second();
+        moment += (one->point - s.frame.container().place).cross(one->on_second());
+        normal += one->normal_force;
+    }
+    double weight = 0;
+    for (std::size_t i = 0; i < s.frame.size(); ++i) weight += s.mass(i) * s.scene.gravity.norm();
+    const Vec3 down = s.scene.gravity.norm() > 0 ? s.scene.gravity.normalized() : Vec3(0, 0, -1);
+    AnswerCell share;
+    if (weight > 0) share = force.dot(down) / weight;
+    return {"wall",
+            "What the grains do to it",
+            {{"contacts", Dimension::number, ""},
+             {"force_x", Dimension::force, ""},
+             {"force_y", Dimension::force, ""},
+             {"force_z", Dimension::force, ""},
+             {"normal_force", Dimension::force, "sum"},
+             {"moment_x", Dimension::moment, "about the container's origin"},
+             {"moment_y", Dimension::moment, ""},
+             {"moment_z", Dimension::moment, ""},
+             {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"}},
+            {{static_cast<std::int64_t>(on_wall.size()), force.x(), force.y(), force.z(), normal, moment.x(),
+              moment.y(), moment.z(), share}}};
+}
+
+// In bins as high as a mean grain is wide.
+AnswerTable height_table(const Snapshot& s, const Forces& on_wall) {
+    AnswerTable table{"by_height",
+                      "Its normal force by height above the floor",
+                      {{"from", Dimension::length, ""},
+                       {"to", Dimension::length, ""},
+                       {"contacts", Dimension::number, ""},
+                       {"normal_force", Dimension::force, "sum"}},
+                      {}};
+    double width = 0;
+    for (const double radius : s.frame.radius) width += 2 * radius / static_cast<double>(s.frame.size());
+    std::map<std::int64_t, std::pair<std::int64_t, double>> bins;
+    for (const ContactForce* one : on_wall) {
+        auto& [count, force] =
+            bins[std::llround(std::floor((one->point - s.frame.floor().place).z() / width))];
+        ++count;
+        force += one->normal_force;
+    }
+    for (const auto& [bin, sums] : bins)
+        table.rows.push_back({static_cast<double>(bin) * width, static_cast<double>(bin + 1) * width,
+                              sums.first, sums.second});
+    return table;
+}
+
+AnswerTable touching_table(const Snapshot& s, Forces on_wall, std::size_t most) {
+    std::sort(on_wall.begin(), on_wall.end(), [](const auto* a, const auto* b) {
+        return a->normal_force != b->normal_force ? a->normal_force > b->normal_force : a->first < b->first;
+    });
+    AnswerTable table{"touching",
+                      on_wall.size() > most
+                          ? fmt::format("The {} of {} grains that press most", most, on_wall.size())
+                          : "The grains that touch it",
+                      {{"id", Dimension::number, ""},
+                       {"species", Dimension::number, ""},
+                       {"height", Dimension::length, "of the contact above the floor"},
+                       {"overlap", Dimension::length, ""},
+                       {"normal_force", Dimension::force, ""},
+                       {"tangential_force", Dimension::force, "magnitude"},
+                       {"slides", Dimension::number, ""}},
+                      {}};
+    on_wall.resize(std::min(on_wall.size(), most));
+    for (const ContactForce* one : on_wall)
+        table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first),
+                              (one->point - s.frame.floor().place).z(), one->overlap, one->normal_force,
+                              one->tangential.norm(), one->slides() ? "yes" : "no"});
+    return table;
+}
+
+AnswerTable species_table(const Snapshot& s, const Forces& on_wall) {
+    AnswerTable table{"species",
+                      "Contacts by species",
+                      {{"species", Dimension::number, ""},
+                       {"contacts", Dimension::number, ""},
+                       {"normal_force", Dimension::force, "sum"}},
+                      {}};
+    for (std::size_t k = 0; k < s.scene.species.size(); ++k) {
+        std::int64_t count = 0;
+        double force = 0;
+        for (const ContactForce* one : on_wall) {
+            const auto place = s.place_of(one->first);
+            if (!place || static_cast<std::size_t>(s.frame.species[*place]) != k) continue;
+            ++count;
+            force += one->normal_force;
+        }
+        table.rows.push_back({s.scene.species[k].name, count, force});
+    }
+    return table;
+}
+
+}  // namespace
+
+Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most) {
+    const std::int32_t wall = wall_named(s, name);
+    Forces on_wall;
+    for (const ContactForce& one : s.forces->contacts)
+        if (one.second == wall) on_wall.push_back(&one);
+    Answer answer{{sum_table(s, on_wall)}, {}};
+    if (on_wall.empty()) {
+        answer.notes.emplace_back("no grain touches it");
+        return answer;
+    }
+    answer.tables.push_back(species_table(s, on_wall));
+    answer.tables.push_back(height_table(s, on_wall));
+    answer.tables.push_back(touching_table(s, on_wall, most));
+    return answer;
+}
+
+Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
+    Forces all;
+    for (const ContactForce& one : s.forces->contacts) all.push_back(&one);
+    std::sort(all.begin(), all.end(), [](const auto* a, const auto* b) {
+        if (a->overlap != b->overlap) return a->overlap > b->overlap;
+        return a->first != b->first ? a->first < b->first : a->second < b->second;
+    });
+    AnswerTable table{"overlaps",
+                      fmt::format("The largest overlaps of {} contacts", all.size()),
+                      {{"first", Dimension::number, "id"},
+                       {"species", Dimension::number, "of the first"},
+                       {"second", Dimension::number, "id; empty of a wall"},
+                       {"what", Dimension::number, "species or wall of the second"},
+                       {"overlap", Dimension::length, ""},
+                       {"overlap_share", Dimension::number, "of the first grain's diameter"},
+                       {"normal_force", Dimension::force, ""},
+                       {"height", Dimension::length, "of the contact above the floor"}},
+                      {}};
+    all.resize(std::min(all.size(), most));
+    for (const ContactForce* one : all) {
+        AnswerCell second, share;
+        if (one->second >= 0) second = static_cast<std::int64_t>(one->second);
+        if (const auto place = s.place_of(one->first)) share = one->overlap / (2 * s.frame.radius[*place]);
+        table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first), second,
+                              name_of_body(s, one->second), one->overlap, share, one->normal_force,
+                              (one->point - s.frame.floor().place).z()});
+    }
+    Answer answer{{std::move(table)}, {}};
+    if (all.empty()) answer.notes.emplace_back("nothing touches");
+    return answer;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,30 @@
+// A contact as one who asks what pushes a grain wants to know it.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/base/vector.hpp"
+
+namespace grainreel {
+
+struct ContactForce {
+    std::int32_t first, second;  // ids; second is -1 - face for a wall
+    Vec3 normal;                 // unit, from first to second
+    double overlap;              // m
+    double normal_force;         // N, on second along the normal; below 0 where the law attracts
+    Vec3 tangential;             // N, on second
+    Vec3 torque_on_first;        // N m
+    Vec3 torque_on_second;       // N m; zero for a wall
+    double friction;             // coefficient of this pair
+    Vec3 point;                  // m
+
+    Vec3 on_second() const { return normal_force * normal + tangential; }  // N
+    Vec3 on_first() const { return -on_second(); }
+    // Whether friction is all used up, so that the surfaces slide.
+    bool slides() const {
+        constexpr double all = 1 - 1e-6;
+        return friction > 0 && normal_force > 0 && tangential.norm() >= all * friction * normal_force;
+    }
+};
+
+}  // namespace grainreel

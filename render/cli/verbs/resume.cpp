@@ -1,0 +1,124 @@
+// The verb `resume`: a run that was broken off, or is to be longer, goes on in its folder.
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/output/run_json.hpp"
+#include "engine/replay/checkpoint_ring.hpp"
+#include "engine/replay/replay.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "render/cli/options/option_groups.hpp"
+#include "render/cli/report/film_report.hpp"
+#include "render/cli/report/record.hpp"
+#include "render/cli/verbs/verb.hpp"
+#include "render/run/frames/recorded_scene.hpp"
+#include "render/run/movie_run.hpp"
+#include "render/run/resume/resume_point.hpp"
+#include "render/run/thread_plan.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Resume final : public Verb {
+  public:
+    Resume()
+        : Verb(
+              "resume", "Go on with a run that was broken off, or make a finished one longer",
+              fmt::format(
+                  "The run goes on bit by bit in its own folder, from its last checkpoint: trajectory, "
+                  "measures and what lies\nbeside them have neither a gap nor a row twice. The film is drawn "
+                  "again from the moments that were kept of it.\n{}",
+                  exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        parser.add_option("RUN", run_, "Folder of the run")->required()->type_name("DIR");
+        CLI::Option* until =
+            add_time(parser, "--until", until_, "Where the run ends then [run.duration of its scene]");
+        add_time(parser, "--for", more_, "So much further than it has come")->excludes(until);
+        parser.add_flag("--no-film", no_film_, "Leave the film as it is");
+        parser.add_option("--threads", threads_, "Threads in all [as its scene says]")
+            ->type_name("N")
+            ->check(CLI::Range(1, 1024));
+        add_gl(parser, film_.gl);
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        film_.command = command;
+        film_.program = program_info();
+        const fs::path folder = folder_of_run(run_);
+        Scene scene = scene_to_go_on(folder);
+        const Plan plan = plan_of_run(scene, folder);
+        film_.out = folder;
+        film_.film = !no_film_ && has_film(scene, folder);
+        std::error_code ignored;
+        film_.frames = film_.film && fs::exists(folder / "frames", ignored);
+        const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
+        ResumePoint point = find_resume_point(scene, plan, folder, film_.film,
+                                              plan_threads(processors, film_.film, scene.grains()).engine);
+        reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
+                                  plan.clock.time(point.simulation.step()), scene.run.duration));
+        name_as_before(scene, folder);
+        MovieRun movie(film_, reporter, scene, plan, std::move(point));
+        return tell_folder(movie.run(), film_);
+    }
+
+  private:
+    // With the end that is asked for.
+    Scene scene_to_go_on(const fs::path& folder) const {
+        const fs::path file = file_of_run(folder, "scene.toml",
+                                          "give the folder of a run of `movie`; a film that `render` or "
+                                          "`compare` made cannot go on");
+        Assignments sets;
+        if (threads_) sets.push_back({fmt::format("run.threads={}", *threads_), "--threads"});
+        const Scene before = read_scene(file, sets, measurable_in);
+        const std::vector<KeptCheckpoint> kept = kept_checkpoints(folder);
+        if (kept.empty())
+            throw UserError(
+                fmt::format("{}: has no checkpoint; the run was stopped while its grains were packed, "
+                            "so run its scene.toml again",
+                            folder.string()));
+        const Plan plan = plan_of_run(before, folder);
+        const double reached = plan.clock.time(kept.back().step);
+        const double end = until_ ? *until_ : more_ ? reached + *more_ : before.run.duration;
+        // One that was killed while its film was finished has come to its end and is not complete.
+        const bool complete = status_in_run_json(folder / "run.json") == to_string(RunStatus::complete);
+        if (end < reached + (complete ? 0.5 : -0.5) * plan.clock.step)
+            throw UserError(
+                fmt::format("{}: the run has come to {:.6g} s already; give a later end, as in --for 5s",
+                            until_ || more_ ? (until_ ? "--until" : "--for") : folder.string(), reached));
+        if (until_ || more_)
+            sets.push_back({fmt::format("run.duration={} s", end), until_ ? "--until" : "--for"});
+        return read_scene(file, sets, measurable_in);
+    }
+
+    // run.json and the pictures name the scene that the run was made of.
+    static void name_as_before(Scene& scene, const fs::path& folder) {
+        const std::string file = scene_in_run_json(folder / "run.json");
+        if (file.empty()) return;
+        scene.file = file;
+        scene.name = fs::path(file).stem().string();
+    }
+
+    fs::path run_;
+    std::optional<double> until_, more_;
+    std::optional<int> threads_;
+    bool no_film_ = false;
+    FilmRequest film_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> resume_verb() {
+    return std::make_unique<Resume>();
+}
+
+}  // namespace grainreel

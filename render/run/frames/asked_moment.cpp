@@ -1,0 +1,123 @@
+#include "render/run/frames/asked_moment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/nearest_image.hpp"
+#include "engine/replay/checkpoint_ring.hpp"
+#include "render/film/production/caption_holds.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/run/run_files.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// m/s2, of each grain of `now`, from its places now and a step later: x' = x + dt v + dt^2 a / 2 with
+// velocity Verlet, x' = x + dt (v + dt a) with leapfrog. Empty with other integrators.
+std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Frame& later, double step) {
+    const Integrator integrator = scene.run.integrator;
+    if (integrator != Integrator::velocity_verlet && integrator != Integrator::leapfrog) return {};
+    const double share = integrator == Integrator::velocity_verlet ? 2 : 1;
+    const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
+    std::vector<Vec3> all;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const auto there = std::lower_bound(later.id.begin(), later.id.end(), now.id[i]);
+        if (there == later.id.end() || *there != now.id[i]) {  // it leaves in this step
+            all.push_back(Vec3::Constant(std::nan("")));
+            continue;
+        }
+        Vec3 way = later.position[static_cast<std::size_t>(there - later.id.begin())] - now.position[i];
+        way.x() = nearest_image(way.x(), depth);
+        all.push_back(share * (way - step * now.velocity[i]) / (step * step));
+    }
+    return all;
+}
+
+}  // namespace
+
+const Plan& MomentFinder::plan() {
+    if (!plan_) plan_ = plan_of_run(record_.scene(), record_.folder());
+    return *plan_;
+}
+
+// A run that was broken off has come further than its last kept moment.
+double MomentFinder::last_time() const {
+    const std::vector<KeptCheckpoint> kept = kept_checkpoints(record_.folder());
+    const double last = record_.span().to;
+    return kept.empty() ? last : std::max(last, record_.clock().time(kept.back().step));
+}
+
+AskedMoment MomentFinder::find(const MomentRequest& request) {
+    const Clock& clock = record_.clock();
+    const std::vector<Frame>& moments = record_.moments();
+    const auto named = [&](double time, const char* option) {
+        const double from = record_.span().from, to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
+        if (!(time >= from - hair && time <= to + hair))
+            throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
+                                        option, time, from, to));
+        AskedMoment asked;
+        asked.nearest = record_.nearest(time);
+        asked.step = clock.step > 0 ? std::llround(time / clock.step) : moments[asked.nearest].step;
+        if (moments[asked.nearest].step == asked.step) asked.kept = asked.nearest;
+        asked.time = clock.step > 0 ? clock.time(asked.step) : moments[asked.nearest].time;
+        return asked;
+    };
+    if (request.at) return named(*request.at, request.at_option);
+    if (request.frame) return named(clock.time(step_of_frame(*request.frame)), "--frame");
+    if (request.cycle) {
+        if (!record_.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
+        return named(clock.time(clock.step_at(*request.cycle)), "--cycle");
+    }
+    return {moments.back().step, moments.back().time, moments.size() - 1, moments.size() - 1};
+}
+
+// Of the film that the run made: its kept moments, one a picture, and where a caption holds a picture, as
+// often as the film shows it.
+std::int64_t MomentFinder::step_of_frame(std::int64_t frame) {
+    const std::filesystem::path file = record_.folder() / kFilmMoments;
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw UserError(
+            fmt::format("--frame: {} has no {}, so that the moments of its film are not known; give --at "
+                        "TIME, or run the "
+                        "scene again with output.film_moments = true",
+                        record_.folder().string(), kFilmMoments));
+    const TrajectoryReader pictures(file);
+    CaptionHolds holds(record_.scene().film);
+    std::int64_t shown = 0;
+    for (std::size_t k = 0; k < pictures.frames(); ++k) {
+        const Frame moment = pictures.read_moment(k);
+        shown += 1 + holds.begin_at(moment.time);
+        if (frame < shown && frame >= 0) return moment.step;
+    }
+    throw UserError(
+        fmt::format("--frame: the film has the frames 0 to {}, but {} is asked for", shown - 1, frame));
+}
+
+Snapshot MomentFinder::kept(std::size_t index) const {
+    return {record_.scene(), record_.frame(index), record_.supply().contacts, record_.first_whole()};
+}
+
+bool MomentFinder::can_bring_back(const AskedMoment& moment) const {
+    const std::vector<KeptCheckpoint> kept = kept_checkpoints(record_.folder());
+    return !kept.empty() && kept.front().step <= moment.step;
+}
+
+Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatcher& watcher) {
+    const Scene& scene = record_.scene();
+    Simulation run = replayed(scene, plan(), record_.folder(), moment.step, scene.run.threads, watcher);
+    Snapshot snapshot{scene, run.frame(), true, record_.first_whole()};
+    for (const Simulation::ContactRecord& one : run.contacts())
+        snapshot.frame.touches.push_back({one.first, one.second, one.normal});
+    snapshot.forces.emplace();
+    snapshot.forces->contacts = run.contact_forces();
+    run.advance(moment.step + 1);
+    snapshot.forces->acceleration = accelerations(scene, snapshot.frame, run.frame(), plan().clock.step);
+    return snapshot;
+}
+
+}  // namespace grainreel

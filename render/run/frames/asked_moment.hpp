@@ -1,0 +1,51 @@
+// The moment that a question to a run is put to: one that the run kept, or one that is brought back.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "engine/inspect/snapshot.hpp"
+#include "engine/replay/replay.hpp"
+#include "render/run/frames/recorded_run.hpp"
+
+namespace grainreel {
+
+// Which one is meant; none of the three: the last that was kept.
+struct MomentRequest {
+    std::optional<double> at{};           // s
+    std::optional<double> cycle{};        // periods of the drive
+    std::optional<std::int64_t> frame{};  // of the film, from 0
+    const char* at_option = "--at";       // where `at` comes from, for messages
+};
+
+struct AskedMoment {
+    std::int64_t step = 0;
+    double time = 0;                  // s
+    std::optional<std::size_t> kept;  // its place in the run's moments, where it was kept
+    std::size_t nearest = 0;          // the kept moment that is nearest
+};
+
+class MomentFinder {
+  public:
+    explicit MomentFinder(const RecordedRun& record) : record_(record) {}
+
+    // Throws UserError for a moment that the run does not have, with the option's name.
+    AskedMoment find(const MomentRequest& request);
+    // As it was kept.
+    Snapshot kept(std::size_t index) const;
+    // From the checkpoints, with its forces. Throws UserError where none of them leads there.
+    Snapshot brought_back(const AskedMoment& moment, const ReplayWatcher& watcher);
+    // Whether there is a checkpoint of the moment, or before it.
+    bool can_bring_back(const AskedMoment& moment) const;
+
+  private:
+    const Plan& plan();
+    std::int64_t step_of_frame(std::int64_t frame);
+    double last_time() const;
+
+    const RecordedRun& record_;
+    std::optional<Plan> plan_;
+};
+
+}  // namespace grainreel

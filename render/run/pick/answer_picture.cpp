@@ -1,0 +1,79 @@
+#include "render/run/pick/answer_picture.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/draw/picture/renderer.hpp"
+#include "render/film/files/picture_files.hpp"
+#include "render/film/files/png.hpp"
+#include "render/run/thread_plan.hpp"
+
+namespace grainreel {
+
+namespace {
+
+bool is_among(const std::vector<std::int32_t>& ids, std::int32_t id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+// Of one moment, which nothing came before.
+Scene scene_of_moment(const Snapshot& snapshot, const std::vector<std::int32_t>& ids) {
+    Scene scene = snapshot.scene;
+    FilmShows& shows = scene.film.shows;
+    shows.plots.clear();
+    if (needs_measures(shows)) shows.live_words.clear(), shows.text.clear();
+    if (needs_displacement(shows)) shows.colour = {}, shows.highlight_if = {}, shows.arrows = {};
+    if (!snapshot.contacts && needs_touches(shows)) shows.colour = {}, shows.highlight_if = {};
+    shows.trails = {};
+    shows.highlighted = ids;
+    shows.force_chains = snapshot.contacts && !ids.empty();
+    return scene;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> grains_in(const Answer& answer) {
+    std::vector<std::int32_t> ids;
+    for (const AnswerTable& table : answer.tables)
+        for (std::size_t k = 0; k < table.columns.size(); ++k) {
+            const std::string& name = table.columns[k].name;
+            if (name != "id" && name != "first" && name != "second") continue;
+            for (const auto& row : table.rows)
+                if (const auto* id = std::get_if<std::int64_t>(&row[k]))
+                    ids.push_back(static_cast<std::int32_t>(*id));
+        }
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
+}
+
+void check_picture_file(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    if (file.extension() != ".png")
+        throw UserError(fmt::format("--png {}: name a file that ends in .png", file.string()));
+    if (!std::filesystem::is_directory(folder, error))
+        throw UserError(
+            fmt::format("--png {}: there is no folder {}; make it first", file.string(), folder.string()));
+    if (std::filesystem::exists(file, error))
+        throw UserError(fmt::format("--png {}: exists already; choose another name", file.string()));
+}
+
+void draw_answer(const Snapshot& snapshot, const std::vector<std::int32_t>& ids, double film_time,
+                 const std::filesystem::path& file, gl::Provider provider) {
+    const Scene scene = scene_of_moment(snapshot, ids);
+    Frame frame = snapshot.frame;
+    if (scene.film.shows.force_chains)
+        std::erase_if(frame.touches, [&](const Touch& touch) {
+            return !is_among(ids, touch.first) && !is_among(ids, touch.second);
+        });
+    Renderer renderer(scene, drawing_threads(scene.run.threads).raster, provider);
+    renderer.start_from(snapshot.start);
+    write_png(file, renderer.draw(frame, "", film_time), texts_of(scene.name, scene.film.title, frame, ""),
+              scene.film.transparent);
+}
+
+}  // namespace grainreel

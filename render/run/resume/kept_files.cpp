@@ -1,0 +1,64 @@
+#include "render/run/resume/kept_files.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "engine/output/measures_csv.hpp"
+#include "engine/output/trajectory.hpp"
+#include "engine/plan/rhythm.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_there(const fs::path& file) {
+    std::error_code ignored;
+    return fs::exists(file, ignored);
+}
+
+// Whether `steps`, which rise, have each step of the rhythm from `first` up to, without, `end`.
+bool has_all(const std::vector<std::int64_t>& steps, const Rhythm& rhythm, const Clock& clock,
+             std::int64_t first, std::int64_t end) {
+    for (std::int64_t step = rhythm.next(first, clock); step < end; step = rhythm.next(step + 1, clock))
+        if (!std::binary_search(steps.begin(), steps.end(), step)) return false;
+    return true;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> steps_in_trajectory(const fs::path& file) {
+    std::vector<std::int64_t> steps;
+    if (!is_there(file)) return steps;
+    try {
+        const TrajectoryReader reader(file);
+        for (std::size_t k = 0; k < reader.frames(); ++k) steps.push_back(reader.read_moment(k).step);
+    } catch (const UserError&) {
+        return steps;  // those before the damage
+    }
+    return steps;
+}
+
+std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
+    std::vector<std::int64_t> steps;
+    const std::shared_ptr<const MeasureTable> table = read_measures(file);
+    if (!table) return steps;
+    const auto& columns = table->columns();
+    const auto column = std::find(columns.begin(), columns.end(), "step");
+    if (column == columns.end()) return steps;
+    const auto place = static_cast<std::size_t>(column - columns.begin());
+    for (const double step : table->values(place, 0, table->rows()))
+        steps.push_back(static_cast<std::int64_t>(step));
+    return steps;
+}
+
+bool files_reach(const fs::path& run, const Plan& plan, std::int64_t first, std::int64_t step) {
+    const Rhythm trajectory(plan.trajectory_every, plan.trajectory_periods),
+        measures(plan.measures_every, plan.measures_periods);
+    return (plan.trajectory_every == 0 ||
+            has_all(steps_in_trajectory(run / "trajectory.nc"), trajectory, plan.clock, first, step)) &&
+           has_all(steps_in_measures(run / "measures.csv"), measures, plan.clock, first, step);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,21 @@
+// How much of a run's growing files belongs to the steps before one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// Steps of a trajectory's frames, up to the first that is damaged; none where there is no such file.
+std::vector<std::int64_t> steps_in_trajectory(const std::filesystem::path& file);
+// Of the rows of measures.csv; likewise.
+std::vector<std::int64_t> steps_in_measures(const std::filesystem::path& file);
+
+// Whether trajectory and measures have all that a run which began at `first` has written before `step`.
+bool files_reach(const std::filesystem::path& run, const Plan& plan, std::int64_t first, std::int64_t step);
+
+}  // namespace grainreel

@@ -1,0 +1,156 @@
+#include "render/run/resume/resume_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/replay/checkpoint_ring.hpp"
+#include "engine/start/continuation.hpp"
+#include "engine/start/restart.hpp"
+#include "render/film/files/film_writer.hpp"
+#include "render/film/sampling/timeline.hpp"
+#include "render/run/resume/kept_files.hpp"
+#include "render/run/run_files.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_there(const fs::path& file) {
+    std::error_code ignored;
+    return fs::exists(file, ignored);
+}
+
+// Whether each picture shows one moment, and nothing that the kept moment lacks.
+bool is_of_single_moments(const Film& film) {
+    const bool spans =
+        std::any_of(film.segments.begin(), film.segments.end(),
+                    [](const FilmSegment& segment) { return segment.exposure > 0 || segment.average > 0; });
+    return !spans && !needs_displacement(film.shows) && !needs_touches(film.shows);
+}
+
+// The first step before `end` at which the film that is to be made and the pictures whose moments were kept
+// differ; `end` when there is none. A locked picture may have been left out.
+std::int64_t film_agrees_until(const Scene& scene, const Plan& plan, const std::vector<std::int64_t>& kept,
+                               std::int64_t first, std::int64_t end) {
+    const std::vector<Instant> instants = instants_of(scene, plan.clock, plan.steps);
+    std::size_t k = 0;
+    for (const Shot& shot : shots_at(instants, scene.film.segments, plan.clock, plan.steps)) {
+        if (shot.step >= end) break;
+        if (shot.step < first) continue;
+        if (k < kept.size() && kept[k] == shot.step) {
+            ++k;
+            continue;
+        }
+        const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(shot.segment));
+        const bool left_out =
+            rule.kind == FilmSegment::Kind::locked && k < kept.size() && kept[k] > shot.step;
+        if (!left_out) return k < kept.size() ? std::min(shot.step, kept[k]) : shot.step;
+    }
+    return k < kept.size() ? std::min(end, kept[k]) : end;
+}
+
+// How much is kept of checkpoints and of the film's moments may change.
+bool may_change(const std::string& key) {
+    return key == "output.checkpoints" || key == "output.film_moments";
+}
+
+// What is measured and kept must be what it was, for the files go on.
+void check_same_files(const std::string& then, const Scene& scene, const Plan& plan) {
+    for (const KeyDifference& difference : differences_of_table(then, scene_to_keep(scene, plan), "output")) {
+        if (may_change(difference.key)) continue;
+        throw UserError(
+            fmt::format("{}: '{}' is {}, but it was {} in this run, whose files would not go together; put "
+                        "back what it was",
+                        scene.where(difference.key), difference.key,
+                        difference.now.empty() ? "not there" : difference.now,
+                        difference.then.empty() ? "not there" : difference.then));
+    }
+}
+
+struct Limits {
+    std::int64_t first = 0,
+                 film = 0;  // steps: where the run began; checkpoints up to there will do for its film
+};
+
+// Whether the run had come to its end there, and is longer now. Its last record of fields may have been cut
+// short then, and what was gathered of it is gone.
+bool is_former_end(const KeptCheckpoint& one, const CheckpointLabel& label, const Scene& scene,
+                   const Plan& plan) {
+    for (const KeyDifference& difference :
+         differences_of_table(label.scene, scene_to_keep(scene, plan), "run"))
+        if (difference.key == "run.duration")
+            return one.step >= std::llround(std::strtod(difference.then.c_str(), nullptr) / plan.clock.step);
+    return false;
+}
+
+std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, const Plan& plan, int threads,
+                                 std::optional<UserError>& mistake) {
+    try {
+        if (const auto label = label_of_checkpoint(one.file)) {
+            check_same_files(label->scene, scene, plan);
+            if (scene.output.fields.wanted() && is_former_end(one, *label, scene, plan)) return std::nullopt;
+        }
+        return Simulation::at_checkpoint(scene, plan, one.file, threads);
+    } catch (const UserError& error) {
+        if (!mistake) mistake = error;
+    }
+    return std::nullopt;
+}
+
+[[noreturn]] void refuse(const fs::path& run, const Limits& limits, std::int64_t earliest) {
+    if (limits.film < earliest)
+        throw UserError(
+            fmt::format("{}: the moments that its film needs are not there, and neither is a checkpoint from "
+                        "before them; "
+                        "--no-film goes on without the film, and `render` draws one of the trajectory",
+                        run.string()));
+    throw UserError(
+        fmt::format("{}: has no checkpoint that its other files reach; run the scene again", run.string()));
+}
+
+}  // namespace
+
+bool has_film(const Scene& scene, const fs::path& run) {
+    const std::string name = film_file_name(scene.film.format);
+    return (!name.empty() && (is_there(run / name) || is_there(run / (name + ".part")))) ||
+           is_there(run / "movie.work") || is_there(run / "frames") || is_there(run / kFilmMoments);
+}
+
+ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::path& run, bool film,
+                              int threads) {
+    const std::vector<KeptCheckpoint> kept = kept_checkpoints(run);
+    if (kept.empty())
+        throw UserError(
+            fmt::format("{}: has no checkpoint; the run was stopped while its grains were packed, so "
+                        "run its scene.toml again",
+                        run.string()));
+    const std::vector<std::int64_t> rows = steps_in_measures(run / "measures.csv"),
+                                    pictures = steps_in_trajectory(run / kFilmMoments);
+    Limits limits;
+    limits.first = rows.empty() ? kept.front().step : rows.front();
+    const std::int64_t last = kept.back().step;
+    limits.film = !film ? last
+                  : !is_of_single_moments(scene.film)
+                      ? limits.first
+                      : film_agrees_until(scene, plan, pictures, limits.first, last);
+    std::optional<UserError> mistake;
+    for (auto one = kept.rbegin(); one != kept.rend(); ++one) {
+        if (one->step > limits.film || !files_reach(run, plan, limits.first, one->step)) continue;
+        if (std::optional<Simulation> simulation = usable(*one, scene, plan, threads, mistake)) {
+            const auto end = std::lower_bound(pictures.begin(), pictures.end(), one->step);
+            return {std::move(*simulation), limits.first, static_cast<std::size_t>(end - pictures.begin())};
+        }
+    }
+    if (mistake) throw *mistake;
+    refuse(run, limits, kept.front().step);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,196 @@
+// Runs that are taken up again in their folders: killed ones, stopped ones, and finished ones that are to be
+// longer. What they leave is what a run in one go leaves, byte by byte.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/output/trajectory.hpp"
+#include "tests/cli/film_length.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+
+class ResumedRun : public testing::Test {
+  protected:
+    using Words = std::vector<std::string>;
+
+    Ended run(const Words& words) const { return run_program(words, {.folder = here.path()}); }
+    Words movie(const std::string& out, const Words& more) const {
+        Words words = {"movie", "fifty.toml", "--out", out, "--set", "start.settle_limit=0.02 s"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    // Starts the run and kills it once its trajectory has so many frames.
+    void kill_at(std::size_t frames, const Words& more, int signal = SIGKILL) const {
+        Program program(movie("run", more), {.folder = here.path()});
+        ASSERT_TRUE(wait_until(program, [&] { return frames_in("run") >= frames; }));
+        program.send(signal);
+        EXPECT_EQ(program.wait().status, 128 + signal);
+    }
+    std::size_t frames_in(const std::string& folder) const {
+        try {
+            return TrajectoryReader(here / folder / "trajectory.nc").frames();
+        } catch (const UserError&) {
+            return 0;  // not there yet
+        }
+    }
+    nlohmann::json record(const std::string& folder) const {
+        return nlohmann::json::parse(text_of(here / folder / "run.json"));
+    }
+    static std::set<std::string> pictures_in(const fs::path& folder) {
+        std::set<std::string> names;
+        std::error_code none;
+        for (const auto& entry : fs::directory_iterator(folder / "frames", none))
+            names.insert(entry.path().filename());
+        return names;
+    }
+    // All that both left but what tells of wall time.
+    void expect_same(const std::string& whole, const std::string& resumed) const {
+        EXPECT_EQ(record(resumed)["status"], "complete");
+        EXPECT_EQ(record(resumed)["engine"]["state_hash"], record(whole)["engine"]["state_hash"]);
+        for (const char* file : {"trajectory.nc", "measures.csv", "contacts.nc", "fields.nc", "outflow.csv",
+                                 "film_moments.nc", "final.csv"}) {
+            ASSERT_EQ(fs::exists(here / resumed / file), fs::exists(here / whole / file)) << file;
+            EXPECT_EQ(text_of(here / resumed / file) == text_of(here / whole / file), true) << file;
+        }
+        EXPECT_EQ(record(resumed)["written"]["film_frames"], record(whole)["written"]["film_frames"]);
+        EXPECT_EQ(pictures_in(here / resumed), pictures_in(here / whole));
+        for (const std::string& name : pictures_in(here / whole))
+            EXPECT_EQ(text_of(here / resumed / "frames" / name) == text_of(here / whole / "frames" / name),
+                      true)
+                << name;
+        if (!fs::exists(here / whole / "movie.mp4")) return;
+        EXPECT_EQ(decoded_pictures(here / resumed / "movie.mp4"),
+                  decoded_pictures(here / whole / "movie.mp4"));
+    }
+
+    TemporaryFolder here;
+    fs::path scene = write_small_scene(here.path());
+};
+
+const std::vector<std::string> with_all = {"--duration", "1.5 s",
+                                           "--set",      "output.contacts=true",
+                                           "--set",      "output.instruments=[\"walls\", \"bed\"]",
+                                           "--set",      "output.fields.grid=yz",
+                                           "--set",      "output.fields.periods=3",
+                                           "--set",      "film.segment=[{playback=5}]",
+                                           "--frames"};
+
+TEST_F(ResumedRun, AKilledOneEndsAsIfItHadNotBeen) {
+    ASSERT_EQ(run(movie("whole", with_all)).status, 0);
+    kill_at(9, with_all);
+    const Ended ended = run({"resume", "run"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, "run\n");
+    EXPECT_THAT(ended.err, HasSubstr("to 1.5 s"));
+    expect_same("whole", "run");
+}
+
+TEST_F(ResumedRun, KilledTwiceAndStoppedOnce) {
+    const Words without_film = {"--duration", "1.5 s", "--no-film"};
+    ASSERT_EQ(run(movie("whole", without_film)).status, 0);
+    kill_at(3, without_film);
+    for (const std::size_t frames : {10, 18}) {
+        Program program({"resume", "run"}, {.folder = here.path()});
+        ASSERT_TRUE(wait_until(program, [&] { return frames_in("run") >= frames; }));
+        program.send(frames == 10 ? SIGINT : SIGKILL);
+        EXPECT_EQ(program.wait().status, frames == 10 ? 130 : 137);
+    }
+    ASSERT_EQ(run({"resume", "run", "--threads", "2"}).status, 0);
+    expect_same("whole", "run");
+}
+
+TEST_F(ResumedRun, AFinishedOneIsMadeLonger) {
+    Words more = with_all;
+    more[1] = "0.4 s";
+    ASSERT_EQ(run(movie("whole", more)).status, 0);
+    more[1] = "0.25 s";
+    ASSERT_EQ(run(movie("run", more)).status, 0);
+    const Ended over = run({"resume", "run"});
+    EXPECT_EQ(over.status, 2);
+    EXPECT_THAT(over.err, HasSubstr("run: the run has come to 0.25 s already; give a later end"));
+    ASSERT_EQ(run({"resume", "run", "--for", "0.15s"}).status, 0);
+    expect_same("whole", "run");
+}
+
+TEST_F(ResumedRun, GrainsThatLeaveAreToldOnce) {
+    const Words more = {"--duration", "1 s", "--no-film", "--set",
+                        "container.outlet={width=\"9 mm\", exit_depth=\"6 mm\"}"};
+    ASSERT_EQ(run(movie("whole", more)).status, 0);
+    kill_at(6, more);
+    ASSERT_EQ(run({"resume", "run"}).status, 0);
+    expect_same("whole", "run");
+}
+
+// A picture of them shows more than a moment: the run begins anew where it was packed.
+TEST_F(ResumedRun, AFilmOfMeansAndForcesIsMadeAnew) {
+    const Words more = {"--duration", "0.5 s",
+                        "--set",      "film.segment=[{playback=2, exposure=\"5 ms\"}]",
+                        "--set",      "film.force_chains=true",
+                        "--frames"};
+    ASSERT_EQ(run(movie("whole", more)).status, 0);
+    kill_at(5, more, SIGINT);
+    const Ended ended = run({"resume", "run"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("goes on from 0 s"));
+    expect_same("whole", "run");
+}
+
+// A closing slow motion comes at the new end.
+TEST_F(ResumedRun, TheFilmsLastSegmentMovesToTheNewEnd) {
+    const auto with_end = [](const char* duration) {
+        return Words{"--duration", duration, "--frames", "--set",
+                     "film.segment=[{playback=2}, {playback=0.5, duration=\"0.05 s\"}]"};
+    };
+    ASSERT_EQ(run(movie("whole", with_end("0.4 s"))).status, 0);
+    ASSERT_EQ(run(movie("run", with_end("0.2 s"))).status, 0);
+    ASSERT_EQ(run({"resume", "run", "--until", "0.4 s"}).status, 0);
+    expect_same("whole", "run");
+}
+
+TEST_F(ResumedRun, MistakesAreOneLineAndChangeNothing) {
+    ASSERT_EQ(run(movie("run", {"--duration", "0.1 s", "--no-film"})).status, 0);
+    const auto refused = [&](const Words& words, const char* says) {
+        const std::string before = text_of(here / "run/measures.csv") + text_of(here / "run/run.json");
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.status, 2) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(says));
+        EXPECT_EQ(text_of(here / "run/measures.csv") + text_of(here / "run/run.json"), before);
+    };
+    refused({"resume", "nowhere"}, "nowhere: no such folder");
+    refused({"resume", "."}, "has no scene.toml");
+    refused({"resume", "run", "--until", "0.05 s"}, "--until: the run has come to 0.1 s already");
+    refused({"resume", "run", "--until", "1 s", "--for", "1 s"}, "--for");
+    refused({"resume", "run", "--for", "3 kg"}, "--for must be a time");
+    const std::string text = text_of(here / "run/scene.toml");
+    const auto with = [&](const std::string& key, const std::string& value) {
+        std::string changed = text;
+        const std::size_t at = changed.find(key + " = ");
+        changed.replace(at, changed.find('\n', at) - at, key + " = " + value);
+        write_text(here / "run/scene.toml", changed);
+    };
+    with("gravity", "[0.0, 0.0, -9.7]");
+    refused({"resume", "run", "--for", "1 s"}, "'gravity' is [0.0, 0.0, -9.7], but it was [0.0, 0.0, -9.81]");
+    with("measures_interval", "0.001");
+    refused({"resume", "run", "--for", "1 s"}, "'output.measures_interval' is 0.001, but it was");
+    write_text(here / "run/scene.toml", text);
+    fs::remove_all(here / "run/checkpoints");
+    fs::remove(here / "run/checkpoint.grs");
+    refused({"resume", "run", "--for", "1 s"}, "has no checkpoint");
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,95 @@
+// Runs that are killed at random moments and taken up again: they end as one that was left alone.
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+
+#include "tests/cli/film_length.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+#include "tests/hard/group.hpp"
+
+namespace grainreel::hard {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words movie(const fs::path& here, const std::string& out) {
+    test::write_small_scene(here);
+    return {"movie",      "fifty.toml",
+            "--duration", "1.5 s",
+            "--set",      "start.settle_limit=0.02 s",
+            "--set",      "output.contacts=true",
+            "--set",      "output.fields.grid=yz",
+            "--set",      "film.segment=[{playback=5}]",
+            "--frames",   "--out",
+            out};
+}
+
+// Kills the program after a while, unless it has ended by itself; says whether it was killed.
+bool kill_after(const Words& words, const fs::path& here, std::chrono::milliseconds while_) {
+    test::Program program(words, limits(here));
+    const auto end = std::chrono::steady_clock::now() + while_;
+    while (program.running() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const bool killed = program.running();
+    if (killed) program.send(SIGKILL);
+    program.wait();
+    return killed;
+}
+
+std::string engine_hash(const fs::path& run) {
+    const auto record = nlohmann::json::parse(test::text_of(run / "run.json"), nullptr, false);
+    return record.is_object() ? record["engine"]["state_hash"].dump() : "no run.json";
+}
+
+// The first thing in which the two runs differ; empty: none.
+std::string difference(const fs::path& whole, const fs::path& run) {
+    if (engine_hash(whole) != engine_hash(run)) return "another end state";
+    for (const char* file : {"trajectory.nc", "measures.csv", "contacts.nc", "fields.nc", "film_moments.nc"})
+        if (test::text_of(whole / file) != test::text_of(run / file)) return fmt::format("{} differs", file);
+    for (const auto& entry : fs::directory_iterator(whole / "frames"))
+        if (test::text_of(entry.path()) != test::text_of(run / "frames" / entry.path().filename()))
+            return fmt::format("picture {} differs", entry.path().filename().string());
+    const int pictures = test::decoded_pictures(run / "movie.mp4");
+    if (pictures != test::decoded_pictures(whole / "movie.mp4"))
+        return fmt::format("the film has {} pictures", pictures);
+    return "";
+}
+
+}  // namespace
+
+Group resumed_runs(const Ground&) {
+    return {"resumed", 50, [](int number, Dice& dice, const fs::path& here) -> Outcome {
+                const Ran whole = attempt(movie(here, "whole"), here);
+                if (whole.status != 0) return {"", "cannot be run: " + first_line(whole.err)};
+                const auto some_time = [&] { return std::chrono::milliseconds(50 + dice.below(1500)); };
+                int kills = kill_after(movie(here, "run"), here, some_time());
+                if (kills == 0)
+                    return {"ended before it was killed", difference(here / "whole", here / "run")};
+                if (!fs::exists(here / "run/checkpoint.grs")) {
+                    const Ran refused = attempt({"resume", "run"}, here);
+                    const bool said =
+                        refused.status == 2 && (!fs::exists(here / "run/scene.toml") ||
+                                                refused.err.find("has no checkpoint") != std::string::npos);
+                    return {"killed while packing", said ? "" : "resume says: " + first_line(refused.err)};
+                }
+                for (int more = number % 3; more > 0; --more)
+                    kills += kill_after({"resume", "run"}, here, some_time());
+                const Ran resumed = attempt({"resume", "run"}, here);
+                const bool over = resumed.err.find("has come to 1.5 s already") != std::string::npos;
+                if (resumed.status != 0 && !over)
+                    return {"", fmt::format("after {} kills: {}", kills, first_line(resumed.err))};
+                return {fmt::format("resumed after {} kill{}", kills, kills == 1 ? "" : "s"),
+                        difference(here / "whole", here / "run")};
+            }};
+}
+
+}  // namespace grainreel::hard
