@@ -156,7 +156,7 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
     return html;
 }
 
-std::string bed_about(const BedFrames& bed) {
+std::string bed_about(const BedFrames& bed, const Scene& scene) {
     const Vec3 error = 1e6 * bed.error();
     std::string text = fmt::format(
         "Places are rounded to 16 bits over the box that the grains reach: they are off by {:.2g} µm along "
@@ -178,6 +178,7 @@ std::string bed_about(const BedFrames& bed) {
             bed.all_grains, bed.grains);
     if (!bed.contacts)
         text += " The run kept no contacts (output.contacts), so contact numbers are not known.";
+    if (scene.container.wall_grains) text += " Grains that are glued to walls are not shown.";
     return html_text(text);
 }
 

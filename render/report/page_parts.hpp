@@ -21,7 +21,7 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
                       const std::string& why_not_tied);
 
 // What the page has of the bed's moments, and how exactly.
-std::string bed_about(const BedFrames& bed);
+std::string bed_about(const BedFrames& bed, const Scene& scene);
 
 // The scene's captions, each a button that goes there; empty without any.
 std::string story_html(const Scene& scene);

@@ -82,7 +82,7 @@ class Page {
              {"style", std::string(files.style)},
              {"lead", lead_html(scene, record)},
              {"film", head},
-             {"bed", filled(files.bed, {{"about", bed_about(bed)}})},
+             {"bed", filled(files.bed, {{"about", bed_about(bed, scene)}})},
              {"charts", filled(files.charts, {{"about", charts_about(table.get(), measures, whole_table)}})},
              {"words", chapters},
              {"facts", json_in_html(facts)},

@@ -101,14 +101,30 @@ void add_cylinder(std::vector<Slab>& slabs, const Container& container) {
     if (container.lid) slabs.push_back({kContainerBody, lid, lifted(lid, thickness), {}, {}, {}});
 }
 
+void add_container(std::vector<Slab>& slabs, const Container& container) {
+    if (container.shape == Container::Shape::cylinder)
+        add_cylinder(slabs, container);
+    else if (container.shape != Container::Shape::none)
+        add_prism(slabs, container);
+}
+
+void add_tray(std::vector<Slab>& slabs, const Scene& scene) {
+    std::vector<Slab> tray;
+    add_container(tray, tray_container(scene));
+    for (Slab& slab : tray) {
+        slab.body = kTrayBody;
+        slab.inner = lifted(slab.inner, -scene.container.tray->depth);
+        slab.outer = lifted(slab.outer, -scene.container.tray->depth);
+        slabs.push_back(std::move(slab));
+    }
+}
+
 }  // namespace
 
 std::vector<Slab> slabs_of(const Scene& scene) {
     std::vector<Slab> slabs;
-    if (scene.container.shape == Container::Shape::cylinder)
-        add_cylinder(slabs, scene.container);
-    else if (scene.container.shape != Container::Shape::none)
-        add_prism(slabs, scene.container);
+    add_container(slabs, scene.container);
+    if (scene.container.tray) add_tray(slabs, scene);
     for (std::size_t k = 0; k < scene.walls.size(); ++k) {
         std::vector<Vec3> piece = piece_of_plane(scene.walls[k], scene, Vec3(0, 0, 0));
         if (!piece.empty())

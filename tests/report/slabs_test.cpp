@@ -85,6 +85,21 @@ TEST(Slabs, AFloorWithAnOutletIsThereUntilItOpens) {
     EXPECT_EQ(after, 2);
 }
 
+TEST(Slabs, ATrayStandsStillBelow) {
+    Scene scene = with(Container::Shape::box);
+    scene.container.outlet = Outlet{Outlet::Shape::slot, 0.01, 0, 0.1};
+    scene.container.tray = Tray{0.07, 0.08};
+    double lowest = 0;
+    int pieces = 0;
+    for (const Slab& slab : slabs_of(scene)) {
+        if (slab.body != kTrayBody) continue;
+        ++pieces;
+        for (const Vec3& corner : slab.inner) lowest = std::min(lowest, corner.z());
+    }
+    EXPECT_GE(pieces, 3);  // a floor and two walls at least
+    EXPECT_NEAR(lowest, -0.07, 1e-12);
+}
+
 TEST(Slabs, PlanesHaveBodiesOfTheirOwn) {
     Scene scene = with(Container::Shape::box);
     scene.walls = {{"shelf", {0, 0, 0.05}, {0, 0, 1}, {0, 0, 0}, false}};
