@@ -14,6 +14,10 @@ struct AnswerColumn {
     std::string name;  // of letters, digits and _
     Dimension dimension = Dimension::number;
     std::string about{};
+    // For means over moments (mean_answer.hpp): kKey in columns that say which row it is, else the column
+    // that weighs this one; empty: nothing does.
+    std::string weight{};
+    static constexpr const char* kKey = "key";
 };
 
 // Empty, a number in SI, a count, or words.
@@ -24,6 +28,7 @@ struct AnswerTable {
     std::string title;  // a line for people
     std::vector<AnswerColumn> columns;
     std::vector<std::vector<AnswerCell>> rows;  // a cell a column
+    bool has_mean = false;                      // whether rows of several moments can be joined
 };
 
 struct Answer {

@@ -60,18 +60,20 @@ AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
              {"moment_z", Dimension::moment, ""},
              {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"}},
             {{static_cast<std::int64_t>(on_wall.size()), force.x(), force.y(), force.z(), normal, moment.x(),
-              moment.y(), moment.z(), share}}};
+              moment.y(), moment.z(), share}},
+            true};
 }
 
 // In bins as high as a mean grain is wide.
 AnswerTable height_table(const Snapshot& s, const Forces& on_wall) {
     AnswerTable table{"by_height",
                       "Its normal force by height above the floor",
-                      {{"from", Dimension::length, ""},
-                       {"to", Dimension::length, ""},
+                      {{"from", Dimension::length, "", AnswerColumn::kKey},
+                       {"to", Dimension::length, "", AnswerColumn::kKey},
                        {"contacts", Dimension::number, ""},
                        {"normal_force", Dimension::force, "sum"}},
-                      {}};
+                      {},
+                      true};
     double width = 0;
     for (const double radius : s.frame.radius) width += 2 * radius / static_cast<double>(s.frame.size());
     std::map<std::int64_t, std::pair<std::int64_t, double>> bins;
@@ -114,10 +116,11 @@ AnswerTable touching_table(const Snapshot& s, Forces on_wall, std::size_t most) 
 AnswerTable species_table(const Snapshot& s, const Forces& on_wall) {
     AnswerTable table{"species",
                       "Contacts by species",
-                      {{"species", Dimension::number, ""},
+                      {{"species", Dimension::number, "", AnswerColumn::kKey},
                        {"contacts", Dimension::number, ""},
                        {"normal_force", Dimension::force, "sum"}},
-                      {}};
+                      {},
+                      true};
     for (std::size_t k = 0; k < s.scene.species.size(); ++k) {
         std::int64_t count = 0;
         double force = 0;

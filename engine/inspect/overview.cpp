@@ -1,10 +1,14 @@
+#include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "engine/inspect/grain_columns.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/inspect/statistics.hpp"
+#include "engine/measure/columns.hpp"
 
 namespace grainreel {
 namespace {
@@ -50,7 +54,7 @@ AnswerTable species_table(const Snapshot& s) {
                 if (static_cast<std::size_t>(s.frame.species[i]) == k) own.push_back(all[i]);
             return own;
         };
-        const auto sum = [](const Statistics& of) { return of.count > 0 ? of.mean * double(of.count) : 0; };
+        const auto sum = [](const Statistics& of) { return of.mean * double(of.count); };
         const Statistics heights = statistics_of(of_species(height));
         table.rows.push_back({s.scene.species[k].name, static_cast<std::int64_t>(heights.count),
                               sum(statistics_of(of_species(mass))), heights.mean, heights.least, heights.most,
@@ -86,6 +90,30 @@ AnswerTable extremes_table(const Snapshot& s) {
     return table;
 }
 
+// What the run's observers made of it: energies, segregation, how the bed stands. What has no value is left
+// out.
+AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
+    AnswerTable table{"measured",
+                      fmt::format("Measured at {:.6g} s", row.time),
+                      {{"quantity", Dimension::number, "a column of measures.csv"},
+                       {"value", Dimension::number, "in the column's unit, or SI"},
+                       {"about", Dimension::number, ""}},
+                      {}};
+    // Where the centres are is in the table of the species, when the row comes is its title.
+    const auto said_already = [](const std::string& name) {
+        return name == "step" || name == "time_s" || name == "cycles" || name.starts_with("phase") ||
+               name.find("centre_") != std::string::npos;
+    };
+    std::map<std::string, std::string> labels;
+    for (const MeasureColumn& column : measure_columns(s.scene)) labels[column.name] = column.label;
+    for (std::size_t k = 0; k < row.columns.size(); ++k) {
+        const std::string& name = row.columns[k];
+        if (!said_already(name) && std::isfinite(row.values[k]))
+            table.rows.push_back({name, row.values[k], labels[name]});
+    }
+    return table;
+}
+
 // m above the floor, of the container's rim; infinite without one.
 bool outside(const Snapshot& s, std::size_t i) {
     const Container& c = s.scene.container;
@@ -101,6 +129,7 @@ bool outside(const Snapshot& s, std::size_t i) {
 
 Answer overview_of(const Snapshot& s) {
     Answer answer{{moment_table(s), species_table(s), extremes_table(s)}, {}};
+    if (s.measured) answer.tables.push_back(measured_table(s, *s.measured));
     std::size_t out = 0, odd = 0;
     for (std::size_t i = 0; i < s.frame.size(); ++i) {
         out += outside(s, i);
@@ -110,7 +139,8 @@ Answer overview_of(const Snapshot& s) {
     if (odd > 0)
         answer.notes.push_back(fmt::format("{} grains have a place or a velocity that is no number", odd));
     if (!s.contacts)
-        answer.notes.emplace_back("contacts are not known; run the scene with output.contacts = true");
+        answer.notes.emplace_back(
+            "contacts of a kept moment are not known; --grain, --wall and --largest-overlap bring it back");
     return answer;
 }
 

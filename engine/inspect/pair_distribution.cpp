@@ -126,11 +126,12 @@ Answer pair_distribution_answer(const Snapshot& s) {
     }
     AnswerTable table{"pair_distribution",
                       "Radial distribution of the centres, against a uniform bed in the box about all grains",
-                      {{"r_from", Dimension::length},
-                       {"r_to", Dimension::length},
-                       {"g", Dimension::number},
+                      {{"r_from", Dimension::length, "", AnswerColumn::kKey},
+                       {"r_to", Dimension::length, "", AnswerColumn::kKey},
+                       {"g", Dimension::number, "", "centres"},
                        {"centres", Dimension::number, "that are so far from the surface of the box"}},
-                      {}};
+                      {},
+                      true};
     for (std::size_t k = 0; k < bin_count; ++k) {
         const double from = static_cast<double>(k) * width, to = from + width;
         const double shell = 4.0 / 3.0 * std::numbers::pi * (to * to * to - from * from * from);

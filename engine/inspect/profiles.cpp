@@ -90,9 +90,9 @@ std::vector<AnswerCell> row_of(const Bins& all, std::size_t k) {
     const Bin& bin = all.bins[k];
     const double edge = all.low + static_cast<double>(k) * all.width;
     const auto grains = static_cast<double>(bin.grains);
-    std::vector<AnswerCell> row = {edge, edge + all.width, bin.grains, ratio(bin.speed, grains),
-                                   ratio(bin.upward, grains)};
     const double solid = std::accumulate(bin.volume.begin(), bin.volume.end(), 0.0);
+    std::vector<AnswerCell> row = {edge,  edge + all.width,         bin.grains,
+                                   solid, ratio(bin.speed, grains), ratio(bin.upward, grains)};
     for (const double volume : bin.volume) row.push_back(ratio(volume, solid));
     return row;
 }
@@ -106,18 +106,22 @@ Answer profile_answer(const Snapshot& s, const std::string& along) {
     check_grains(s);
     const std::vector<double> at = along_axis(s, along);
     const bool across = along == "x" || along == "y";
-    const Bins all = bins_along(s, at, across ? statistics_of(at).least : 0);
+    // Edges are multiples of the width, so that those of several moments agree.
+    const double width = mean_diameter(s);
+    const Bins all = bins_along(s, at, across ? std::floor(statistics_of(at).least / width) * width : 0);
     AnswerTable table{"profile",
                       fmt::format("Along {}, in bins of the mean diameter", along),
-                      {{along + "_from", Dimension::length},
-                       {along + "_to", Dimension::length},
+                      {{along + "_from", Dimension::length, "", AnswerColumn::kKey},
+                       {along + "_to", Dimension::length, "", AnswerColumn::kKey},
                        {"grains", Dimension::number, "whose centre is there"},
-                       {"mean_speed", Dimension::speed},
-                       {"mean_vz", Dimension::speed}},
-                      {}};
+                       {"solid_volume", Dimension::number, "of these grains, m3"},
+                       {"mean_speed", Dimension::speed, "", "grains"},
+                       {"mean_vz", Dimension::speed, "", "grains"}},
+                      {},
+                      true};
     for (const Species& species : s.scene.species)
         table.columns.push_back(
-            {"share_" + species.name, Dimension::number, "of the solid volume of these grains"});
+            {"share_" + species.name, Dimension::number, "of that volume", "solid_volume"});
     for (std::size_t k = 0; k < all.bins.size(); ++k) table.rows.push_back(row_of(all, k));
     Answer answer{{std::move(table)}, {}};
     if (all.left_out > 0) answer.notes.push_back(fmt::format("{} grains lie outside the bins", all.left_out));

@@ -19,12 +19,20 @@ struct SnapshotForces {
     std::vector<Vec3> acceleration;
 };
 
+// What the run's observers measured (columns of measures.csv).
+struct MeasuredRow {
+    double time = 0;  // s
+    std::vector<std::string> columns;
+    std::vector<double> values;  // NaN: none
+};
+
 struct Snapshot {
     const Scene& scene;
     Frame frame;                             // its grains; touches where they are known
     bool contacts = false;                   // whether they are
     Frame start;                             // the run's first moment
     std::optional<SnapshotForces> forces{};  // of a moment that was brought back
+    std::optional<MeasuredRow> measured{};   // at the moment, or at the row nearest to it
 
     double density(std::size_t i) const;  // kg/m3, of grain i of the frame
     double mass(std::size_t i) const;     // kg

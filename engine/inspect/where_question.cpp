@@ -10,11 +10,12 @@ namespace {
 AnswerTable counts_table(const Snapshot& s, const std::vector<std::size_t>& found) {
     AnswerTable table{"count",
                       "How many",
-                      {{"species", Dimension::number, ""},
+                      {{"species", Dimension::number, "", AnswerColumn::kKey},
                        {"grains", Dimension::number, "for which it holds"},
                        {"of", Dimension::number, "all of the species"},
-                       {"share", Dimension::number, ""}},
-                      {}};
+                       {"share", Dimension::number, "", "of"}},
+                      {},
+                      true};
     std::vector<std::int64_t> own(s.scene.species.size(), 0), all(s.scene.species.size(), 0);
     for (const std::size_t i : found) ++own[static_cast<std::size_t>(s.frame.species[i])];
     for (const std::int32_t k : s.frame.species) ++all[static_cast<std::size_t>(k)];

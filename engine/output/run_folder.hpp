@@ -16,8 +16,8 @@ struct RunFolderRequest {
     std::optional<std::filesystem::path>
         out;                // the wanted folder, new or empty; without it base/name, base/name-2, ...
     bool force = false;     // an `out` that holds a run is replaced
-    bool goes_on = false;   // `out` is a run's folder, and its run goes on
     std::string command{};  // told to others who want the folder
+    bool goes_on = false;   // `out` is a run's folder, and its run goes on
 };
 
 // Made when scene and plan are accepted, not before. An earlier run that is to be replaced waits beside the

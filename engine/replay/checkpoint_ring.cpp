@@ -55,6 +55,10 @@ std::vector<KeptCheckpoint> kept_checkpoints(const fs::path& run) {
     return found;
 }
 
+fs::path place_in_ring(const fs::path& run, std::int64_t step) {
+    return run / CheckpointRing::kFolder / file_name(step);
+}
+
 CheckpointRing::CheckpointRing(const fs::path& run, std::int64_t most_bytes, std::int64_t first,
                                std::int64_t last)
     : folder_(run / kFolder),

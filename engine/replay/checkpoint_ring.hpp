@@ -20,6 +20,9 @@ struct KeptCheckpoint {
 // are read.
 std::vector<KeptCheckpoint> kept_checkpoints(const std::filesystem::path& run);
 
+// Where the ring of a run's folder has the checkpoint of a step.
+std::filesystem::path place_in_ring(const std::filesystem::path& run, std::int64_t step);
+
 class CheckpointRing {
   public:
     static constexpr std::size_t kMost = 20;

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/replay/checkpoint_ring.hpp"
+#include "engine/scene/text/reader.hpp"
+#include "engine/start/restart.hpp"
 
 namespace grainreel {
 
@@ -16,32 +19,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Instruments and fields see the run and change nothing of it.
-Scene without_instruments(const Scene& scene) {
-    Scene bare = scene;
-    bare.output.instruments.clear();
-    bare.output.fields = {};
-    return bare;
+Scene started_from(const Scene& scene, const fs::path& checkpoint) {
+    Scene there = scene;
+    there.start = {};
+    there.start.method = Start::Method::file;
+    there.start.file = checkpoint.string();
+    there.start.keep_clock = true;
+    return there;
 }
 
 // From the last one that is whole.
-Simulation nearest_checkpoint(const Scene& scene, const Plan& plan, const fs::path& run, std::int64_t step,
+Simulation nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
                               int threads) {
-    const std::vector<KeptCheckpoint> kept = kept_checkpoints(run);
     std::optional<UserError> mistake;
     for (auto one = kept.rbegin(); one != kept.rend(); ++one) {
         if (one->step > step) continue;
         try {
-            return Simulation::at_checkpoint(scene, plan, one->file, threads);
+            return run_of_checkpoint(one->file, threads);
         } catch (const UserError& error) {
             if (!mistake) mistake = error;
         }
     }
     if (mistake) throw *mistake;
     throw UserError(fmt::format(
-        "{}: has no checkpoint of {:.6g} s or before, so that this moment cannot be brought back; ask for a "
-        "kept moment with --no-replay, or run the scene again with output.checkpoints",
-        run.string(), plan.clock.time(step)));
+        "{}: has no checkpoint of step {} or before, so that it cannot be brought back there",
+        run.string(), step));
 }
 
 }  // namespace
@@ -53,18 +55,25 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
             "{}: has no checkpoints, so that no moment can be brought back; ask for a kept moment "
             "with --no-replay, or run the scene again with output.checkpoints",
             run.string()));
-    Scene there = scene;
-    there.start = {};
-    there.start.method = Start::Method::file;
-    there.start.file = kept.front().file.string();
-    there.start.keep_clock = true;
-    return make_plan(there);
+    return make_plan(started_from(scene, kept.front().file));
 }
 
-Simulation replayed(const Scene& scene, const Plan& plan, const fs::path& run, std::int64_t step, int threads,
-                    const ReplayWatcher& watcher) {
+Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {
+    const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
+    if (!label)
+        throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
+                                    checkpoint.string()));
+    Scene scene = read_scene_text(label->scene, checkpoint, {}, measurable_in);
+    // Instruments and fields see the run and change nothing of it.
+    scene.output.instruments.clear();
+    scene.output.fields = {};
+    return Simulation::at_checkpoint(scene, make_plan(started_from(scene, checkpoint)), checkpoint, threads);
+}
+
+Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
+                    int threads, const ReplayWatcher& watcher) {
     constexpr std::chrono::duration<double> stretch(0.1);
-    Simulation simulation = nearest_checkpoint(without_instruments(scene), plan, run, step, threads);
+    Simulation simulation = nearest_checkpoint(run, kept, step, threads);
     const std::int64_t from = simulation.step();
     std::int64_t steps = 8;  // at a time
     while (simulation.step() < step) {

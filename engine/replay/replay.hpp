@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "engine/plan/plan.hpp"
+#include "engine/replay/checkpoint_ring.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -20,10 +22,14 @@ using ReplayWatcher = std::function<bool(double done)>;
 // UserError where there is no checkpoint.
 Plan plan_of_run(const Scene& scene, const std::filesystem::path& run);
 
-// run: its folder; scene: that of its scene.toml, of which instruments and fields are left out. plan: that of
-// plan_of_run(). A checkpoint that is damaged is passed over. Throws UserError where none before `step` can
-// be used, RunError when the run stopped being healthy or the watcher stopped it.
-Simulation replayed(const Scene& scene, const Plan& plan, const std::filesystem::path& run, std::int64_t step,
-                    int threads, const ReplayWatcher& watcher);
+// A run with the scene that a checkpoint of it holds, as it was used; instruments and fields are left out.
+// Throws UserError where the checkpoint cannot be used.
+Simulation run_of_checkpoint(const std::filesystem::path& checkpoint, int threads);
+
+// From the last of these checkpoints that is not behind `step`. A checkpoint that is damaged is passed over.
+// run: named in messages. Throws UserError where none can be used, RunError when the run stopped being
+// healthy or the watcher stopped it.
+Simulation replayed(const std::filesystem::path& run, const std::vector<KeptCheckpoint>& kept,
+                    std::int64_t step, int threads, const ReplayWatcher& watcher);
 
 }  // namespace grainreel

@@ -49,14 +49,15 @@ double solid_fraction(const Container& container, const Grains& grains) {
 }  // namespace
 
 struct Simulation::Impl {
-    Impl(const Scene& s, const Plan& p, int threads)
+    Impl(const Scene& s, const Plan& p, int threads, bool changes = false)
         : scene(s),
           plan(p),
           team(threads > 0 ? threads : usable_processors()),
           around(make_surroundings(s, p)),
           bodies(bodies_of(s.drive, s.walls)),
           limits(health_limits(s, p)),
-          observers(all_observers(), scene, plan) {
+          observers(all_observers(), scene, plan),
+          may_change(changes) {
         if (!scene.start.packs()) take_grains();
     }
 
@@ -78,6 +79,7 @@ struct Simulation::Impl {
     bool opened = false;     // the container's outlet
 
     Observers observers;
+    bool may_change = false;            // whether a run that goes on may be another one from now on
     std::optional<WallSums> wall_sums;  // of the last moment, where an observer needs them
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
@@ -108,17 +110,18 @@ Simulation::Simulation(const Scene& scene, const Plan& plan, int threads)
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 Simulation Simulation::at_checkpoint(const Scene& scene, const Plan& plan,
-                                     const std::filesystem::path& checkpoint, int threads) {
+                                     const std::filesystem::path& checkpoint, int threads, bool may_change) {
     Scene there = scene;
     there.start = {};
     there.start.method = Start::Method::file;
     there.start.file = checkpoint.string();
     there.start.keep_clock = true;
-    return Simulation(std::make_unique<Impl>(there, plan, threads));
+    return Simulation(std::make_unique<Impl>(there, plan, threads, may_change));
 }
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 // Those of a file or a list, where they are.
 void Simulation::Impl::take_grains() {
@@ -141,7 +144,8 @@ void Simulation::Impl::go_on() {
     make_loop();
     std::string gathered;
     std::vector<std::int64_t> given;
-    const CheckpointHeader header = continue_from_checkpoint(scene, plan, grains, *loop, gathered, given);
+    const CheckpointHeader header =
+        continue_from_checkpoint(scene, plan, grains, *loop, gathered, given, may_change);
     feeder.set_given(std::move(given));
     set_orientations();
     step = header.step;

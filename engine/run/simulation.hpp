@@ -47,11 +47,13 @@ class Simulation {
     Simulation(const Scene& scene, const Plan& plan, int threads);
     // The run of the scene as a checkpoint of it has it, which may be its last step. Takes the place of the
     // scene's own start and of pack(). Throws UserError where the checkpoint cannot be used, or is of another
-    // run.
+    // run. may_change: the scene may be another one from then on, which the caller has checked.
     static Simulation at_checkpoint(const Scene& scene, const Plan& plan,
-                                    const std::filesystem::path& checkpoint, int threads);
+                                    const std::filesystem::path& checkpoint, int threads,
+                                    bool may_change = false);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
 
     // Places the grains (layers and radius growth, or rain, then settling), if they are not there already.
     // Afterwards step() is 0, or the file's step when the scene keeps its clock.

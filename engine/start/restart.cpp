@@ -178,11 +178,11 @@ std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& 
 
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
                                           StepLoop& loop, std::string& gathered,
-                                          std::vector<std::int64_t>& given) {
+                                          std::vector<std::int64_t>& given, bool may_change) {
     const std::string bytes = read_whole(scene);
     Bytes in(body_of(scene, bytes));
     Saved saved = read_saved(scene, in);
-    check_same_future(saved.scene, scene, plan);
+    if (!may_change) check_same_future(saved.scene, scene, plan);
     check_grains_possible(scene, saved.grains);
     check_masses(scene, saved.grains);
     grains = std::move(saved.grains);

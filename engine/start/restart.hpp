@@ -49,9 +49,10 @@ std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& 
 //
 // To go on bit by bit: grains, the loop's lists and histories, and what each feed has given. The loop is that
 // of these grains. `gathered` becomes what observers had gathered, which the caller has still to check.
+// may_change: the scene need not be the one of the checkpoint.
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
                                           StepLoop& loop, std::string& gathered,
-                                          std::vector<std::int64_t>& given);
+                                          std::vector<std::int64_t>& given, bool may_change = false);
 // To start anew: where the grains are in the container at rest, and how fast; their masses are the scene's.
 Grains grains_from_checkpoint(const Scene& scene);
 

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,6 +13,7 @@
 #include "engine/base/error.hpp"
 #include "engine/inspect/expression.hpp"
 #include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/mean_answer.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
@@ -250,6 +253,29 @@ TEST(InspectProgram, AnswersFromARunOnDisk) {
     EXPECT_EQ(run_program({"inspect", "nowhere"}, {.folder = folder.path()}).status, 2);
 }
 
+// By hand: (1 * 4 + 3 * 8) / 4 = 7; a row that one of two moments lacks counts as 0 there.
+TEST(MeanAnswer, WeighsMeansAndHalvesWhatIsThereHalfTheTime) {
+    const auto moment = [](std::vector<std::vector<AnswerCell>> rows) {
+        const AnswerTable table{"bins",
+                                "Bins",
+                                {{"from", Dimension::length, "", AnswerColumn::kKey},
+                                 {"grains", Dimension::number},
+                                 {"speed", Dimension::speed, "", "grains"}},
+                                std::move(rows),
+                                true};
+        return Answer{{table, {"list", "A list", {{"id", Dimension::number}}, {{AnswerCell(1.0)}}}}, {}};
+    };
+    MeanAnswer mean;
+    mean.add(moment({{0.0, std::int64_t{1}, 4.0}, {0.1, std::int64_t{2}, 5.0}}));
+    mean.add(moment({{0.0, std::int64_t{3}, 8.0}}));
+    const Answer answer = mean.mean();
+    ASSERT_EQ(answer.tables.size(), 1u);
+    const auto& rows = answer.tables[0].rows;
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0], (std::vector<AnswerCell>{0.0, 2.0, 7.0}));
+    EXPECT_EQ(rows[1], (std::vector<AnswerCell>{0.1, 1.0, 5.0}));
+}
+
 // A run of fifty grains with a film, in run/.
 class InspectedMoment : public testing::Test {
   protected:
@@ -330,6 +356,68 @@ TEST_F(InspectedMoment, WhatCannotComeBackIsToldInOneLine) {
     std::filesystem::remove(folder / "run/checkpoint.grs");
     EXPECT_THAT(refusal({"--at", "0.0731 s"}), HasSubstr("has no checkpoints"));
     EXPECT_EQ(answer({"--grain", "3"})["tables"].contains("forces"), false);
+}
+
+// Over the moments of a whole period every grain is in some bin at each of them, and the mean of means over
+// grains is the mean over all.
+TEST_F(InspectedMoment, TheMeanOverAPeriodHasAllGrainsAndTheirMeanSpeed) {
+    const auto told = answer({"--at", "0.1 s", "--average", "1", "--profile", "height"})["tables"];
+    double grains = 0, speed = 0, expected = 0;
+    for (const auto& row : told["profile"]["rows"]) {
+        grains += row[2].get<double>();
+        if (!row[4].is_null()) speed += row[2].get<double>() * row[4].get<double>();
+    }
+    EXPECT_NEAR(grains, 50, 1e-9);
+    for (int k = 0; k < 20; ++k) {  // 20 Hz: 2.5 ms apart
+        const std::string at = fmt::format("{} s", 0.1 - 0.0025 * k);
+        const auto all = answer({"--at", at, "--where", "speed >= 0"})["tables"]["statistics"]["rows"];
+        for (const auto& row : all)
+            if (row[0] == "speed") expected += row[1].get<double>() / 20;
+    }
+    EXPECT_NEAR(speed / 50, expected, 1e-9 * expected);
+    EXPECT_THAT(refusal({"--at", "0.1 s", "--average", "3", "--profile", "height"}),
+                HasSubstr("--average: 3 periods before 0.1 s lie before the run's first moment"));
+    EXPECT_THAT(refusal({"--average", "1"}), HasSubstr("--average: goes with --where"));
+}
+
+// A checkpoint alone has all that the run has there, a table of grains what its columns say.
+TEST_F(InspectedMoment, AStateAloneAnswersToo) {
+    const auto alone = [&](const std::string& file, std::vector<std::string> words) {
+        words.insert(words.begin(), {"inspect", file, "--json"});
+        const Ended ended = run_program(words, {.folder = folder.path()});
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return nlohmann::json::parse(ended.out)["tables"];
+    };
+    std::filesystem::create_directory(folder / "alone");
+    for (const char* file : {"checkpoint.grs", "final.csv"})
+        std::filesystem::copy(folder / "run" / file, folder / "alone" / file);
+    const auto of_run = answer({"--grain", "17"})["tables"];
+    EXPECT_EQ(alone("alone/checkpoint.grs", {"--grain", "17"})["forces"], of_run["forces"]);
+    const auto spread = [](const auto& tables, const char* column) {
+        for (const auto& row : tables["statistics"]["rows"])
+            if (row[0] == column) return row[1];
+        return nlohmann::json();
+    };
+    const auto run_all = answer({"--where", "id >= 0"})["tables"];
+    const auto table_all = alone("alone/final.csv", {"--where", "id >= 0"});
+    for (const char* column : {"height", "vz", "spin", "diameter"})
+        EXPECT_EQ(spread(table_all, column), spread(run_all, column)) << column;
+    EXPECT_TRUE(spread(table_all, "mass").is_null());  // a table says no densities
+    EXPECT_EQ(table_all["count"]["rows"][1][0], "type 2");
+    EXPECT_EQ(alone("run/final.csv", {"--where", "species == big"})["count"]["rows"][1][1], 10);
+}
+
+TEST_F(InspectedMoment, AFileThatIsNoStateIsToldInOneLine) {
+    const auto refused = [&](const std::string& file, std::vector<std::string> words = {}) {
+        words.insert(words.begin(), {"inspect", file});
+        const Ended ended = run_program(words, {.folder = folder.path()});
+        EXPECT_EQ(ended.status, 2) << ended.out;
+        return ended.err;
+    };
+    EXPECT_THAT(refused("run/log.txt"), HasSubstr("not a table of grains"));
+    EXPECT_THAT(refused("run/final.csv", {"--wall", "floor"}), HasSubstr("has no checkpoints"));
+    std::filesystem::resize_file(folder / "run/checkpoint.grs", 3000);
+    EXPECT_THAT(refused("run/checkpoint.grs"), HasSubstr("checkpoint"));
 }
 
 TEST_F(InspectedMoment, ThePictureIsDrawnOnce) {

@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/output/measures_csv.hpp"
 #include "engine/output/trajectory.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
@@ -159,6 +163,59 @@ TEST_F(ResumedRun, TheFilmsLastSegmentMovesToTheNewEnd) {
     ASSERT_EQ(run(movie("run", with_end("0.2 s"))).status, 0);
     ASSERT_EQ(run({"resume", "run", "--until", "0.4 s"}).status, 0);
     expect_same("whole", "run");
+}
+
+// The container goes over to the new drive without a jump, and each part of the run comes back as it was.
+TEST_F(ResumedRun, AnAcceptedDriveTakesOverSmoothly) {
+    ASSERT_EQ(run(movie("run", {"--duration", "0.2 s", "--size", "320x240"})).status, 0);
+    const auto grain_at = [&](const char* time) {
+        const Ended ended = run({"inspect", "run", "--at", time, "--grain", "7", "--json"});
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return ended.out;
+    };
+    const std::string before = grain_at("0.133 s");
+    const Ended ended = run({"resume", "run", "--for", "0.4 s", "--accept", "drive.g_level=1.5"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("'drive.amplitude' is "));
+    const std::string text = text_of(here / "run/scene.toml");
+    EXPECT_THAT(text, HasSubstr("[[drive.stage]]\nfrom = 0.2"));
+    EXPECT_THAT(text, HasSubstr("From here on: Γ 1.5 instead of 2"));
+    EXPECT_EQ(grain_at("0.133 s"), before);
+    const auto table = read_measures(here / "run/measures.csv");
+    const auto column = [&](const char* name) {
+        const auto& names = table->columns();
+        const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+        return table->values(at, 0, table->rows());
+    };
+    const std::vector<double> time = column("time_s"), floor = column("floor_position_m"),
+                              level = column("drive_g_level");
+    const double fastest = 2 * 9.81 / (2 * std::numbers::pi * 20);  // a 2 pi f at the first drive, m/s
+    for (std::size_t k = 1; k < time.size(); ++k)
+        EXPECT_LE(std::abs(floor[k] - floor[k - 1]), 1.01 * fastest * (time[k] - time[k - 1])) << time[k];
+    EXPECT_NEAR(level.front(), 2, 1e-6);
+    EXPECT_NEAR(level.back(), 1.5, 1e-6);
+    // A kept moment of the second part, as it was kept and as it comes back.
+    const auto place = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"inspect", "run", "--at", "0.45 s", "--grain", "7", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return nlohmann::json::parse(run(words).out)["tables"]["grain"]["rows"][0];
+    };
+    const auto kept = place({"--no-replay"}), back = place({});
+    for (int k = 0; k < 5; ++k) EXPECT_EQ(kept[k], back[k]) << k;
+}
+
+TEST_F(ResumedRun, WhatWouldOverlapOrChangeTheGrainsIsNotAccepted) {
+    ASSERT_EQ(run(movie("run", {"--duration", "0.1 s", "--no-film"})).status, 0);
+    const std::string text = text_of(here / "run/scene.toml");
+    const auto refused = [&](const std::string& accept, const char* says) {
+        const Ended ended = run({"resume", "run", "--for", "0.1 s", "--accept", accept});
+        EXPECT_EQ(ended.status, 2) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(says));
+        EXPECT_EQ(text_of(here / "run/scene.toml"), text);
+    };
+    refused("drive.g_level=8", "--accept: grains would overlap by");
+    refused("gravity=[0.0, 0.0, -1.6]", "'gravity' cannot change while a run goes on");
+    ASSERT_EQ(run({"resume", "run", "--for", "0.1 s"}).status, 0);
 }
 
 TEST_F(ResumedRun, MistakesAreOneLineAndChangeNothing) {

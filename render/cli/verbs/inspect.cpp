@@ -1,6 +1,8 @@
 // The verb `inspect`: questions to a moment of a run.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
@@ -8,6 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/mean_answer.hpp"
 #include "engine/inspect/questions.hpp"
 #include "render/cli/inspect/print_answer.hpp"
 #include "render/cli/options/option_groups.hpp"
@@ -15,6 +18,7 @@
 #include "render/cli/verbs/verb.hpp"
 #include "render/run/frames/asked_moment.hpp"
 #include "render/run/frames/recorded_run.hpp"
+#include "render/run/frames/saved_state.hpp"
 #include "render/run/pick/answer_picture.hpp"
 #include "render/run/pick/pixel_question.hpp"
 #include "render/run/stage_times.hpp"
@@ -47,9 +51,12 @@ class Inspect final : public Verb {
     }
 
     void add_options(CLI::App& parser) override {
-        parser.add_option("RUN", run_, "Folder of a run, with its scene.toml and trajectory.nc")
+        parser
+            .add_option("RUN", run_,
+                        "Folder of a run, with its scene.toml and trajectory.nc; or a checkpoint, or "
+                        "a final.csv")
             ->required()
-            ->type_name("DIR");
+            ->type_name("PATH");
         CLI::Option* at = add_time(parser, "--at", moment_.at, "Moment [the last that the run kept]");
         parser.add_option("--frame", moment_.frame, "Moment of this frame of the film, counted from 0")
             ->type_name("N")
@@ -61,11 +68,19 @@ class Inspect final : public Verb {
             ->type_name("TURN")
             ->needs(cycle)
             ->check(CLI::Range(0.0, 1.0));
+        CLI::Option* average =
+            parser
+                .add_option("--average", average_,
+                            "Mean over this many periods up to the moment; with --where, --profile, --wall, "
+                            "--pair-distribution")
+                ->type_name("N")
+                ->check(CLI::Range(0.05, 1e6));
         parser.add_flag("--no-replay", no_replay_,
                         "Give what was kept alone: the kept moment that is nearest");
         add_questions(parser);
         parser.add_option("--png", picture_, "Draw the moment too, with the grains of the answer ringed")
-            ->type_name("FILE");
+            ->type_name("FILE")
+            ->excludes(average);
         add_gl(parser, gl_);
         add_sets(parser, sets_,
                  "With --pixel or --png: another value for a key of [film], as for render; may be repeated");
@@ -80,12 +95,13 @@ class Inspect final : public Verb {
 
     int run(Reporter& reporter) override {
         if (!picture_.empty()) check_picture_file(picture_);
-        const RecordedRun record(run_, sets_for_contacts());
-        for (const std::string& line : record.news()) reporter.detail(line);
-        MomentFinder finder(record);
-        const Snapshot snapshot = snapshot_of(finder, record, reporter);
-        Answer answer = answer_of(finder, snapshot, reporter);
-        if (!picture_.empty()) draw_answer(snapshot, grains_in(answer), film_time_, picture_, gl_);
+        if (average_ && !(where_ || profile_ || wall_ || pairs_))
+            throw UserError("--average: goes with --where, --profile, --wall or --pair-distribution");
+        const std::unique_ptr<const Record> record = open_record();
+        for (const std::string& line : record->news()) reporter.detail(line);
+        MomentFinder finder(*record);
+        Answer answer =
+            average_ ? mean_answer(finder, *record, reporter) : single_answer(finder, *record, reporter);
         answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
         print_result(json_ ? json_of(answer) : csv_ ? csv_of(answer) : text_of(answer));
         return 0;
@@ -130,6 +146,19 @@ class Inspect final : public Verb {
             ->check(CLI::Range(1, 10000));
     }
 
+    Answer single_answer(MomentFinder& finder, const Record& record, Reporter& reporter) {
+        const Snapshot snapshot = snapshot_of(finder, record, reporter);
+        Answer answer = answer_of(finder, snapshot, reporter);
+        if (!picture_.empty()) draw_answer(snapshot, grains_in(answer), film_time_, picture_, gl_);
+        return answer;
+    }
+
+    std::unique_ptr<const Record> open_record() const {
+        std::error_code ignored;
+        if (fs::is_regular_file(run_, ignored)) return std::make_unique<SavedState>(run_, sets_);
+        return std::make_unique<RecordedRun>(run_, sets_for_contacts());
+    }
+
     // With what has contacts read, when the run kept them.
     Assignments sets_for_contacts() const {
         std::error_code ignored;
@@ -142,16 +171,21 @@ class Inspect final : public Verb {
     // Whether the question is about what only the engine knows.
     bool asks_for_forces() const { return wall_ || largest_overlap_; }
 
+    bool asks_nothing() const {
+        return !where_ && !profile_ && !slice_ && !histogram_ && pixel_.empty() && !pairs_ && !compare_;
+    }
+
     // Whether a condition or a histogram needs contacts that the run did not keep.
     bool names_contacts() const {
         const std::string words = where_.value_or("") + histogram_.value_or("");
         return words.find("contact") != std::string::npos;
     }
 
-    Snapshot snapshot_of(MomentFinder& finder, const RecordedRun& record, Reporter& reporter) {
+    Snapshot snapshot_of(MomentFinder& finder, const Record& record, Reporter& reporter) {
         if (moment_.cycle) *moment_.cycle += phase_;
         const AskedMoment asked = finder.find(moment_);
-        const bool more = grain_ || asks_for_forces() || (names_contacts() && !record.supply().contacts);
+        const bool more = grain_ || asks_for_forces() || (names_contacts() && !record.supply().contacts) ||
+                          (asks_nothing() && finder.is_checkpoint(asked));
         if (no_replay_ && asks_for_forces())
             throw UserError(
                 "--no-replay: forces on walls and overlaps are not kept, they are brought back; leave it "
@@ -161,9 +195,11 @@ class Inspect final : public Verb {
             if (!asked.kept)
                 missing_.push_back(
                     fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
-            tell(reporter, fmt::format("{}: {:.6g} s, kept moment {} of {}", record.folder().string(),
-                                       record.moments()[asked.nearest].time, asked.nearest + 1,
-                                       record.moments().size()));
+            tell(reporter, fmt::format("{}: {}kept moment {} of {}", record.folder().string(),
+                                       std::isfinite(asked.time)
+                                           ? fmt::format("{:.6g} s, ", record.moments()[asked.nearest].time)
+                                           : "",
+                                       asked.nearest + 1, record.moments().size()));
             return finder.kept(asked.nearest);
         }
         Snapshot snapshot = finder.brought_back(asked, watcher_of(reporter));
@@ -188,6 +224,22 @@ class Inspect final : public Verb {
             reporter.progress(progress);
             return true;
         };
+    }
+
+    // Over periods up to the moment.
+    Answer mean_answer(MomentFinder& finder, const Record& record, Reporter& reporter) const {
+        const AskedMoment asked = finder.find(moment_);
+        const bool replay = !no_replay_ && finder.can_bring_back(asked);
+        MeanAnswer mean;
+        std::size_t moments = 0;
+        finder.over_periods(asked, *average_, replay, watcher_of(reporter), [&](const Snapshot& snapshot) {
+            mean.add(answer_of(finder, snapshot, reporter));
+            ++moments;
+        });
+        if (moments == 0)
+            throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
+                                        record.folder().string(), *average_, asked.time));
+        return mean.mean();
     }
 
     Answer answer_of(MomentFinder& finder, const Snapshot& snapshot, Reporter& reporter) const {
@@ -234,7 +286,7 @@ class Inspect final : public Verb {
     bool through_ = false;
     double film_time_ = 0;
     MomentRequest moment_;
-    std::optional<double> compare_;
+    std::optional<double> compare_, average_;
     double phase_ = 0;
     std::optional<std::int64_t> grain_;
     std::optional<std::string> wall_, where_, profile_, slice_, histogram_;

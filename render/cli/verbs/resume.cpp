@@ -19,6 +19,7 @@
 #include "render/cli/verbs/verb.hpp"
 #include "render/run/frames/recorded_scene.hpp"
 #include "render/run/movie_run.hpp"
+#include "render/run/resume/accepted_changes.hpp"
 #include "render/run/resume/resume_point.hpp"
 #include "render/run/thread_plan.hpp"
 
@@ -43,6 +44,13 @@ class Resume final : public Verb {
         CLI::Option* until =
             add_time(parser, "--until", until_, "Where the run ends then [run.duration of its scene]");
         add_time(parser, "--for", more_, "So much further than it has come")->excludes(until);
+        parser
+            .add_option("--accept", accept_,
+                        "A key that may differ from now on, as in drive.g_level or drive.g_level=4: of the "
+                        "drive or of friction; may be repeated")
+            ->type_name("KEY[=VALUE]")
+            ->expected(1)
+            ->take_all();
         parser.add_flag("--no-film", no_film_, "Leave the film as it is");
         parser.add_option("--threads", threads_, "Threads in all [as its scene says]")
             ->type_name("N")
@@ -55,30 +63,67 @@ class Resume final : public Verb {
         film_.command = command;
         film_.program = program_info();
         const fs::path folder = folder_of_run(run_);
-        Scene scene = scene_to_go_on(folder);
-        const Plan plan = plan_of_run(scene, folder);
+        Scene scene = scene_to_go_on(folder, {});
+        Plan plan = plan_of_run(scene, folder);
+        std::vector<AcceptedChange> changes;
+        if (!accept_.empty()) {
+            changes = accepted_changes(kept_checkpoints(folder).back().file, scene, plan, accepted_keys());
+            scene = scene_to_go_on(folder, undone(changes));
+            plan = plan_of_run(scene, folder);
+        }
         film_.out = folder;
         film_.film = !no_film_ && has_film(scene, folder);
         std::error_code ignored;
         film_.frames = film_.film && fs::exists(folder / "frames", ignored);
         const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
-        ResumePoint point = find_resume_point(scene, plan, folder, film_.film,
-                                              plan_threads(processors, film_.film, scene.grains()).engine);
+        const int threads = plan_threads(processors, film_.film, scene.grains()).engine;
+        ResumePoint point = find_resume_point(scene, plan, folder, film_.film, threads);
+        if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
                                   plan.clock.time(point.simulation.step()), scene.run.duration));
+        for (const AcceptedChange& change : changes)
+            reporter.info(
+                fmt::format("'{}' is {} from there on; it was {}", change.key, change.now, change.then));
         name_as_before(scene, folder);
         MovieRun movie(film_, reporter, scene, plan, std::move(point));
         return tell_folder(movie.run(), film_);
     }
 
   private:
-    // With the end that is asked for.
-    Scene scene_to_go_on(const fs::path& folder) const {
+    std::vector<std::string> accepted_keys() const {
+        std::vector<std::string> keys;
+        for (const std::string& one : accept_) keys.push_back(one.substr(0, one.find('=')));
+        return keys;
+    }
+
+    // The run is another one from the checkpoint on, which is saved again with what it is now, so that later
+    // moments come back from it as they were.
+    void take_up(const std::vector<AcceptedChange>& changes, const fs::path& folder, Scene& scene, Plan& plan,
+                 ResumePoint& point, int threads) const {
+        const double time = plan.clock.time(point.simulation.step());
+        const Scene changed = changed_at(time, scene, scene_to_go_on(folder, {}), changes);
+        const Plan changed_plan = plan_of_run(changed, folder);
+        check_overlap_stays(scene, plan, changed_plan);
+        point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
+        scene = changed;
+        plan = changed_plan;
+        const fs::path ring = place_in_ring(folder, point.simulation.step());
+        std::error_code ignored;
+        fs::create_directory(ring.parent_path(), ignored);
+        point.simulation.save_checkpoint(ring);
+        point.simulation.save_checkpoint(folder / "checkpoint.grs");
+    }
+
+    // With the end that is asked for, and values that were given with --accept; `undone` goes before those.
+    Scene scene_to_go_on(const fs::path& folder, const Assignments& undone) const {
         const fs::path file = file_of_run(folder, "scene.toml",
                                           "give the folder of a run of `movie`; a film that `render` or "
                                           "`compare` made cannot go on");
         Assignments sets;
         if (threads_) sets.push_back({fmt::format("run.threads={}", *threads_), "--threads"});
+        for (const std::string& one : accept_)
+            if (undone.empty() && one.find('=') != std::string::npos) sets.push_back({one, "--accept"});
+        sets.insert(sets.end(), undone.begin(), undone.end());
         const Scene before = read_scene(file, sets, measurable_in);
         const std::vector<KeptCheckpoint> kept = kept_checkpoints(folder);
         if (kept.empty())
@@ -111,6 +156,7 @@ class Resume final : public Verb {
     fs::path run_;
     std::optional<double> until_, more_;
     std::optional<int> threads_;
+    std::vector<std::string> accept_;
     bool no_film_ = false;
     FilmRequest film_;
 };

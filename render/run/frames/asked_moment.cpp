@@ -39,14 +39,9 @@ std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Fram
 
 }  // namespace
 
-const Plan& MomentFinder::plan() {
-    if (!plan_) plan_ = plan_of_run(record_.scene(), record_.folder());
-    return *plan_;
-}
-
 // A run that was broken off has come further than its last kept moment.
 double MomentFinder::last_time() const {
-    const std::vector<KeptCheckpoint> kept = kept_checkpoints(record_.folder());
+    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
     const double last = record_.span().to;
     return kept.empty() ? last : std::max(last, record_.clock().time(kept.back().step));
 }
@@ -99,25 +94,87 @@ std::int64_t MomentFinder::step_of_frame(std::int64_t frame) {
 }
 
 Snapshot MomentFinder::kept(std::size_t index) const {
-    return {record_.scene(), record_.frame(index), record_.supply().contacts, record_.first_whole()};
+    Snapshot snapshot{record_.scene(), record_.frame(index), record_.supply().contacts, record_.first()};
+    snapshot.measured = record_.measured_near(index);
+    return snapshot;
+}
+
+bool MomentFinder::is_checkpoint(const AskedMoment& moment) const {
+    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    return std::any_of(kept.begin(), kept.end(), [&](const auto& one) { return one.step == moment.step; });
 }
 
 bool MomentFinder::can_bring_back(const AskedMoment& moment) const {
-    const std::vector<KeptCheckpoint> kept = kept_checkpoints(record_.folder());
+    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
     return !kept.empty() && kept.front().step <= moment.step;
 }
 
-Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatcher& watcher) {
-    const Scene& scene = record_.scene();
-    Simulation run = replayed(scene, plan(), record_.folder(), moment.step, scene.run.threads, watcher);
-    Snapshot snapshot{scene, run.frame(), true, record_.first_whole()};
+namespace {
+
+// All but the accelerations.
+Snapshot snapshot_of(const Simulation& run, const Record& record) {
+    Snapshot snapshot{record.scene(), run.frame(), true, record.first()};
     for (const Simulation::ContactRecord& one : run.contacts())
         snapshot.frame.touches.push_back({one.first, one.second, one.normal});
+    snapshot.measured = MeasuredRow{snapshot.frame.time, run.measured(), run.measures().values()};
     snapshot.forces.emplace();
     snapshot.forces->contacts = run.contact_forces();
-    run.advance(moment.step + 1);
-    snapshot.forces->acceleration = accelerations(scene, snapshot.frame, run.frame(), plan().clock.step);
     return snapshot;
+}
+
+}  // namespace
+
+void MomentFinder::check_can_bring_back(const AskedMoment& moment) const {
+    if (can_bring_back(moment)) return;
+    const bool none = record_.checkpoints().empty();
+    throw UserError(fmt::format(
+        "{}: has no checkpoint{}, so that {} brought back; ask for a kept moment with --no-replay, or "
+        "run the scene again with output.checkpoints",
+        record_.folder().string(), none ? "s" : fmt::format(" of {:.6g} s or before", moment.time),
+        none ? "no moment can be" : "this moment cannot be"));
+}
+
+Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatcher& watcher) {
+    check_can_bring_back(moment);
+    const Scene& scene = record_.scene();
+    Simulation run =
+        replayed(record_.folder(), record_.checkpoints(), moment.step, scene.run.threads, watcher);
+    Snapshot snapshot = snapshot_of(run, record_);
+    run.advance(moment.step + 1);
+    snapshot.forces->acceleration = accelerations(scene, snapshot.frame, run.frame(), record_.clock().step);
+    return snapshot;
+}
+
+void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool replay,
+                                const ReplayWatcher& watcher,
+                                const std::function<void(const Snapshot&)>& see) {
+    const Clock& clock = record_.clock();
+    if (!record_.scene().drive.present) throw UserError("--average: the run has no drive, and so no periods");
+    const double end = clock.cycles(moment.step);
+    const std::int64_t from = clock.step_at(end - periods);
+    if (clock.time(from) < record_.span().from - 1e-9)
+        throw UserError(
+            fmt::format("--average: {} periods before {:.6g} s lie before the run's first moment, {:.6g} s; "
+                        "ask for fewer",
+                        periods, moment.time, record_.span().from));
+    if (!replay) {
+        for (std::size_t k = 0; k < record_.moments().size(); ++k)
+            if (const std::int64_t step = record_.moments()[k].step; step > from && step <= moment.step)
+                see(kept(k));
+        return;
+    }
+    const auto count = static_cast<std::int64_t>(std::ceil(periods * kMomentsAPeriod));
+    const auto step_of = [&](std::int64_t k) {
+        return clock.step_at(end - static_cast<double>(count - 1 - k) / kMomentsAPeriod);
+    };
+    Simulation run =
+        replayed(record_.folder(), record_.checkpoints(), step_of(0), record_.scene().run.threads, watcher);
+    for (std::int64_t k = 0; k < count; ++k) {
+        run.advance(step_of(k));
+        see(snapshot_of(run, record_));
+        if (!watcher(static_cast<double>(k + 1) / static_cast<double>(count)))
+            throw RunError("stopped before the moments were reached");
+    }
 }
 
 }  // namespace grainreel

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "engine/inspect/snapshot.hpp"
 #include "engine/replay/replay.hpp"
-#include "render/run/frames/recorded_run.hpp"
+#include "render/run/frames/record.hpp"
 
 namespace grainreel {
 
@@ -28,7 +29,7 @@ struct AskedMoment {
 
 class MomentFinder {
   public:
-    explicit MomentFinder(const RecordedRun& record) : record_(record) {}
+    explicit MomentFinder(const Record& record) : record_(record) {}
 
     // Throws UserError for a moment that the run does not have, with the option's name.
     AskedMoment find(const MomentRequest& request);
@@ -36,16 +37,23 @@ class MomentFinder {
     Snapshot kept(std::size_t index) const;
     // From the checkpoints, with its forces. Throws UserError where none of them leads there.
     Snapshot brought_back(const AskedMoment& moment, const ReplayWatcher& watcher);
+    // kMomentsAPeriod moments for each of so many periods of the drive, the last of them at the moment;
+    // brought back, or, where `replay` says not to, all that were kept meanwhile. Throws UserError without a
+    // drive, and where the run does not reach back so far.
+    void over_periods(const AskedMoment& moment, double periods, bool replay, const ReplayWatcher& watcher,
+                      const std::function<void(const Snapshot&)>& see);
+    static constexpr int kMomentsAPeriod = 20;
     // Whether there is a checkpoint of the moment, or before it.
     bool can_bring_back(const AskedMoment& moment) const;
+    // Whether the moment is that of a checkpoint, so that it comes back at once.
+    bool is_checkpoint(const AskedMoment& moment) const;
 
   private:
-    const Plan& plan();
+    void check_can_bring_back(const AskedMoment& moment) const;
     std::int64_t step_of_frame(std::int64_t frame);
     double last_time() const;
 
-    const RecordedRun& record_;
-    std::optional<Plan> plan_;
+    const Record& record_;
 };
 
 }  // namespace grainreel

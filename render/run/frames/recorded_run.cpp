@@ -301,6 +301,21 @@ Frame RecordedRun::frame(std::size_t index) const {
     return frame;
 }
 
+std::optional<MeasuredRow> RecordedRun::measured_near(std::size_t index) const {
+    if (!measures_ || measures_->rows() == 0) return std::nullopt;
+    const std::optional<std::size_t> time_column = column_of(*measures_, "time_s");
+    if (!time_column) return std::nullopt;
+    const std::vector<double> times = measures_->values(*time_column, 0, measures_->rows());
+    const double time = moments_.at(index).time;
+    std::size_t row = 0;
+    for (std::size_t k = 1; k < times.size(); ++k)
+        if (std::abs(times[k] - time) < std::abs(times[row] - time)) row = k;
+    MeasuredRow measured{times[row], measures_->columns(), {}};
+    for (std::size_t k = 0; k < measured.columns.size(); ++k)
+        measured.values.push_back(measures_->values(k, row, row + 1).front());
+    return measured;
+}
+
 std::vector<Frame> RecordedRun::moments(const Pictures& pictures) const {
     std::vector<Frame> moments;
     for (const Instant& instant : pictures.instants) moments.push_back(moments_[nearest(instant.time)]);

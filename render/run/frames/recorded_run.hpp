@@ -14,13 +14,13 @@
 #include "engine/output/trajectory.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
-#include "render/run/frames/frame_source.hpp"
 #include "render/run/frames/picture_parts.hpp"
+#include "render/run/frames/record.hpp"
 #include "render/run/moments/outflow_record.hpp"
 
 namespace grainreel {
 
-class RecordedRun final : public FrameSource, public FrameArchive, private PartSupply {
+class RecordedRun final : public Record, private PartSupply {
   public:
     // sets: changes to the scene, of what is drawn only: keys of [film], colours of species, run.threads.
     // Throws UserError for another key, when the folder has no scene.toml or no trajectory.nc that holds a
@@ -48,7 +48,11 @@ class RecordedRun final : public FrameSource, public FrameArchive, private PartS
     Frame grains(std::size_t index) const override;
     Frame frame(std::size_t index) const override;
     int periods() const override { return periods_; }
-    const Clock& clock() const { return clock_; }
+    const Clock& clock() const override { return clock_; }
+    std::vector<KeptCheckpoint> checkpoints() const override { return kept_checkpoints(folder_); }
+    Frame first() const override { return first_whole(); }
+    // The row of measures.csv that is nearest to the moment; none without rows.
+    std::optional<MeasuredRow> measured_near(std::size_t index) const override;
 
   private:
     FramePtr at(std::int64_t step) const override;

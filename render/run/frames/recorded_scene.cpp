@@ -49,6 +49,11 @@ Assignments with_purpose(const Assignments& sets) {
 
 }  // namespace
 
+Assignments sets_for_drawing(const Assignments& sets) {
+    check_sets(sets);
+    return with_purpose(sets);
+}
+
 fs::path folder_of_run(const fs::path& folder) {
     std::error_code error;
     if (!fs::is_directory(folder, error))
@@ -65,9 +70,8 @@ fs::path file_of_run(const fs::path& folder, const char* name, const char* advic
 }
 
 Scene scene_of_run(const fs::path& folder, const Assignments& sets) {
-    check_sets(sets);
     Scene scene = read_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"),
-                             with_purpose(sets), measurable_in);
+                             sets_for_drawing(sets), measurable_in);
     scene.name = folder.filename().string();
     return scene;
 }

@@ -14,8 +14,12 @@ std::filesystem::path folder_of_run(const std::filesystem::path& folder);
 // Throws UserError with the advice when the folder has no such file.
 std::filesystem::path file_of_run(const std::filesystem::path& folder, const char* name, const char* advice);
 
-// Its scene.toml with changes to what is drawn: keys of [film], colours of species, run.threads; named after
-// the folder. Throws UserError for other keys, and for a scene that cannot be read.
+// Changes to a scene that are changes to what is drawn: keys of [film], colours of species, run.threads; with
+// what the purpose of a film implies. Throws UserError for other keys.
+Assignments sets_for_drawing(const Assignments& sets);
+
+// Its scene.toml with such changes; named after the folder. Throws UserError likewise, and for a scene that
+// cannot be read.
 Scene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
 
 }  // namespace grainreel

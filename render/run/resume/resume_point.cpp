@@ -146,7 +146,8 @@ ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::pa
         if (one->step > limits.film || !files_reach(run, plan, limits.first, one->step)) continue;
         if (std::optional<Simulation> simulation = usable(*one, scene, plan, threads, mistake)) {
             const auto end = std::lower_bound(pictures.begin(), pictures.end(), one->step);
-            return {std::move(*simulation), limits.first, static_cast<std::size_t>(end - pictures.begin())};
+            return {std::move(*simulation), limits.first, static_cast<std::size_t>(end - pictures.begin()),
+                    one->file};
         }
     }
     if (mistake) throw *mistake;

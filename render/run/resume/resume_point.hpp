@@ -15,6 +15,7 @@ struct ResumePoint {
     Simulation simulation;     // as a checkpoint has it
     std::int64_t first = 0;    // step at which the run began
     std::size_t pictures = 0;  // of the film, that are drawn again from their kept moments
+    std::filesystem::path checkpoint{};
 };
 
 // The last checkpoint from which all files of the run's folder can go on. Its film, where `film` says that it

@@ -33,6 +33,8 @@ std::vector<std::string> run_command(const Study& study, const Member& member, c
                                    "--force", "--threads",
                                    "1"};
     if (!film) words.push_back("--no-film");
+    // Members are run again rather than looked into; a value of the study's own comes later and counts.
+    for (const char* word : {"--set", "output.checkpoints=none"}) words.emplace_back(word);
     for (const Assignment& assignment : member.sets) {
         words.push_back("--set");
         words.push_back(assignment.text);

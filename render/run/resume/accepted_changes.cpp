@@ -1,0 +1,151 @@
+#include "render/run/resume/accepted_changes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/start/continuation.hpp"
+#include "engine/start/restart.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double shown_for = 2;  // s of simulated time that the caption stays
+
+bool ends_in(const std::string& key, const std::string& name) {
+    return key.size() > name.size() && key.ends_with("." + name);
+}
+
+bool is_of_drive(const std::string& key) {
+    return key == "drive.amplitude" || key == "drive.frequency";
+}
+
+bool is_friction(const std::string& key) {
+    return key.starts_with("contact.pair[") && (ends_in(key, "friction") || ends_in(key, "rolling_friction"));
+}
+
+// Whether the user meant this key of the resolved scene.
+bool is_named(const std::string& key, const std::vector<std::string>& accepted) {
+    return std::any_of(accepted.begin(), accepted.end(), [&](const std::string& name) {
+        if (name == key) return true;
+        if (name == "drive.g_level") return key == "drive.amplitude";
+        // Another frequency at the same acceleration is another amplitude too.
+        if (name == "drive.frequency") return key == "drive.amplitude";
+        if (name == "contact.friction") return is_friction(key) && ends_in(key, "friction");
+        if (name == "contact.rolling_friction") return is_friction(key) && ends_in(key, "rolling_friction");
+        return false;
+    });
+}
+
+void check_can_change(const std::string& key) {
+    if (is_of_drive(key) || is_friction(key)) return;
+    throw UserError(
+        fmt::format("--accept: '{}' cannot change while a run goes on; these can: drive.g_level, "
+                    "drive.amplitude, drive.frequency, contact.friction, contact.rolling_friction",
+                    key));
+}
+
+// The words of a caption. "Γ" and friction are what people know; of pairs that change alike it says so once.
+std::string words_for(const Scene& before, const Scene& after, const std::vector<AcceptedChange>& changes) {
+    std::vector<std::string> parts;
+    const auto add = [&](const std::string& part) {
+        if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+    };
+    for (const AcceptedChange& change : changes) {
+        if (change.key == "drive.amplitude") {
+            const double gravity = before.gravity.norm();
+            const double then = before.drive.g_level(gravity), now = after.drive.g_level(gravity);
+            if (gravity > 0 && std::abs(now - then) > 1e-6 * then)
+                add(fmt::format("Γ {:.3g} instead of {:.3g}", now, then));
+            else
+                add(fmt::format("amplitude {:.3g} mm instead of {:.3g} mm", 1e3 * after.drive.amplitude,
+                                1e3 * before.drive.amplitude));
+        } else if (change.key == "drive.frequency") {
+            add(fmt::format("{:.4g} Hz instead of {:.4g} Hz", after.drive.frequency, before.drive.frequency));
+        } else {
+            add(fmt::format("{} {} instead of {}",
+                            ends_in(change.key, "rolling_friction") ? "rolling friction" : "friction",
+                            change.now, change.then));
+        }
+    }
+    return fmt::format("From here on: {}", fmt::join(parts, ", "));
+}
+
+// Captions do not overlap: the one that is there then ends, and the next one comes when it did.
+void add_caption(Scene& scene, double time, const std::string& text) {
+    std::vector<FilmCaption>& captions = scene.film.captions;
+    const auto next = std::find_if(captions.begin(), captions.end(),
+                                   [&](const FilmCaption& caption) { return caption.from >= time; });
+    if (next != captions.end() && next->from == time) {
+        next->text += "\n" + text;
+        return;
+    }
+    double end = std::min(time + shown_for, scene.run.duration);
+    if (next != captions.end()) end = std::min(end, next->from);
+    if (next != captions.begin()) (next - 1)->to = std::min((next - 1)->to, time);
+    captions.insert(next, {time, end, text, 0});
+}
+
+}  // namespace
+
+std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkpoint, const Scene& scene,
+                                             const Plan& plan, const std::vector<std::string>& accepted) {
+    std::vector<AcceptedChange> changes;
+    const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
+    if (!label) return changes;
+    for (const KeyDifference& difference : deciding_differences(label->scene, scene_to_keep(scene, plan))) {
+        if (!is_named(difference.key, accepted))
+            throw UserError(fmt::format(
+                "{}: '{}' is {}, but it was {} in this run; put back what it was, or give --accept {}",
+                scene.where(difference.key), difference.key,
+                difference.now.empty() ? "not there" : difference.now,
+                difference.then.empty() ? "not there" : difference.then, difference.key));
+        check_can_change(difference.key);
+        changes.push_back({difference.key, difference.then, difference.now});
+    }
+    return changes;
+}
+
+Assignments undone(const std::vector<AcceptedChange>& changes) {
+    Assignments sets;
+    for (const AcceptedChange& change : changes)
+        sets.push_back({fmt::format("{}={}", change.key, change.then), "--accept"});
+    return sets;
+}
+
+Scene changed_at(double time, const Scene& before, const Scene& after,
+                 const std::vector<AcceptedChange>& changes) {
+    Scene scene = after;
+    const bool drive = std::any_of(changes.begin(), changes.end(),
+                                   [](const AcceptedChange& change) { return is_of_drive(change.key); });
+    if (drive) {
+        scene.drive = before.drive;
+        std::vector<DriveStage>& stages = scene.drive.stages;
+        if (!stages.empty() && stages.front().from <= time)
+            throw UserError(fmt::format(
+                "--accept: a stage of the drive began at {:.6g} s; change the stages in scene.toml that come "
+                "after {:.6g} s",
+                stages.front().from, time));
+        DriveStage stage;
+        stage.from = time;
+        stage.frequency = after.drive.frequency;
+        stage.amplitude = after.drive.amplitude;
+        stages.insert(stages.begin(), stage);
+    }
+    if (!changes.empty()) add_caption(scene, time, words_for(before, after, changes));
+    return scene;
+}
+
+void check_overlap_stays(const Scene& scene, const Plan& before, const Plan& after) {
+    const double limit = std::max(scene.run.overlap, before.expected_overlap) * (1 + 1e-9);
+    if (after.expected_overlap <= limit) return;
+    throw UserError(fmt::format(
+        "--accept: grains would overlap by {:.2g} % of their diameter, and the stiffness of this run "
+        "is for {:.2g} %; shake less, or start anew from its final.csv",
+        100 * after.expected_overlap, 100 * scene.run.overlap));
+}
+
+}  // namespace grainreel
