@@ -13,6 +13,7 @@
 namespace grainreel {
 
 struct PageFacts {
+    std::string name;  // of the run, where the page has several
     const Scene& scene;
     Span span;
     const PageFilm& film;
@@ -24,5 +25,11 @@ struct PageFacts {
 
 // For main.js, which names the members. Numbers that are none become null.
 std::string facts_json(const PageFacts& facts);
+
+// For live.js: what is known of a run before it has measured anything; its newest moments of the bed; the
+// rows of its measures, of all columns.
+std::string live_facts_json(const Scene& scene);
+std::string bed_facts_json(const Scene& scene, const BedFrames& bed);
+std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures);
 
 }  // namespace grainreel

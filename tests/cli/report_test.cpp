@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -50,6 +53,37 @@ TEST_F(ReportProgram, MakesOnePageWithWordsFirstAndBytesLast) {
     // Nothing comes from elsewhere: the sources' links are the page's own files.
     for (const char* elsewhere : {"src=\"http", "href=\"http", "@import", "url(http"})
         EXPECT_THAT(page, Not(HasSubstr(elsewhere)));
+}
+
+TEST_F(ReportProgram, EachRunLeavesItsPage) {
+    run({});
+    const std::string first = text_of(here / "run/report.html");
+    EXPECT_THAT(first, HasSubstr("id=\"film-bytes\""));
+    EXPECT_THAT(first, HasSubstr("id=\"bed-bytes\""));
+    EXPECT_THAT(first, Not(HasSubstr("what the page shows may not be all")));  // the run is complete by then
+    const auto record = nlohmann::json::parse(text_of(here / "run/run.json"));
+    EXPECT_EQ(record["written"]["page"], "report.html");
+    EXPECT_EQ(record["status"], "complete");
+    EXPECT_TRUE(record["wall_s"].contains("making the page"));
+    // A run that has one can be replaced, and the new one has none when it is not to.
+    const Ended again = program({"movie", "fifty.toml", "--out", "run", "--force", "--no-report"});
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_FALSE(fs::exists(here / "run/report.html"));
+    EXPECT_TRUE(nlohmann::json::parse(text_of(here / "run/run.json"))["written"]["page"].is_null());
+}
+
+// A film that leaves out what it did not foresee goes with charts and bed all the same.
+TEST_F(ReportProgram, TheFilmIsTiedByTheRunsOwnTable) {
+    run({"--set", "film.segment=[{ kind = \"locked\", every = 1 }]"});
+    const auto record = nlohmann::json::parse(text_of(here / "run/run.json"));
+    const int frames = record["written"]["film_frames"].get<int>();
+    std::string table = "frame,step,time_s\n";
+    for (int k = 0; k < frames; ++k) table += fmt::format("{0},{0},{1}\n", k, 0.01 * k);
+    write_text(here / "run/film_times.csv", table);
+    ASSERT_EQ(program({"report", "run"}).status, 0);
+    const std::string page = text_of(here / "run/report.html");
+    EXPECT_THAT(page, HasSubstr(R"("times":[0.0,0.01,0.02)"));
+    EXPECT_THAT(page, Not(HasSubstr("the film goes by itself")));
 }
 
 TEST_F(ReportProgram, TheSamePageOfTheSameRun) {
