@@ -1,5 +1,6 @@
 #include "render/report/differences.hpp"
 
+#include <cstdlib>
 #include <set>
 
 #include <fmt/format.h>
@@ -26,6 +27,13 @@ std::string_view without_comment(std::string_view line) {
         quote = quote == 0 ? line[i] : quote == line[i] ? 0 : quote;
     }
     return trimmed(line);
+}
+
+// Numbers to six digits: what differs by rounding is the same.
+std::string shown(const std::string& value) {
+    char* end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    return !value.empty() && *end == '\0' ? fmt::format("{:.6g}", number) : value;
 }
 
 std::map<std::string, std::string> keys_of_file(const std::filesystem::path& file) {
@@ -75,7 +83,7 @@ std::string differences_html(const std::vector<NamedScene>& scenes) {
         std::string cells;
         for (const auto& keys : all) {
             const auto found = keys.find(name);
-            const std::string value = found == keys.end() ? "–" : found->second;
+            const std::string value = found == keys.end() ? "–" : shown(found->second);
             values.insert(value);
             cells += fmt::format("<td>{}</td>", html_text(value));
         }
@@ -91,7 +99,7 @@ std::string differences_html(const std::vector<NamedScene>& scenes) {
     return html +
            fmt::format(
                "<div class=\"table\" tabindex=\"0\" role=\"region\" "
-               "aria-labelledby=\"differences\">\n<table>\n"
+               "aria-label=\"Keys that differ\">\n<table>\n"
                "<thead><tr><th scope=\"col\">key</th>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n"
                "</section>\n",
                heads, rows);

@@ -99,6 +99,32 @@ Json bed_json(const Scene& scene, const BedFrames& bed) {
             {"ramps", {{"sequential", ramp(ColourMap::viridis)}, {"diverging", ramp(ColourMap::vik)}}}};
 }
 
+Json ramps_json() {
+    return {{"sequential", ramp(ColourMap::viridis)}, {"diverging", ramp(ColourMap::vik)}};
+}
+
+Json axis_json(const PageFields::Axis& axis) {
+    return {{"low", axis.low}, {"cell", axis.cell}, {"count", axis.count}};
+}
+
+Json fields_json(const PageFields& fields) {
+    if (!fields.present()) return {};
+    Json records = Json::array(), quantities = Json::array();
+    for (const PageFields::Record& record : fields.records)
+        records.push_back(Json::array({record.begin, record.end}));
+    for (const FieldQuantity& one : fields.quantities)
+        quantities.push_back({{"name", one.name},
+                              {"label", one.label},
+                              {"unit", one.unit},
+                              {"low", one.low},
+                              {"high", one.high}});
+    return {{"y", axis_json(fields.y)},
+            {"z", axis_json(fields.z)},
+            {"records", records},
+            {"quantities", quantities},
+            {"ramps", ramps_json()}};
+}
+
 Json column_json(const PageColumn& column) {
     return {{"name", column.name}, {"label", column.label}, {"unit", column.unit}};
 }
@@ -170,6 +196,7 @@ std::string facts_json(const PageFacts& facts) {
                                             : Json{{"type", facts.film.type},
                                                    {"rate", facts.scene.film.rate},
                                                    {"times", facts.film_times.times}};
+    json["fields"] = fields_json(facts.fields);
     json["charts"] = Json::array();
     json["columns"] = Json::array();
     json["measures"] = nullptr;

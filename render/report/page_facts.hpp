@@ -7,6 +7,7 @@
 #include "engine/measure/measure_table.hpp"
 #include "render/report/bed_frames.hpp"
 #include "render/report/film_times.hpp"
+#include "render/report/page_fields.hpp"
 #include "render/report/page_film.hpp"
 #include "render/report/page_measures.hpp"
 
@@ -21,6 +22,7 @@ struct PageFacts {
     const BedFrames& bed;
     const MeasureTable* table;  // null without measures
     const PageMeasures& measures;
+    const PageFields& fields;
 };
 
 // For main.js, which names the members. Numbers that are none become null.

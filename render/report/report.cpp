@@ -86,6 +86,7 @@ class Page {
         const std::string body =
             filled(files.body, {{"film", part.film(beside)},
                                 {"bed", part.bed()},
+                                {"fields", part.fields(2)},
                                 {"charts", filled(files.charts, {{"about", part.charts_about()}})}});
         return frame({{"title", part.title()},
                       {"body_class", ""},
@@ -108,7 +109,8 @@ class Page {
                                               {"name", html_text(part.name())},
                                               {"lead", part.lead()},
                                               {"film", part.film(beside)},
-                                              {"bed", part.bed()}});
+                                              {"bed", part.bed()},
+                                              {"fields", part.fields(3)}});
             words += fmt::format("<details><summary><h2>{}: in words</h2></summary>\n{}</details>\n",
                                  html_text(part.name()), part.chapters(out_, beside));
             beds += part.bed_blob();

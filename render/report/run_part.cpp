@@ -47,9 +47,11 @@ void RunPart::read(const PageProgress& progress) {
     film_ = page_film(scene(), folder, record_.film_frames, progress, most_film_);
     poster_ = page_poster(folder);
     times_ = film_times_of();
+    fields_ = page_fields(scene(), folder);
     lead_ = lead_html(scene(), record_);
     late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
     whole_table_ = !late_blobs_.empty();
+    late_blobs_ += blob("fields-bytes" + n_, fields_.packed);
     late_blobs_ += blob("film-bytes" + n_, film_.bytes);
 }
 
@@ -92,6 +94,21 @@ std::string RunPart::bed() const {
     return filled(page_files().bed, {{"about", bed_about(bed_, scene())}, {"n", n_}});
 }
 
+std::string RunPart::fields(int level) const {
+    if (!fields_.why_not.empty())
+        return fmt::format("<p class=\"faint\">{}</p>\n", html_text(fields_.why_not));
+    if (!fields_.present()) return "";
+    std::string about = fmt::format(
+        "Coarse-grained from the grains; each value is rounded to 1/254 of what the quantity goes through. "
+        "fields.nc has all of them exactly.");
+    if (scene().output.fields.grid == FieldOutput::Grid::xyz) about += " The map shows means over the depth.";
+    if (fields_.records.size() < fields_.all_records)
+        about += fmt::format(" Of its {} records these are {}, evenly spread.", fields_.all_records,
+                             fields_.records.size());
+    return filled(page_files().fields,
+                  {{"n", n_}, {"level", std::to_string(level)}, {"about", html_text(about)}});
+}
+
 std::string RunPart::charts_about() const {
     if (!table_ || measures_.rows.empty()) return "The run has no measures.";
     std::string text =
@@ -108,7 +125,7 @@ std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) con
 }
 
 std::string RunPart::facts() const {
-    return facts_json({name_, scene(), span(), film_, times_, bed_, table_.get(), measures_});
+    return facts_json({name_, scene(), span(), film_, times_, bed_, table_.get(), measures_, fields_});
 }
 
 std::string RunPart::bed_blob() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/report/page_facts.hpp"
+#include "render/report/page_fields.hpp"
 #include "render/report/page_progress.hpp"
 #include "render/report/report.hpp"
 #include "render/report/run_facts.hpp"
@@ -37,6 +38,7 @@ class RunPart {
     std::string lead() const { return lead_; }
     std::string film(bool beside) const;  // beside: the page lies beside the film's file
     std::string bed() const;
+    std::string fields(int level) const;  // of its heading; empty where the run kept none
     std::string charts_about() const;
     // on_page_of_its_own: with links to the files beside it, and their names.
     std::string chapters(const std::filesystem::path& page, bool on_page_of_its_own) const;
@@ -58,6 +60,7 @@ class RunPart {
     std::vector<std::uint8_t> poster_;
     FilmTimes times_;
     BedFrames bed_;
+    PageFields fields_;
     std::string lead_, late_blobs_;
     bool whole_table_ = false;
 };

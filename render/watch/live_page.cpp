@@ -24,7 +24,8 @@ std::string live_page(const Scene& scene, const std::filesystem::path& folder,
                      "that the grains reach."},
                     {"n", ""}});
     const std::string body = filled(
-        files.body, {{"film", picture}, {"bed", bed}, {"charts", filled(files.charts, {{"about", ""}})}});
+        files.body,
+        {{"film", picture}, {"bed", bed}, {"fields", ""}, {"charts", filled(files.charts, {{"about", ""}})}});
     return filled(files.page, {{"title", html_text(scene.title.empty() ? scene.name : scene.title)},
                                {"body_class", ""},
                                {"style", std::string(files.style)},

@@ -196,17 +196,13 @@ void LiveRun::make_state() {
     const std::string stage = gone_                  ? "gone"
                               : status_ == "running" ? (begun ? "running" : "packing")
                                                      : status_;
-    nlohmann::json state = {{"stage", stage},
-                            {"over", over_ || gone_},
-                            {"begin", begin_},
-                            {"time", time_},
-                            {"end", end},
-                            {"done", share},
-                            {"picture", pictures_},
-                            {"bed", bed_step_},
-                            {"bed_time", bed_time_},
-                            {"rows", rows_},
-                            {"report", !gone_ && fs::exists(folder_ / "report.html", ignored)}};
+    nlohmann::json state = {
+        {"stage", stage},   {"over", over_ || gone_ || last_},
+        {"last", last_},    {"begin", begin_},
+        {"time", time_},    {"end", end},
+        {"done", share},    {"picture", pictures_},
+        {"bed", bed_step_}, {"bed_time", bed_time_},
+        {"rows", rows_},    {"report", !gone_ && fs::exists(folder_ / "report.html", ignored)}};
     const double left = begun ? remaining(time_, end) : -1;
     state["remaining"] = left >= 0 ? nlohmann::json(left) : nlohmann::json();
     auto text = shared(state.dump());

@@ -37,6 +37,9 @@ class LiveRun {
     // On any thread.
     LiveSnapshot now() const;
 
+    // From the next refresh() on visitors are told that there is nothing more to come.
+    void say_farewell() { last_ = true; }
+
     // As the last refresh() found it.
     bool is_gone() const { return gone_; }  // its folder is
     bool is_over() const { return over_; }  // nobody works on it any more
@@ -58,7 +61,7 @@ class LiveRun {
 
     const std::filesystem::path folder_;
     const Planner planner_;
-    bool gone_ = false, over_ = false;
+    bool gone_ = false, over_ = false, last_ = false;
     std::string status_;  // as run.json has it; "broken off" where nobody works on it and it is not finished
     std::optional<Scene> scene_;
     std::string page_status_;  // that the page was made for

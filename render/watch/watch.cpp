@@ -26,8 +26,9 @@ constexpr auto look_interval = std::chrono::milliseconds(100);
 constexpr Seconds refresh_interval{0.5};
 constexpr double refresh_share = 0.1;  // of the time, that reading the run may take
 constexpr Seconds visitor_stays{5};    // after whose last question nobody looks any more
-constexpr Seconds farewell{3};         // for visitors to hear that the run is over
-constexpr int priority = 10;           // of 19: whoever computes goes first
+constexpr Seconds farewell{3};         // without a question: all visitors have heard that the run is over ...
+constexpr Seconds longest_farewell{15};  // ... or nobody waits for them
+constexpr int priority = 10;             // of 19: whoever computes goes first
 
 constexpr const char* html = "text/html; charset=utf-8";
 
@@ -92,11 +93,11 @@ class Watch {
             pollfd end{until_, POLLIN, 0};
             if (::poll(&end, 1, 0) <= 0) return false;
             ending_ = Steady::now();
+            run_.say_farewell();
             refresh();
         }
-        const bool watched =
-            Seconds(Steady::now().time_since_epoch()) - last_question_.load() < visitor_stays;
-        return !watched || since(*ending_) > farewell;
+        const Seconds silence = Seconds(Steady::now().time_since_epoch()) - last_question_.load();
+        return silence > farewell || since(*ending_) > longest_farewell;
     }
 
     void tell_address() {

@@ -40,6 +40,7 @@ bool Visitor::send(std::string_view text) const {
 
 std::string Visitor::receive(double seconds, std::size_t most) const {
     std::string all;
+    if (socket_ < 0) return all;  // nobody listens
     std::array<char, 65536> part;
     while (all.size() < most) {
         pollfd ready{socket_, POLLIN, 0};

@@ -115,7 +115,7 @@ TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
     expect_mistake({"report", "nowhere"}, "nowhere: no such folder");
     fs::create_directory(here / "empty");
     expect_mistake({"report", "empty"}, "empty: has no scene.toml");
-    run({"--no-film"});
+    run({"--no-film", "--no-report"});
     expect_mistake({"report", "run", "--out", "page.txt"}, "a page's name ends in .html");
     expect_mistake({"report", "run", "--out", "empty"}, "is a folder");
     expect_mistake({"report", "run", "--out", "none/page.html"}, "there is no such folder");

@@ -17,9 +17,8 @@ int port_of(const std::string& flag, const std::string& text) {
     int port = -1;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
     if (error != std::errc() || end != text.data() + text.size() || port < 0 || port > highest_port)
-        throw UserError(fmt::format("{} {}: is no port; give a number from 0 (any that is free) to {}{}",
-                                    flag, excerpt(text), highest_port,
-                                    flag == "--watch" ? ", and the scene before --watch" : ""));
+        throw UserError(fmt::format("{} {}: is no port; give a number from 0 (any that is free) to {}", flag,
+                                    excerpt(text), highest_port));
     return port;
 }
 

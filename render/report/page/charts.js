@@ -152,6 +152,7 @@ class Charts {
         plot.ctx.save();
         plot.ctx.strokeStyle = colourOf("--now");
         plot.ctx.lineWidth = 2 * devicePixelRatio;
+        plot.ctx.setLineDash([]);
         plot.ctx.beginPath();
         plot.ctx.moveTo(x, top);
         plot.ctx.lineTo(x, top + height);

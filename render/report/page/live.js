@@ -24,12 +24,13 @@ class Live {
             this.failures = 0;
             this.tell(state);
             await this.takeParts(state);
-            if (state.stage === "gone") return;
+            if (state.last || state.stage === "gone") return;
+            this.isOver = state.over;
         } catch {
             this.failures = (this.failures ?? 0) + 1;
             if (this.failures > 2) this.say("The program that shows the run has ended; what it showed last is below.");
         }
-        const wait = this.failures > 2 ? 10 : document.hidden ? 5 : 1;
+        const wait = this.failures > 2 || this.isOver ? 10 : document.hidden ? 5 : 1;
         setTimeout(() => this.go(), 1000 * wait * secondsBetweenLooks);
     }
 

@@ -15,7 +15,7 @@ async function openTable(run, k, n) {
     if (!packed || !charts) return;
     try {
         const bytes = await inflated(packed);
-        offerTable(bytes, facts.runs ? `${run.name}.csv` : "measures.csv", `Download ${run.name || "measures.csv"}`);
+        offerTable(bytes, facts.runs ? `${run.name}.csv` : "measures.csv", `Download ${facts.runs ? run.name : "measures.csv"}`);
         charts.take(readTable(new TextDecoder().decode(bytes), run.columns), k);
         charts.fillChooser();
     } catch (problem) {
@@ -68,6 +68,17 @@ function firstPicture() {
     });
 }
 
+async function openFields(run, n) {
+    const packed = run.fields ? bytesOf("fields-bytes" + n) : null;
+    if (!packed) return null;
+    try {
+        return new FieldsPanel(run.fields, await inflated(packed), runTime, n);
+    } catch (problem) {
+        say("field-says" + n, `The fields are not shown: ${problem.message}.`);
+        return null;
+    }
+}
+
 // What the ids of a run's elements end in: nothing where the page has one run alone.
 function endOf(k) {
     return facts.runs ? `-${k}` : "";
@@ -77,6 +88,8 @@ async function openPage() {
     report.films = runs.map((run, k) => openFilm(run, endOf(k)));
     report.beds = [];
     for (const [k, run] of runs.entries()) report.beds.push(await openBed(run, endOf(k)));
+    report.fields = [];
+    for (const [k, run] of runs.entries()) report.fields.push(await openFields(run, endOf(k)));
     const films = report.films.filter((film) => film?.tied), beds = report.beds.filter((bed) => bed);
     for (const panels of [films, beds]) for (const one of panels) one.others = panels.filter((other) => other !== one);
     for (const [k, film] of films.entries()) film.leads = k === 0;
