@@ -22,6 +22,7 @@ libnetcdf-dev        netcdf
 libfftw3-dev         fftw3
 libpng-dev           libpng
 libdeflate-dev       libdeflate
+libmicrohttpd-dev    libmicrohttpd
 libpango1.0-dev      pangocairo, pangoft2, cairo
 fonts-dejavu-core    the DejaVu fonts
 libosmesa6-dev       osmesa (Mesa before 25.1), headers and library

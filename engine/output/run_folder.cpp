@@ -41,13 +41,37 @@ bool is_empty_folder(const fs::path& path) {
 
 // All that a run may leave in its folder, beside frames/ and movie.work/ (what a film needs while it is
 // made); the .part are of files cut off while being written.
-constexpr std::array<std::string_view, 27> files_of_runs{
-    ".lock",          "run.json",        ".run.json.part",  "scene.toml",          ".scene.toml.part",
-    "final.csv",      ".final.csv.part", "checkpoint.grs",  "checkpoint.grs.part", "movie.mp4",
-    "movie.mp4.part", "movie.webm",      "movie.webm.part", "movie.gif",           "movie.mkv",
-    "movie.y4m",      "poster.png",      "poster.png.part", "sheet.png",           "sheet.png.part",
-    "trajectory.nc",  "contacts.nc",     "measures.csv",    "outflow.csv",         "log.txt",
-    "fields.nc",      "film_moments.nc"};
+constexpr std::array<std::string_view, 31> files_of_runs{".lock",
+                                                         "run.json",
+                                                         ".run.json.part",
+                                                         "scene.toml",
+                                                         ".scene.toml.part",
+                                                         "final.csv",
+                                                         ".final.csv.part",
+                                                         "checkpoint.grs",
+                                                         "checkpoint.grs.part",
+                                                         "movie.mp4",
+                                                         "movie.mp4.part",
+                                                         "movie.webm",
+                                                         "movie.webm.part",
+                                                         "movie.gif",
+                                                         "movie.mkv",
+                                                         "movie.y4m",
+                                                         "poster.png",
+                                                         "poster.png.part",
+                                                         "sheet.png",
+                                                         "sheet.png.part",
+                                                         "trajectory.nc",
+                                                         "contacts.nc",
+                                                         "measures.csv",
+                                                         "outflow.csv",
+                                                         "log.txt",
+                                                         "fields.nc",
+                                                         "film_moments.nc",
+                                                         "film_times.csv",
+                                                         ".film_times.csv.part",
+                                                         "report.html",
+                                                         ".report.html.part"};
 
 bool is_file_of_runs(const fs::path& name) {
     return std::find(files_of_runs.begin(), files_of_runs.end(), name.string()) != files_of_runs.end();

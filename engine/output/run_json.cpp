@@ -127,7 +127,8 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"written",
          {{"film_frames", r.film_frames ? Json(*r.film_frames) : Json(nullptr)},
           {"trajectory_frames", r.trajectory_frames},
-          {"measures_rows", r.measures_rows}}},
+          {"measures_rows", r.measures_rows},
+          {"page", text_or_null(r.page)}}},
         {"peak_memory_bytes", r.peak_memory},
         {"warnings", r.warnings}};
     // Names and messages come from the user's files: what is not UTF-8 is shown, not a reason to fail.

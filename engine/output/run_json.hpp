@@ -57,6 +57,7 @@ struct RunRecord : ProgramInfo {
     double particle_steps_per_second = 0;                      // of vibration, time in the engine alone
     std::optional<std::int64_t> film_frames = 0;               // none while the film is being closed
     std::int64_t trajectory_frames = 0, measures_rows = 0;
+    std::string page;              // file name of the run's page; empty without one
     std::int64_t peak_memory = 0;  // bytes
     std::vector<std::string> warnings;
 };

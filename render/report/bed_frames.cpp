@@ -44,7 +44,8 @@ void append(std::vector<std::uint8_t>& bytes, Number number) {
 
 class BedWriter {
   public:
-    BedWriter(const FrameArchive& run, bool contacts) : run_(run), contacts_(contacts) {}
+    BedWriter(const FrameArchive& run, bool contacts, const PageProgress& progress)
+        : run_(run), contacts_(contacts), progress_(progress) {}
 
     BedFrames write(const std::vector<std::size_t>& chosen) {
         survey(chosen);
@@ -53,7 +54,11 @@ class BedWriter {
         for (const Kept& grain : kept_) append(bytes_, static_cast<std::uint16_t>(grain.species));
         for (const Kept& grain : kept_) append(bytes_, static_cast<float>(grain.radius));
         before_.assign(3 * kept_.size(), 0);
-        for (const std::size_t index : chosen) add(read(index));
+        double done = 0;
+        for (const std::size_t index : chosen) {
+            go_on_or_stop(progress_, ++done / static_cast<double>(chosen.size()));
+            add(read(index));
+        }
         bed_.packed = zlib_packed(bytes_);
         return std::move(bed_);
     }
@@ -147,6 +152,7 @@ class BedWriter {
 
     const FrameArchive& run_;
     const bool contacts_;
+    const PageProgress& progress_;
     bool boxed_ = false;
     BedFrames bed_;
     std::vector<Kept> kept_;  // by rising id
@@ -167,13 +173,19 @@ std::uint8_t speed_byte(double speed, double lowest, double highest) {
     return static_cast<std::uint8_t>(1 + std::lround(253 * std::clamp(share, 0.0, 1.0)));
 }
 
-BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes) {
+BedFrames bed_frames_of(const FrameArchive& run, bool contacts, const std::vector<std::size_t>& chosen,
+                        const PageProgress& progress) {
+    return BedWriter(run, contacts, progress).write(chosen);
+}
+
+BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes,
+                     const PageProgress& progress) {
     const std::size_t all = run.moments().size();
     const double a_moment =
         usual_packed * static_cast<double>(std::max<std::size_t>(1, most_grains_at_once(run)));
     auto wanted = static_cast<std::size_t>(
         std::clamp(static_cast<double>(most_bytes) / a_moment, 1.0, static_cast<double>(all)));
-    BedWriter writer(run, contacts);
+    BedWriter writer(run, contacts, progress);
     while (true) {
         BedFrames bed = writer.write(spread(all, wanted));
         if (bed.packed.size() <= most_bytes || wanted == 1) return bed;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "render/report/page_progress.hpp"
 #include "render/run/frames/frame_source.hpp"
 
 namespace grainreel {
@@ -34,7 +35,11 @@ constexpr std::size_t kMostGrainsOnPage = 100000;
 // As many evenly spread moments of the run as fit into so many packed bytes, the first and the last among
 // them; at least one. Of more grains than kMostGrainsOnPage those that lie nearest to the plane x = 0 when
 // they are first seen. contacts: whether the run's frames have touches. Throws DamagedFrame.
-BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes);
+BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes,
+                     const PageProgress& progress = kNoPageProgress);
+// Of these moments, by rising index into the run's.
+BedFrames bed_frames_of(const FrameArchive& run, bool contacts, const std::vector<std::size_t>& chosen,
+                        const PageProgress& progress = kNoPageProgress);
 
 // Of the speed's byte: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm.
 std::uint8_t speed_byte(double speed, double lowest, double highest);

@@ -2,7 +2,7 @@
 #   cmake -DFOLDER=... -DOUT=... -P embed_page.cmake
 # The scripts become one classic script: what a page opened from a file can run. A later script uses an earlier one's
 # classes.
-set(scripts embedded run_time film charts bed_frames camera walls shaders viewer bed main)
+set(scripts embedded run_time film charts bed_frames camera walls shaders viewer bed fields live main)
 
 set(script "")
 foreach(name ${scripts})
@@ -26,7 +26,7 @@ function(literal out text)
   set(${out} "${pieces}" PARENT_SCOPE)
 endfunction()
 
-foreach(part page bed charts)
+foreach(part page body variant bed charts fields live)
   file(READ ${FOLDER}/${part}.html text)
   literal(${part}_literal "${text}")
 endforeach()
@@ -41,8 +41,12 @@ namespace grainreel {
 const PageFiles& page_files() {
     static const PageFiles files = {
         ${page_literal},
+        ${body_literal},
+        ${variant_literal},
         ${bed_literal},
         ${charts_literal},
+        ${fields_literal},
+        ${live_literal},
         ${style_literal},
         ${script_literal}};
     return files;

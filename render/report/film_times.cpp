@@ -1,11 +1,14 @@
 #include "render/report/film_times.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/output/measures_csv.hpp"
 #include "engine/plan/plan.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/run/film_times_table.hpp"
 
 namespace grainreel {
 namespace {
@@ -30,6 +33,21 @@ bool may_lack_frames(const Scene& scene) {
 }
 
 }  // namespace
+
+std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, std::int64_t frames) {
+    const auto table = read_measures(folder / kFilmTimes);
+    if (!table || frames <= 0 || static_cast<std::int64_t>(table->rows()) != frames) return std::nullopt;
+    const auto& names = table->columns();
+    const auto column =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), "time_s") - names.begin());
+    if (column == names.size()) return std::nullopt;
+    FilmTimes result;
+    result.times = table->values(column, 0, table->rows());
+    const bool finite = std::all_of(result.times.begin(), result.times.end(),
+                                    [](double time) { return std::isfinite(time); });
+    if (!finite || !std::is_sorted(result.times.begin(), result.times.end())) return std::nullopt;
+    return result;
+}
 
 FilmTimes film_times(const Scene& scene, std::int64_t frames, double first, bool whole) {
     FilmTimes result;

@@ -69,9 +69,7 @@ Json species_json(const Scene& scene) {
     return list;
 }
 
-Json bed_json(const PageFacts& facts) {
-    const BedFrames& bed = facts.bed;
-    const Scene& scene = facts.scene;
+Json bed_json(const Scene& scene, const BedFrames& bed) {
     const std::vector<Slab> slabs = slabs_of(scene);
     const Extent box = box_of(slabs, scene);
     Json times = Json::array(), bodies = Json::array();
@@ -101,14 +99,41 @@ Json bed_json(const PageFacts& facts) {
             {"ramps", {{"sequential", ramp(ColourMap::viridis)}, {"diverging", ramp(ColourMap::vik)}}}};
 }
 
+Json ramps_json() {
+    return {{"sequential", ramp(ColourMap::viridis)}, {"diverging", ramp(ColourMap::vik)}};
+}
+
+Json axis_json(const PageFields::Axis& axis) {
+    return {{"low", axis.low}, {"cell", axis.cell}, {"count", axis.count}};
+}
+
+Json fields_json(const PageFields& fields) {
+    if (!fields.present()) return {};
+    Json records = Json::array(), quantities = Json::array();
+    for (const PageFields::Record& record : fields.records)
+        records.push_back(Json::array({record.begin, record.end}));
+    for (const FieldQuantity& one : fields.quantities)
+        quantities.push_back({{"name", one.name},
+                              {"label", one.label},
+                              {"unit", one.unit},
+                              {"low", one.low},
+                              {"high", one.high}});
+    return {{"y", axis_json(fields.y)},
+            {"z", axis_json(fields.z)},
+            {"records", records},
+            {"quantities", quantities},
+            {"ramps", ramps_json()}};
+}
+
 Json column_json(const PageColumn& column) {
     return {{"name", column.name}, {"label", column.label}, {"unit", column.unit}};
 }
 
-// The columns that are charted at first, and the time before them.
-Json measures_json(const MeasureTable& table, const PageMeasures& measures) {
+// Of these columns, and the time before them.
+Json measures_json(const MeasureTable& table, const PageMeasures& measures,
+                   const std::vector<std::size_t>& wanted) {
     std::vector<std::size_t> shown = {measures.time};
-    shown.insert(shown.end(), measures.charted.begin(), measures.charted.end());
+    shown.insert(shown.end(), wanted.begin(), wanted.end());
     Json columns = Json::array(), values = Json::array();
     for (const std::size_t column : shown) {
         columns.push_back(column_json(measures.columns[column]));
@@ -121,27 +146,67 @@ Json measures_json(const MeasureTable& table, const PageMeasures& measures) {
     return {{"columns", columns}, {"values", values}};
 }
 
+Json charts_json(const PageMeasures& measures) {
+    Json names = Json::array();
+    for (const std::size_t column : measures.charted) names.push_back(measures.columns[column].name);
+    return names;
+}
+
+Json frequency_json(const Drive& drive) {
+    return drive.present && !drive.changes() ? Json(drive.frequency) : Json();
+}
+
+std::string text_of_json(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
+std::string live_facts_json(const Scene& scene) {
+    return text_of_json({{"live", true},
+                         {"begin", 0},
+                         {"end", scene.run.duration},
+                         {"frequency", frequency_json(scene.drive)},
+                         {"film", nullptr},
+                         {"bed", nullptr},
+                         {"measures", nullptr},
+                         {"charts", Json::array()}});
+}
+
+std::string bed_facts_json(const Scene& scene, const BedFrames& bed) {
+    return text_of_json(bed_json(scene, bed));
+}
+
+std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures) {
+    std::vector<std::size_t> all;
+    for (std::size_t column = 0; column < measures.columns.size(); ++column)
+        if (column != measures.time) all.push_back(column);
+    Json json = measures_json(table, measures, all);
+    json["charts"] = charts_json(measures);
+    return text_of_json(json);
+}
+
 std::string facts_json(const PageFacts& facts) {
-    Json json = {{"begin", facts.span.from}, {"end", facts.span.to}, {"bed", bed_json(facts)}};
-    const Drive& drive = facts.scene.drive;
-    json["frequency"] = drive.present && !drive.changes() ? Json(drive.frequency) : Json();
+    Json json = {{"name", facts.name},
+                 {"begin", facts.span.from},
+                 {"end", facts.span.to},
+                 {"bed", bed_json(facts.scene, facts.bed)}};
+    json["frequency"] = frequency_json(facts.scene.drive);
     json["film"] = facts.film.bytes.empty() ? Json()
                                             : Json{{"type", facts.film.type},
                                                    {"rate", facts.scene.film.rate},
                                                    {"times", facts.film_times.times}};
+    json["fields"] = fields_json(facts.fields);
     json["charts"] = Json::array();
     json["columns"] = Json::array();
     json["measures"] = nullptr;
     if (facts.table != nullptr && !facts.measures.rows.empty()) {
-        json["measures"] = measures_json(*facts.table, facts.measures);
-        for (const std::size_t column : facts.measures.charted)
-            json["charts"].push_back(facts.measures.columns[column].name);
+        json["measures"] = measures_json(*facts.table, facts.measures, facts.measures.charted);
+        json["charts"] = charts_json(facts.measures);
         for (const PageColumn& column : facts.measures.columns)
             json["columns"].push_back(column_json(column));
     }
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text_of_json(json);
 }
 
 }  // namespace grainreel

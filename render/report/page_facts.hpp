@@ -7,12 +7,14 @@
 #include "engine/measure/measure_table.hpp"
 #include "render/report/bed_frames.hpp"
 #include "render/report/film_times.hpp"
+#include "render/report/page_fields.hpp"
 #include "render/report/page_film.hpp"
 #include "render/report/page_measures.hpp"
 
 namespace grainreel {
 
 struct PageFacts {
+    std::string name;  // of the run, where the page has several
     const Scene& scene;
     Span span;
     const PageFilm& film;
@@ -20,9 +22,16 @@ struct PageFacts {
     const BedFrames& bed;
     const MeasureTable* table;  // null without measures
     const PageMeasures& measures;
+    const PageFields& fields;
 };
 
 // For main.js, which names the members. Numbers that are none become null.
 std::string facts_json(const PageFacts& facts);
+
+// For live.js: what is known of a run before it has measured anything; its newest moments of the bed; the
+// rows of its measures, of all columns.
+std::string live_facts_json(const Scene& scene);
+std::string bed_facts_json(const Scene& scene, const BedFrames& bed);
+std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures);
 
 }  // namespace grainreel

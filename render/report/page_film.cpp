@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/film_reader.hpp"
 #include "render/film/codec/filter_graph.hpp"
 #include "render/report/embed/read_bytes.hpp"
+#include "render/report/small_jpeg.hpp"
 
 namespace grainreel {
 namespace {
@@ -18,10 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int lines_of_copy = 720;
+constexpr int most_threads_of_copy = 8;
 constexpr int quality_of_copy = least_legible;  // its digits still read
-constexpr const char* poster_filter =
-    "scale=min(960\\,iw):-2:in_color_matrix=bt709:out_color_matrix=bt601:"
-    "out_range=full,format=yuvj420p";
 
 // What every browser of today plays; "" for the other formats.
 std::string type_of(FilmFormat format) {
@@ -57,7 +57,8 @@ std::string copy_filter(int height) {
         std::min(lines_of_copy, height) / 2 * 2);
 }
 
-std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film) {
+std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film,
+                                       const std::function<void()>& picture_taken) {
     const ScratchFolder scratch;
     FilmReader reader(film);
     FilterGraph graph(reader.codec(), copy_filter(reader.codec().height));
@@ -65,6 +66,7 @@ std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film)
     settings.path = scratch.file("copy.mp4");
     settings.rate = scene.film.rate;
     settings.quality = quality_of_copy;
+    settings.threads = std::clamp(usable_processors(), 1, most_threads_of_copy);
     std::unique_ptr<Encoder> copy;
     const auto take_pictures = [&] {
         while (const AvFramePtr picture = graph.pull()) {
@@ -77,6 +79,7 @@ std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film)
     while (AVFrame* frame = reader.next()) {
         graph.push(*frame);
         take_pictures();
+        picture_taken();
     }
     graph.end();
     take_pictures();
@@ -85,32 +88,14 @@ std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film)
     return read_bytes(settings.path);
 }
 
-std::vector<std::uint8_t> as_jpeg(AVFrame& picture) {
-    const AVCodec* encoder = avcodec_find_encoder(AV_CODEC_ID_MJPEG);
-    const CodecPtr codec(encoder ? avcodec_alloc_context3(encoder) : nullptr);
-    const PacketPtr packet(av_packet_alloc());
-    if (!codec || !packet) return {};
-    codec->width = picture.width;
-    codec->height = picture.height;
-    codec->pix_fmt = AV_PIX_FMT_YUVJ420P;
-    codec->time_base = {1, 1};
-    codec->flags |= AV_CODEC_FLAG_QSCALE;
-    constexpr int quality = 4;  // of 1 to 31, the best first; small digits read
-    codec->global_quality = quality * FF_QP2LAMBDA;
-    picture.quality = codec->global_quality;
-    if (avcodec_open2(codec.get(), encoder, nullptr) < 0) return {};
-    if (avcodec_send_frame(codec.get(), &picture) < 0) return {};
-    if (avcodec_receive_packet(codec.get(), packet.get()) < 0) return {};
-    return {packet->data, packet->data + packet->size};
-}
-
 std::string size_text(std::size_t bytes) {
     return data_size_text(static_cast<double>(bytes));
 }
 
 }  // namespace
 
-PageFilm page_film(const Scene& scene, const fs::path& folder) {
+PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std::int64_t> frames,
+                   const PageProgress& progress, std::size_t most_bytes) {
     quiet_ffmpeg();
     PageFilm film;
     if (scene.film.format == FilmFormat::png) return film;
@@ -121,15 +106,20 @@ PageFilm page_film(const Scene& scene, const fs::path& folder) {
     if (error || size == 0) return film;
     film.file = name;
     film.type = type_of(scene.film.format);
-    if (!film.type.empty() && size <= kMostFilmOnPage) {
+    if (!film.type.empty() && size <= most_bytes) {
         film.bytes = read_bytes(folder / name);
         return film;
     }
     const std::string why = film.type.empty() ? fmt::format("browsers do not play {}", codec.words)
                                               : fmt::format("the film has {}", size_text(size));
     film.type = "video/mp4";
+    const auto planned = static_cast<double>(std::max<std::int64_t>(1, frames.value_or(1)));
+    std::int64_t copied = 0;
+    const auto picture_taken = [&] {
+        go_on_or_stop(progress, std::min(1.0, static_cast<double>(++copied) / planned));
+    };
     try {
-        film.bytes = smaller_copy(scene, folder / name);
+        film.bytes = smaller_copy(scene, folder / name, picture_taken);
     } catch (const RunError& problem) {
         film.note = fmt::format(
             "The film is not on this page, since {}, and no copy could be made ({}); it lies "
@@ -140,7 +130,7 @@ PageFilm page_film(const Scene& scene, const fs::path& folder) {
     film.note =
         fmt::format("This is a copy of at most {} lines, since {}; the film itself lies beside this page.",
                     lines_of_copy, why);
-    if (film.bytes.size() <= kMostFilmOnPage) return film;
+    if (film.bytes.size() <= most_bytes) return film;
     film.bytes.clear();
     film.note = fmt::format(
         "The film is not on this page, since {} and even a smaller copy is too large for it; it "
@@ -157,11 +147,7 @@ std::vector<std::uint8_t> page_poster(const fs::path& folder) {
         FilmReader reader(folder / "poster.png");
         AVFrame* picture = reader.next();
         if (picture == nullptr) return {};
-        FilterGraph graph(reader.codec(), poster_filter);
-        graph.push(*picture);
-        graph.end();
-        const AvFramePtr small = graph.pull();
-        return small ? as_jpeg(*small) : std::vector<std::uint8_t>();
+        return small_jpeg(reader.codec(), *picture);
     } catch (const RunError&) {
         return {};
     }

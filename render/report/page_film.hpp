@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/scene/scene.hpp"
+#include "render/report/page_progress.hpp"
 
 namespace grainreel {
 
@@ -20,8 +22,11 @@ struct PageFilm {
 };
 
 // The run's own film where browsers play it and it is small enough; else a copy in H.264, of 720 lines at
-// most; none where that is too large too, or cannot be made. Writes nothing into the run's folder.
-PageFilm page_film(const Scene& scene, const std::filesystem::path& folder);
+// most; none where that is too large too, or cannot be made. frames: of the film, where they are known; for
+// the progress of a copy. Writes nothing into the run's folder.
+PageFilm page_film(const Scene& scene, const std::filesystem::path& folder,
+                   std::optional<std::int64_t> frames = {}, const PageProgress& progress = kNoPageProgress,
+                   std::size_t most_bytes = kMostFilmOnPage);
 
 // poster.png as a JPEG, 960 pixels wide at most. Empty without one, or where it cannot be read.
 std::vector<std::uint8_t> page_poster(const std::filesystem::path& folder);

@@ -41,6 +41,13 @@ bool changes(const MeasureTable& table, std::size_t column) {
 
 }  // namespace
 
+std::vector<std::size_t> spread_rows(std::size_t rows, std::size_t most) {
+    std::vector<std::size_t> chosen;
+    const std::size_t count = std::min(rows, most);
+    for (std::size_t i = 0; i < count; ++i) chosen.push_back(count > 1 ? i * (rows - 1) / (count - 1) : 0);
+    return chosen;
+}
+
 PageMeasures page_measures(const Scene& scene, const MeasureTable& table) {
     PageMeasures page;
     page.columns = columns_of(scene, table);
@@ -59,9 +66,7 @@ PageMeasures page_measures(const Scene& scene, const MeasureTable& table) {
         if (column == page.columns.size() || has_it || !changes(table, column)) continue;
         if (page.charted.size() < most_charts) page.charted.push_back(column);
     }
-    const std::size_t stride =
-        std::max<std::size_t>(1, (table.rows() + kMostRowsAtOnce - 1) / kMostRowsAtOnce);
-    for (std::size_t row = 0; row < table.rows(); row += stride) page.rows.push_back(row);
+    page.rows = spread_rows(table.rows(), kMostRowsAtOnce);
     return page;
 }
 

@@ -22,6 +22,9 @@ struct PageMeasures {
     std::size_t time = 0;              // the column of time
 };
 
+// Rows of so many, at most so many, evenly spread, the first and the last among them.
+std::vector<std::size_t> spread_rows(std::size_t rows, std::size_t most);
+
 constexpr std::size_t kMostRowsAtOnce = 2000;
 
 // The film's plots come first, then the measures that usually matter, as far as they have values that change.

@@ -34,7 +34,7 @@ std::string chapter(const char* title, const std::string& html) {
     return fmt::format("<section><h2>{}</h2>\n{}</section>\n", title, html);
 }
 
-std::string copyable(const char* id, const char* label, const std::string& text, const char* style) {
+std::string copyable(const std::string& id, const char* label, const std::string& text, const char* style) {
     return fmt::format(
         "<h3>{0}</h3>\n<pre id=\"{1}\" class=\"{2}\" tabindex=\"0\" aria-label=\"{0}\">{3}</pre>\n"
         "<p class=\"no-print\"><button type=\"button\" data-copies=\"{1}\">Copy</button></p>\n",
@@ -59,7 +59,7 @@ std::string provenance_html(const RunFacts& facts) {
     return html + "</ul>\n";
 }
 
-std::string scene_html(const fs::path& folder) {
+std::string scene_html(const fs::path& folder, const std::string& n) {
     std::string text;
     try {
         text = load_scene_file(folder / "scene.toml");
@@ -73,7 +73,7 @@ std::string scene_html(const fs::path& folder) {
     return chapter("Scene",
                    "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
                    "again.</p>\n" +
-                       copyable("scene-text", "scene.toml", text, "plain"));
+                       copyable("scene-text" + n, "scene.toml", text, "plain"));
 }
 
 std::string files_html(const fs::path& folder, const std::string& page_name) {
@@ -121,13 +121,13 @@ std::string drive_words(const Scene& scene) {
 
 }  // namespace
 
-std::string lead_html(const Scene& scene, const RunFacts& facts) {
+std::string lead_html(const Scene& scene, const RunFacts& facts, bool live) {
     std::string species;
     for (const Species& one : scene.species)
         species += fmt::format("{}{} {}", species.empty() ? "" : " and ", one.all(), one.name);
     std::string html = fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
                                    words_of(scene.container.shape), drive_words(scene));
-    if (facts.status != "complete")
+    if (facts.status != "complete" && !live)
         html += fmt::format(
             "<p><strong>The run’s status is “{}”: what the page shows may not be all.</strong></p>\n",
             html_text(facts.status));
@@ -135,14 +135,14 @@ std::string lead_html(const Scene& scene, const RunFacts& facts) {
 }
 
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
-                      const std::string& why_not_tied) {
+                      const std::string& why_not_tied, const std::string& n, bool beside) {
     const std::string picture =
         poster.empty() ? "" : fmt::format("data:image/jpeg;base64,{}", base64(poster));
     const char* about = "One picture of the run: grains in their container, with time and scale beside them";
     std::string html;
     if (!film.bytes.empty())
         html = fmt::format(
-            "<video id=\"film\" controls muted playsinline aria-label=\"Film of the run\"{}></video>\n",
+            "<video id=\"film{}\" controls muted playsinline aria-label=\"Film of the run\"{}></video>\n", n,
             picture.empty() ? "" : fmt::format(" poster=\"{}\"", picture));
     if (!picture.empty())
         html += fmt::format("<img class=\"poster\" src=\"{}\" alt=\"{}\"{}>\n", picture, about,
@@ -150,7 +150,7 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
     if (html.empty()) html = "<p>The run has no film and no poster.</p>\n";
     for (const std::string& note : {film.note, film.bytes.empty() ? std::string() : why_not_tied})
         if (!note.empty()) html += fmt::format("<p class=\"faint\">{}</p>\n", html_text(note));
-    if (!film.file.empty())
+    if (!film.file.empty() && beside)
         html += fmt::format("<p class=\"faint no-print\"><a href=\"{}\">{}</a> beside this page</p>\n",
                             file_link(film.file), html_text(film.file));
     return html;
@@ -195,17 +195,17 @@ std::string story_html(const Scene& scene) {
 
 std::string chapters_html(const Scene& scene, const RunFacts& facts,
                           const std::optional<PlannedScene>& planned, const fs::path& folder,
-                          const std::string& page_name) {
+                          const std::string& page_name, const std::string& n) {
     std::string html = story_html(scene);
     if (planned) {
         html += chapter("What was computed", plan_html(*planned));
         const Methods text = methods(scene, planned->plan, facts, planned->lines);
-        html += chapter("To cite", copyable("methods", "Methods", text.paragraph, "wraps") +
-                                       copyable("bibtex", "BibTeX", text.bibtex, "plain"));
+        html += chapter("To cite", copyable("methods" + n, "Methods", text.paragraph, "wraps") +
+                                       copyable("bibtex" + n, "BibTeX", text.bibtex, "plain"));
     }
     html += chapter("Where it comes from", provenance_html(facts));
-    html += scene_html(folder);
-    return html + chapter("Files beside this page", files_html(folder, page_name));
+    html += scene_html(folder, n);
+    return page_name.empty() ? html : html + chapter("Files beside this page", files_html(folder, page_name));
 }
 
 }  // namespace grainreel

@@ -12,13 +12,14 @@
 
 namespace grainreel {
 
-// What the run is, in a sentence or two.
-std::string lead_html(const Scene& scene, const RunFacts& facts);
+// What the run is, in a sentence or two. live: how far it is stands elsewhere.
+std::string lead_html(const Scene& scene, const RunFacts& facts, bool live = false);
 
 // The film's element and what is to be said of it. poster: a JPEG, or nothing. why_not_tied: empty where the
-// film goes with charts and bed.
+// film goes with charts and bed. n: what the ids of elements end in. beside: the page lies beside the film's
+// file.
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
-                      const std::string& why_not_tied);
+                      const std::string& why_not_tied, const std::string& n = "", bool beside = true);
 
 // What the page has of the bed's moments, and how exactly.
 std::string bed_about(const BedFrames& bed, const Scene& scene);
@@ -26,9 +27,11 @@ std::string bed_about(const BedFrames& bed, const Scene& scene);
 // The scene's captions, each a button that goes there; empty without any.
 std::string story_html(const Scene& scene);
 
-// The plan in words, contacts, methods and sources, provenance, scene and files.
+// The plan in words, contacts, methods and sources, provenance, scene and files. page_name: of the page,
+// which lies in the run's folder; without one there are no links to its files. n: what the ids of elements
+// end in.
 std::string chapters_html(const Scene& scene, const RunFacts& facts,
                           const std::optional<PlannedScene>& planned, const std::filesystem::path& folder,
-                          const std::string& page_name);
+                          const std::string& page_name, const std::string& n = "");
 
 }  // namespace grainreel

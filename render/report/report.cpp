@@ -1,150 +1,178 @@
 #include "render/report/report.hpp"
 
+#include <algorithm>
+#include <deque>
+
 #include <fmt/format.h>
 
 #include "engine/base/text_file.hpp"
-#include "engine/output/measures_csv.hpp"
-#include "render/report/embed/base64.hpp"
+#include "render/report/differences.hpp"
 #include "render/report/embed/html.hpp"
-#include "render/report/embed/read_bytes.hpp"
-#include "render/report/embed/zlib_pack.hpp"
-#include "render/report/page_facts.hpp"
 #include "render/report/page_files.hpp"
-#include "render/report/page_parts.hpp"
+#include "render/report/run_part.hpp"
 
 namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
+using Texts = std::vector<std::pair<std::string_view, std::string>>;
 
-constexpr std::size_t most_table_bytes = 2'000'000;  // of measures.csv, packed
-
-// As an element that no browser runs or shows.
-std::string blob(const char* id, const std::vector<std::uint8_t>& bytes) {
-    if (bytes.empty()) return "";
-    return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
-                       base64(bytes));
-}
-
-std::vector<std::uint8_t> packed_table(const fs::path& file) {
-    std::error_code error;
-    if (!fs::exists(file, error)) return {};
-    std::vector<std::uint8_t> packed = zlib_packed(read_bytes(file));
-    if (packed.size() > most_table_bytes) packed.clear();
-    return packed;
-}
-
-std::string charts_about(const MeasureTable* table, const PageMeasures& measures, bool whole_table) {
-    if (table == nullptr || measures.rows.empty()) return "The run has no measures.";
-    std::string text =
-        whole_table ? "" : "The complete table is too long for this page; it lies in measures.csv. ";
-    if (!whole_table && measures.rows.size() < table->rows())
-        text +=
-            fmt::format("Charts show {} of its {} rows, evenly spread.", measures.rows.size(), table->rows());
-    return html_text(text);
-}
-
-// What of the page's bytes is left for the bed, before base64.
-std::size_t room_for_bed(std::size_t rest) {
-    constexpr std::size_t facts_and_margin = 400'000;
-    const std::size_t taken = rest + facts_and_margin;
-    return taken >= kMostPageBytes ? 1 : (kMostPageBytes - taken) / 4 * 3;
-}
+constexpr std::size_t most_film_bytes = 12'000'000;  // of all runs together
+constexpr double films_share = 0.7;  // of the time: a film that has to be made smaller takes most
 
 class Page {
   public:
-    Page(RecordedRun& run, bool contacts, const std::optional<PlannedScene>& planned, const fs::path& out)
-        : run_(run), contacts_(contacts), planned_(planned), out_(out), folder_(run.folder()) {}
+    Page(const std::vector<PageRun>& runs, const fs::path& out, const PageProgress& progress)
+        : out_(out), progress_(progress) {
+        const bool alone = runs.size() == 1;
+        const std::size_t most_film = std::min(kMostFilmOnPage, most_film_bytes / runs.size());
+        const std::vector<std::string> names = names_of(runs);
+        for (std::size_t k = 0; k < runs.size(); ++k)
+            parts_.emplace_back(runs[k], names[k], alone ? "" : fmt::format("-{}", k), most_film);
+    }
 
     ReportMade write() {
-        const Scene& scene = run_.scene();
-        const RunFacts record = run_facts(folder_);
-        const auto table = read_measures(folder_ / "measures.csv");
-        const PageMeasures measures = table ? page_measures(scene, *table) : PageMeasures();
-        const PageFilm film = page_film(scene, folder_);
-        const FilmTimes times = times_of(film, record, table.get(), measures);
-        std::string late = blob("measures-bytes", packed_table(folder_ / "measures.csv"));
-        const bool whole_table = !late.empty();
-        const std::string film_blob = blob("film-bytes", film.bytes);
-        const std::string head = film_html(film, page_poster(folder_), times.why_not);
-        const std::string chapters =
-            chapters_html(scene, record, planned_, folder_, out_.filename().string());
-        const std::string fixed = late + film_blob + head + chapters;
-        const BedFrames bed =
-            bed_frames(run_, contacts_, room_for_bed(fixed.size() + page_files().script.size()));
-        const std::string facts =
-            facts_json({scene, span_of(times), film, times, bed, table.get(), measures});
-        const PageFiles& files = page_files();
-        const std::string title = html_text(scene.title.empty() ? scene.name : scene.title);
-        const std::string page = filled(
-            files.page,
-            {{"title", title},
-             {"style", std::string(files.style)},
-             {"lead", lead_html(scene, record)},
-             {"film", head},
-             {"bed", filled(files.bed, {{"about", bed_about(bed, scene)}})},
-             {"charts", filled(files.charts, {{"about", charts_about(table.get(), measures, whole_table)}})},
-             {"words", chapters},
-             {"facts", json_in_html(facts)},
-             {"script", std::string(files.script)},
-             {"blobs", blob("bed-bytes", bed.packed) + late + film_blob}});
+        read();
+        const std::string page = filled(page_files().page, parts_.size() == 1 ? alone() : side_by_side());
         replace_file(out_, page);
-        return made(page.size(), film, times, bed);
+        ReportMade made{out_, page.size(), {}};
+        for (const RunPart& part : parts_)
+            for (const std::string& line : part.news())
+                made.news.push_back(parts_.size() == 1 ? line : fmt::format("{}: {}", part.name(), line));
+        if (page.size() > kMostPageBytes)
+            made.news.push_back(fmt::format(
+                "the page has {} bytes, more than it should: a single moment of the bed takes that",
+                page.size()));
+        return made;
     }
 
   private:
-    FilmTimes times_of(const PageFilm& film, const RunFacts& record, const MeasureTable* table,
-                       const PageMeasures& measures) const {
-        if (film.bytes.empty() || !record.film_frames) return {};
-        double first = run_.span().from;
-        if (table != nullptr && measures.time < measures.columns.size() && table->rows() > 0)
-            first = std::min(first, table->values(measures.time, 0, 1).front());
-        return film_times(run_.scene(), *record.film_frames, first, record.status == "complete");
+    // Folders' names; the whole paths where two have the same.
+    static std::vector<std::string> names_of(const std::vector<PageRun>& runs) {
+        std::vector<std::string> names;
+        for (const PageRun& run : runs) names.push_back(run.run->folder().filename().string());
+        std::vector<std::string> sorted = names;
+        std::sort(sorted.begin(), sorted.end());
+        if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return names;
+        for (std::size_t k = 0; k < runs.size(); ++k) names[k] = runs[k].run->folder().string();
+        return names;
     }
 
-    // Of the trajectory and the film.
-    Span span_of(const FilmTimes& times) const {
-        Span span = run_.span();
-        if (!times.times.empty()) {
-            span.from = std::min(span.from, times.times.front());
-            span.to = std::max(span.to, times.times.back());
+    void read() {
+        const double each = 1.0 / static_cast<double>(parts_.size());
+        std::size_t taken = page_files().script.size();
+        double done = 0;
+        for (RunPart& part : parts_) {
+            part.read([&](double share) { return progress_(films_share * (done + each * share)); });
+            taken += part.taken();
+            done += each;
         }
-        return span;
+        // Before base64; nothing at all still gives one moment.
+        const std::size_t room =
+            taken >= kMostPageBytes ? 1 : (kMostPageBytes - taken) / parts_.size() / 4 * 3;
+        done = 0;
+        for (RunPart& part : parts_) {
+            part.read_bed(room, [&](double share) {
+                return progress_(films_share + (1 - films_share) * (done + each * share));
+            });
+            done += each;
+        }
     }
 
-    ReportMade made(std::size_t bytes, const PageFilm& film, const FilmTimes& times,
-                    const BedFrames& bed) const {
-        ReportMade result{out_, bytes, run_.news()};
-        for (const std::string& note : {film.note, times.why_not})
-            if (!note.empty()) result.news.push_back(note);
-        if (bed.moments.size() < bed.all_moments)
-            result.news.push_back(
-                fmt::format("the page has {} of the trajectory's {} moments; there is no room for "
-                            "the others",
-                            bed.moments.size(), bed.all_moments));
-        if (bed.grains < bed.all_grains)
-            result.news.push_back(
-                fmt::format("the page has {} of {} grains, those nearest to the middle of the depth",
-                            bed.grains, bed.all_grains));
-        if (bytes > kMostPageBytes)
-            result.news.push_back(
-                fmt::format("the page has {} bytes, more than it should: a single moment of the bed "
-                            "takes that",
-                            bytes));
-        return result;
+    Texts alone() const {
+        const RunPart& part = parts_.front();
+        const bool beside = true;
+        const PageFiles& files = page_files();
+        const std::string body =
+            filled(files.body, {{"film", part.film(beside)},
+                                {"bed", part.bed()},
+                                {"fields", part.fields(2)},
+                                {"charts", filled(files.charts, {{"about", part.charts_about()}})}});
+        return frame({{"title", part.title()},
+                      {"body_class", ""},
+                      {"lead", part.lead()},
+                      {"body", body},
+                      {"words", part.chapters(out_, beside)},
+                      {"facts", json_in_html(part.facts())},
+                      {"blobs", part.bed_blob() + part.late_blobs()}});
     }
 
-    RecordedRun& run_;
-    const bool contacts_;
-    const std::optional<PlannedScene>& planned_;
-    const fs::path out_, folder_;
+    Texts side_by_side() const {
+        const bool beside = false;
+        const PageFiles& files = page_files();
+        std::string title, columns, words, beds, late;
+        std::vector<std::pair<std::string, fs::path>> scenes;
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            const RunPart& part = parts_[k];
+            title += (k == 0 ? "" : ", ") + html_text(part.name());
+            columns += filled(files.variant, {{"n", fmt::format("-{}", k)},
+                                              {"name", html_text(part.name())},
+                                              {"lead", part.lead()},
+                                              {"film", part.film(beside)},
+                                              {"bed", part.bed()},
+                                              {"fields", part.fields(3)}});
+            words += fmt::format("<details><summary><h2>{}: in words</h2></summary>\n{}</details>\n",
+                                 html_text(part.name()), part.chapters(out_, beside));
+            beds += part.bed_blob();
+            late += part.late_blobs();
+        }
+        const std::string charts = fmt::format(
+            "<section aria-labelledby=\"charts-title\">\n<h2 id=\"charts-title\">Measures, on one time "
+            "axis</h2>\n{}"
+            "</section>\n",
+            filled(files.charts, {{"about", ""}}));
+        return frame(
+            {{"title", title},
+             {"body_class", " class=\"several\""},
+             {"lead",
+              fmt::format("<p class=\"lead\">{} runs side by side, at the same time of each run.</p>\n",
+                          parts_.size())},
+             {"body",
+              fmt::format("<div class=\"variants\">\n{}</div>\n{}{}", columns, charts, differences())},
+             {"words", words},
+             {"facts", json_in_html(facts())},
+             {"blobs", beds + late}});
+    }
+
+    std::string differences() const {
+        std::vector<NamedScene> scenes;
+        for (const RunPart& part : parts_) scenes.push_back({part.name(), part.folder() / "scene.toml"});
+        return differences_html(scenes);
+    }
+
+    // Of all runs: from the first one's beginning to the last one's end.
+    std::string facts() const {
+        Span all = parts_.front().span();
+        std::string runs;
+        for (const RunPart& part : parts_) {
+            const Span span = part.span();
+            all = {std::min(all.from, span.from), std::max(all.to, span.to)};
+            runs += (runs.empty() ? "" : ",") + part.facts();
+        }
+        return fmt::format(R"({{"begin":{},"end":{},"frequency":null,"runs":[{}]}})", all.from, all.to, runs);
+    }
+
+    static Texts frame(Texts texts) {
+        texts.emplace_back("style", std::string(page_files().style));
+        texts.emplace_back("script", std::string(page_files().script));
+        texts.emplace_back("live", "");
+        return texts;
+    }
+
+    const fs::path out_;
+    const PageProgress& progress_;
+    std::deque<RunPart> parts_;
 };
 
 }  // namespace
 
-ReportMade write_report(RecordedRun& run, bool contacts, const std::optional<PlannedScene>& planned,
-                        const fs::path& out) {
-    return Page(run, contacts, planned, out).write();
+std::optional<ReportMade> write_report(const std::vector<PageRun>& runs, const fs::path& out,
+                                       const PageProgress& progress) {
+    try {
+        return Page(runs, out, progress).write();
+    } catch (const PageStopped&) {
+        return std::nullopt;
+    }
 }
 
 }  // namespace grainreel

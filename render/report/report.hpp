@@ -1,13 +1,15 @@
-// report.html: a finished run as one page that a browser opens without a network.
+// report.html: a finished run, or several, as one page that a browser opens without a network.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
+#include "render/report/page_progress.hpp"
 #include "render/run/frames/recorded_run.hpp"
 
 namespace grainreel {
@@ -27,9 +29,16 @@ struct ReportMade {
 
 constexpr std::size_t kMostPageBytes = 20'000'000;
 
-// contacts: whether the run's frames come with touches (RecordedRun of a film that shows them). planned:
-// empty where the scene cannot be planned any more. The page is written whole or not at all. Throws RunError.
-ReportMade write_report(RecordedRun& run, bool contacts, const std::optional<PlannedScene>& planned,
-                        const std::filesystem::path& out);
+// A run for a page.
+struct PageRun {
+    std::shared_ptr<RecordedRun> run;
+    bool contacts = false;  // its frames come with touches (RecordedRun of a film that shows them)
+    std::optional<PlannedScene> planned;  // empty where the scene cannot be planned any more
+};
+
+// One run, or several side by side on one time axis. The page is written whole or not at all; nothing comes
+// back when `progress` stopped it. Throws RunError.
+std::optional<ReportMade> write_report(const std::vector<PageRun>& runs, const std::filesystem::path& out,
+                                       const PageProgress& progress);
 
 }  // namespace grainreel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,12 @@
 
 namespace grainreel {
 
+// Makes the page of the run in a folder, whose other files are closed, and returns its file's name. go_on:
+// told the share that is done; when it says false the page is left out, and nothing is returned. Throws when
+// the page cannot be made.
+using PageMaker = std::function<std::optional<std::string>(const std::filesystem::path& folder,
+                                                           const std::function<bool(double)>& go_on)>;
+
 struct FilmRequest {
     std::optional<std::filesystem::path> out;
     std::filesystem::path base = "output";  // of runs without `out`
@@ -19,6 +26,7 @@ struct FilmRequest {
     bool film = true;
     bool frames = false;
     bool to_stdout = false;  // the film; the folder's name then goes to stderr
+    PageMaker page;          // none: the run leaves no page
     gl::Provider gl = gl::Provider::automatic;
     std::string command;  // as typed, for run.json
     ProgramInfo program;  // likewise

@@ -70,6 +70,7 @@ FilmRun::Ended FilmRun::run() {
     find_folder();
     close_record(stopped);
     if (record_.status == RunStatus::complete) folder_->remove_previous();
+    make_page();
     report_end();
     return {*record_.exit_status, has_folder_ ? std::optional(folder_->path()) : std::nullopt};
 }
@@ -139,6 +140,8 @@ void FilmRun::close_film() {
     });
     film_report_.frames = film_->frames_done();
     film_.reset();
+    if (has_folder_ && request_.film && !request_.to_stdout)
+        failure_.attempt([&] { film_closed(film_report_.frames); });
     times_.add("drawing (beside the engine)", film_report_.draw_seconds);
     times_.add("encoding (beside the engine)", film_report_.encode_seconds);
 }
@@ -153,11 +156,41 @@ void FilmRun::close_record(bool stopped) {
     if (film_) record_.film_frames.reset();  // what of it is on disk shows when it is closed
     record_.encoder = film_report_.encoder;
     record_.peak_memory = peak_memory();
+    if (has_folder_) failure_.attempt([&] { write_record(); });
+    settle_status(stopped);
+}
+
+void FilmRun::write_record() {
     RunRecord now = record_;
     for (const auto& time : times_.all()) now.wall_seconds.push_back(time);
     now.wall_seconds.emplace_back("total", watch_.seconds());
-    if (has_folder_) failure_.attempt([&] { write_run_json(folder_->path() / "run.json", now); });
-    settle_status(stopped);
+    write_run_json(folder_->path() / "run.json", now);
+}
+
+// Of a run whose other files are closed. A run without its page has failed at nothing.
+void FilmRun::make_page() {
+    if (!request_.page || !begun_ || !has_folder_ || failure_.any() || listener_.in_a_hurry()) return;
+    const Stopwatch making;
+    const auto go_on = [&](double share) {
+        Progress progress;
+        progress.stage = Progress::Stage::paging;
+        progress.done = share;
+        progress.elapsed = watch_.seconds();
+        listener_.progress(progress);
+        return !listener_.in_a_hurry() && folder_->lock().is_there();
+    };
+    try {
+        record_.page = request_.page(folder_->path(), go_on).value_or("");
+        if (record_.page.empty()) return;
+        times_.add("making the page", making.seconds());
+        write_record();
+    } catch (const std::exception& problem) {
+        listener_.warning(fmt::format("the run has no page: {}", problem.what()));
+    }
+}
+
+std::string FilmRun::page_text() const {
+    return record_.page.empty() ? "" : ", " + record_.page;
 }
 
 void FilmRun::report_end() {

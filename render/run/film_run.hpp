@@ -35,6 +35,7 @@ class FilmRun {
     };
     // Throws UserError before anything is worth keeping; nothing is on disk then.
     Ended run();
+    const std::filesystem::path& folder() const { return folder_->path(); }
 
   protected:
     FilmRun(const FilmRequest& request, RunListener& listener);
@@ -46,6 +47,8 @@ class FilmRun {
     virtual void keep_state() {}
     // What the record says of that. By then the record has its status. May be called twice.
     virtual void conclude() {}
+    // The film is closed and has so many frames.
+    virtual void film_closed(std::int64_t /*frames*/) {}
     virtual std::string stopped_text() const = 0;  // "stopped at 0.10 of 0.20 s"
     virtual void report_written() = 0;             // that which went well
 
@@ -61,6 +64,7 @@ class FilmRun {
     // draw: what makes pictures; none for the Renderer.
     void open_film(const Scene& scene, DrawerMaker draw = {});
     std::string film_files_text() const;  // "movie.mp4 (4 frames), poster.png, "
+    std::string page_text() const;        // ", report.html"; empty without a page
 
     // Of what is drawn alone.
     void show_drawing();
@@ -85,6 +89,8 @@ class FilmRun {
     void close_film();
     void settle_status(bool stopped);
     void close_record(bool stopped);
+    void write_record();
+    void make_page();
     void report_end();
 
     bool begun_ = false;

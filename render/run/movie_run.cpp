@@ -63,6 +63,7 @@ bool MovieRun::work() {
     pictures_planned_ = run_.shots();
     open_film(run_.scene());
     vibrating_.emplace();
+    holds_.emplace(run_.scene().film);
     const auto go_on = [this] {
         show_progress();
         tell_news();
@@ -119,6 +120,7 @@ void MovieRun::take(const Taken& picture) {
     const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(picture.segment));
     const FilmSegment pace = played(spanning(rule, picture.periods), scene.film.rate, run_.plan().clock);
     film_->take(picture.frame, playback_caption(pace, scene.drive, scene.film.rate));
+    film_times_.add(*picture.frame, 1 + holds_->begin_at(picture.frame->time));
 }
 
 void MovieRun::tell_news() {
@@ -150,6 +152,10 @@ void MovieRun::keep_state() {
     run_.close(failure_);
 }
 
+void MovieRun::film_closed(std::int64_t frames) {
+    film_times_.write(folder_->path() / kFilmTimes, frames);
+}
+
 void MovieRun::conclude() {
     run_.conclude(record_);
     record_.wall_seconds = run_.times().all();
@@ -161,8 +167,8 @@ std::string MovieRun::stopped_text() const {
 }
 
 void MovieRun::report_written() {
-    listener_.info(fmt::format("wrote {}: {}{}, log.txt", folder_->path().string(), film_files_text(),
-                               run_.files_text()));
+    listener_.info(fmt::format("wrote {}: {}{}, log.txt{}", folder_->path().string(), film_files_text(),
+                               run_.files_text(), page_text()));
     report_segregation();
     listener_.info(
         fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s), film {}",

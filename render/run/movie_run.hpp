@@ -7,8 +7,10 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/run/film_run.hpp"
+#include "render/run/film_times_table.hpp"
 #include "render/run/scene_run.hpp"
 
 namespace grainreel {
@@ -25,6 +27,7 @@ class MovieRun final : public FilmRun {
     bool work() override;
     void keep_state() override;
     void conclude() override;
+    void film_closed(std::int64_t frames) override;
     std::string stopped_text() const override;
     void report_written() override;
 
@@ -38,6 +41,8 @@ class MovieRun final : public FilmRun {
     Pictures pictures_;
     SceneRun run_;
     std::optional<Stopwatch> vibrating_;
+    std::optional<CaptionHolds> holds_;  // for film_times_
+    FilmTimesTable film_times_;
     std::size_t told_ = 0;  // lines of the run's news
 };
 

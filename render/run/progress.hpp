@@ -16,7 +16,8 @@ struct Progress {
         timing,
         drawing,
         studying,
-        replaying
+        replaying,
+        paging
     };
     Stage stage = Stage::growing;
     double done = 0;                              // of this stage, 0 to 1

@@ -1,4 +1,5 @@
 """Chromium without a screen, driven through Selenium, and what tests ask of it."""
+import base64
 import pathlib
 import time
 
@@ -61,6 +62,40 @@ class Browser:
         self.driver.execute_cdp_cmd("Input.dispatchMouseEvent",
                                     {"type": kind, "x": x, "y": y, "buttons": buttons, "button": "left",
                                      "clickCount": 1})
+
+    def view(self):
+        """A WebP of what the window shows."""
+        shot = self.driver.execute_cdp_cmd("Page.captureScreenshot", {"format": "webp", "quality": 80})
+        return base64.b64decode(shot["data"])
+
+    def difference(self, one: bytes, other: bytes):
+        """Of two pictures: the mean of their blocks' differences, of 255, and the share of blocks that differ much.
+        Blocks have 8 x 8 pixels, so that the edges of letters count little."""
+        texts = [base64.b64encode(picture).decode() for picture in (one, other)]
+        return self.driver.execute_async_script("""
+            const [texts, done] = arguments, block = 8, much = 40;
+            const read = async (text) => {
+                const image = new Image();
+                image.src = 'data:image/webp;base64,' + text;
+                await image.decode();
+                const canvas = document.createElement('canvas');
+                canvas.width = Math.floor(image.width / block);
+                canvas.height = Math.floor(image.height / block);
+                const context = canvas.getContext('2d');
+                context.imageSmoothingQuality = 'high';
+                context.drawImage(image, 0, 0, canvas.width, canvas.height);
+                return context.getImageData(0, 0, canvas.width, canvas.height);
+            };
+            Promise.all(texts.map(read)).then(([a, b]) => {
+                if (a.width !== b.width || a.height !== b.height) return done([255, 1]);
+                let sum = 0, many = 0;
+                for (let at = 0; at < a.data.length; at += 4) {
+                    const apart = Math.max(...[0, 1, 2].map((part) => Math.abs(a.data[at + part] - b.data[at + part])));
+                    sum += apart;
+                    if (apart > much) ++many;
+                }
+                done([sum / (a.data.length / 4), many / (a.data.length / 4)]);
+            });""", texts)
 
     def place_of(self, selector):
         """left, top, width, height of the first such element in the window, scrolled to its middle."""

@@ -7,6 +7,7 @@ without WebGL or DecompressionStream the page says so. FOLDER gets run, page and
 axe-core, which looks for barriers to people with disabilities.
 """
 import math
+import os
 import pathlib
 import shutil
 import subprocess
@@ -17,6 +18,7 @@ import numpy
 
 from browser import Browser
 
+KEPT = pathlib.Path(__file__).parent / "kept"
 TITLE = "Fifty <b>grains</b> & \"</script><script>document.title='no'</script>"
 SCENE = """title = '''%s'''
 [[species]]
@@ -48,6 +50,9 @@ overlap = 0.05
 [output]
 trajectory_interval = "12.5 ms"
 contacts = true
+[output.fields]
+grid = "yz"
+periods = 2
 [film]
 size = "640x360"
 rate = 30
@@ -231,6 +236,63 @@ def controls_change_the_picture(browser, run):
         assert browser.run(picture) == first, selector
 
 
+def fields_are_those_of_the_run(browser, run):
+    """Each value within half of the 1/254 that the page rounds to, and the profile over height as xarray has it."""
+    fields = netCDF4.Dataset(run / "fields.nc")
+    fields.set_auto_mask(False)
+    bounds = browser.run("return grainreelReport.fields[0].facts.records")
+    assert numpy.allclose(bounds, fields["time_bounds"][:])
+    record = len(bounds) // 2
+    browser.run("grainreelReport.runTime.set(arguments[0], 'test')", sum(bounds[record]) / 2)
+    names = browser.run("return grainreelReport.fields[0].facts.quantities.map((q) => q.name)")
+    assert {"solid_fraction_small", "solid_fraction_big", "speed", "pressure"} <= set(names), names
+    room = fields["free_volume"][record]
+    for index, name in enumerate(names):
+        if name in ("speed", "pressure"):
+            continue
+        all_records = fields[name][:]
+        step = (numpy.nanmax(all_records) - numpy.nanmin(all_records)) / 254
+        browser.run("const s = document.getElementById('field'); s.value = arguments[0];"
+                    "s.dispatchEvent(new Event('change'))", index)
+        told = numpy.array(browser.run("const f = grainreelReport.fields[0];"
+                                       "return [...Array(f.cells).keys()].map((c) => f.value(c))"), float)
+        exact = all_records[record].ravel()
+        assert (numpy.isnan(told) == ~numpy.isfinite(exact)).all(), name
+        assert numpy.nanmax(abs(told - exact)) <= 0.5001 * step, (name, numpy.nanmax(abs(told - exact)) / step)
+        if name.startswith("solid"):
+            profile = numpy.array(browser.run("return grainreelReport.fields[0].profile('z')"), float)
+            expected = (all_records[record] * room).sum(axis=1) / numpy.maximum(room.sum(axis=1), 1e-30)
+            inside = room.sum(axis=1) > 0
+            assert numpy.allclose(profile[inside, 1], expected[inside], atol=step + 0.005), name
+            assert numpy.allclose(profile[:, 0], fields["z"][:])
+    assert "mean from" in browser.run("return document.getElementById('field-says').textContent")
+
+
+def looks_as_before(browser, run):
+    """What the window shows against the pictures in kept/, which GRAINREEL_KEEP=1 makes anew. Fonts and the film's
+    buttons differ a little from machine to machine; a bed that is not there must not pass."""
+    most_mean, most_blocks = 6, 0.03
+    browser.run("grainreelReport.runTime.set(0.4, 'test'); document.activeElement.blur()")
+    for width in (1280, 390):
+        browser.resize(width, 1000)
+        browser.run("scrollTo(0, 0)")
+        browser.wait("const f = grainreelReport.film; return !f.video.seeking && f.wanted === null", "the film to seek")
+        browser.driver.execute_async_script("const done = arguments[0]; setTimeout(() => requestAnimationFrame(() =>"
+                                            "requestAnimationFrame(() => done())), 500)")
+        kept, now = KEPT / f"report_{width}.webp", browser.view()
+        (run.parent / f"view_{width}.webp").write_bytes(now)
+        if os.environ.get("GRAINREEL_KEEP"):
+            kept.write_bytes(now)
+        mean, blocks = browser.difference(kept.read_bytes(), now)
+        assert mean <= most_mean and blocks <= most_blocks, (width, mean, blocks)
+        print(f"  {width} pixels wide: blocks differ by {mean:.2f} of 255, {100 * blocks:.2f} % of them much")
+    browser.resize(1280, 1000)
+    browser.run("document.getElementById('bed').style.visibility = 'hidden'")
+    _, blocks = browser.difference((KEPT / "report_1280.webp").read_bytes(), browser.view())
+    browser.run("document.getElementById('bed').style.visibility = ''")
+    assert blocks > most_blocks, blocks
+
+
 def everything_is_labelled(browser, run):
     assert browser.run("""
         const named = (e) => e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim();
@@ -252,7 +314,7 @@ def words_fit(browser, run):
 
 TESTS = [text_is_no_markup, film_frames_are_half_slow_motion, film_plays, chart_moves_film_and_bed,
          buttons_and_story_move_all, places_are_those_of_the_trajectory, contact_numbers_are_those_of_the_run,
-         a_click_finds_the_grain, controls_change_the_picture, everything_is_labelled, words_fit]
+         a_click_finds_the_grain, controls_change_the_picture, fields_are_those_of_the_run, looks_as_before, everything_is_labelled, words_fit]
 
 
 def without(page, reason, **browser_options):

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -52,6 +55,37 @@ TEST_F(ReportProgram, MakesOnePageWithWordsFirstAndBytesLast) {
         EXPECT_THAT(page, Not(HasSubstr(elsewhere)));
 }
 
+TEST_F(ReportProgram, EachRunLeavesItsPage) {
+    run({});
+    const std::string first = text_of(here / "run/report.html");
+    EXPECT_THAT(first, HasSubstr("id=\"film-bytes\""));
+    EXPECT_THAT(first, HasSubstr("id=\"bed-bytes\""));
+    EXPECT_THAT(first, Not(HasSubstr("what the page shows may not be all")));  // the run is complete by then
+    const auto record = nlohmann::json::parse(text_of(here / "run/run.json"));
+    EXPECT_EQ(record["written"]["page"], "report.html");
+    EXPECT_EQ(record["status"], "complete");
+    EXPECT_TRUE(record["wall_s"].contains("making the page"));
+    // A run that has one can be replaced, and the new one has none when it is not to.
+    const Ended again = program({"movie", "fifty.toml", "--out", "run", "--force", "--no-report"});
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_FALSE(fs::exists(here / "run/report.html"));
+    EXPECT_TRUE(nlohmann::json::parse(text_of(here / "run/run.json"))["written"]["page"].is_null());
+}
+
+// A film that leaves out what it did not foresee goes with charts and bed all the same.
+TEST_F(ReportProgram, TheFilmIsTiedByTheRunsOwnTable) {
+    run({"--set", "film.segment=[{ kind = \"locked\", every = 1 }]"});
+    const auto record = nlohmann::json::parse(text_of(here / "run/run.json"));
+    const int frames = record["written"]["film_frames"].get<int>();
+    std::string table = "frame,step,time_s\n";
+    for (int k = 0; k < frames; ++k) table += fmt::format("{0},{0},{1}\n", k, 0.01 * k);
+    write_text(here / "run/film_times.csv", table);
+    ASSERT_EQ(program({"report", "run"}).status, 0);
+    const std::string page = text_of(here / "run/report.html");
+    EXPECT_THAT(page, HasSubstr(R"("times":[0.0,0.01,0.02)"));
+    EXPECT_THAT(page, Not(HasSubstr("the film goes by itself")));
+}
+
 TEST_F(ReportProgram, TheSamePageOfTheSameRun) {
     run({});
     ASSERT_EQ(program({"report", "run", "--out", "a.html"}).status, 0);
@@ -81,7 +115,7 @@ TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
     expect_mistake({"report", "nowhere"}, "nowhere: no such folder");
     fs::create_directory(here / "empty");
     expect_mistake({"report", "empty"}, "empty: has no scene.toml");
-    run({"--no-film"});
+    run({"--no-film", "--no-report"});
     expect_mistake({"report", "run", "--out", "page.txt"}, "a page's name ends in .html");
     expect_mistake({"report", "run", "--out", "empty"}, "is a folder");
     expect_mistake({"report", "run", "--out", "none/page.html"}, "there is no such folder");

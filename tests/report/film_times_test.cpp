@@ -5,6 +5,8 @@
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "render/report/film_times.hpp"
+#include "render/run/film_times_table.hpp"
+#include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -35,6 +37,29 @@ duration = "1 s"
 rate = 30
 )" + film;
     return read_scene_text(text, "made.toml", {}, measurable_in);
+}
+
+// What the run itself wrote needs no plan: a bed that lands every second period leaves out frames nobody
+// foresaw.
+TEST(FilmTimes, TheRunsOwnTableIsTakenWhereItIsWhole) {
+    const test::TemporaryFolder here;
+    EXPECT_FALSE(kept_film_times(here.path(), 3));
+    FilmTimesTable table;
+    Frame frame;
+    for (const double time : {0.0, 0.05, 0.15, 0.25}) {
+        frame.time = time;
+        table.add(frame, time == 0.05 ? 2 : 1);  // one is held for a caption
+    }
+    table.write(here / kFilmTimes, 4);  // the last picture never came into the film
+    const auto kept = kept_film_times(here.path(), 4);
+    ASSERT_TRUE(kept);
+    EXPECT_THAT(kept->times, testing::ElementsAre(0.0, 0.05, 0.05, 0.15));
+    EXPECT_FALSE(kept_film_times(here.path(), 5));
+    for (const char* wrong : {"", "frame,step,time_s\n0,0,0\n1,1,nan\n",
+                              "frame,step,time_s\n0,0,1\n1,1,0.5\n", "frame,step\n0,0\n1,1\n"}) {
+        test::write_text(here / kFilmTimes, wrong);
+        EXPECT_FALSE(kept_film_times(here.path(), 2)) << wrong;
+    }
 }
 
 constexpr const char* locked = "periods = 2\n[[film.segment]]\nkind = \"locked\"\nevery = 2\n";

@@ -12,6 +12,7 @@
 #include "engine/scene/text/assignment.hpp"
 #include "render/cli/report/reporter.hpp"
 #include "render/run/film_request.hpp"
+#include "render/watch/watch.hpp"
 
 namespace grainreel {
 
@@ -43,6 +44,12 @@ std::filesystem::path output_base();
 
 // An option that is a time of a finished run, s.
 CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about);
+
+// --port and --watch-host: where a run is shown live.
+void add_watch_port(CLI::App& verb, WatchPlace& place);
+void add_watch_host(CLI::App& verb, WatchPlace& place);
+// --watch, with a port, and --watch-host.
+void add_watch(CLI::App& verb, bool& wanted, WatchPlace& place);
 
 // --progress, --quiet and --verbose.
 void add_reporting(CLI::App& verb, ReporterOptions& report);

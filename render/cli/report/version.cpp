@@ -2,6 +2,7 @@
 
 #include <cairo.h>
 #include <hwy/highway.h>
+#include <microhttpd.h>
 #include <pango/pango.h>
 #include <png.h>
 #include <toml++/toml.h>
@@ -48,6 +49,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
         {"libavformat", ffmpeg(avformat_version())},
         {"libavcodec", ffmpeg(avcodec_version())},
         {"libswscale", ffmpeg(swscale_version())},
+        {"libmicrohttpd", MHD_get_version()},
         {"libpng", png_get_libpng_ver(nullptr)},
         {"Pango", pango_version_string()},
         {"cairo", cairo_version_string()},

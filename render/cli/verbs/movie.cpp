@@ -1,4 +1,6 @@
 // The verb `movie`: one scene becomes a film and the files beside it.
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "engine/measure/columns.hpp"
@@ -6,8 +8,10 @@
 #include "engine/scene/text/reader.hpp"
 #include "render/cli/options/option_groups.hpp"
 #include "render/cli/report/film_report.hpp"
+#include "render/cli/report/page_of_run.hpp"
 #include "render/cli/report/record.hpp"
 #include "render/cli/verbs/verb.hpp"
+#include "render/cli/watch/watch_child.hpp"
 #include "render/run/movie_run.hpp"
 
 namespace grainreel {
@@ -26,15 +30,22 @@ class Movie final : public Verb {
         add_scene(parser, scene_, sets_);
         add_film(parser, film_,
                  "Folder of the run [output/ and the scene's name, numbered when that is taken]");
+        parser.add_flag("--no-report", no_page_, "Leave out report.html, the run as a page for a browser");
+        add_watch(parser, watched_, place_);
         add_reporting(parser, report);
     }
 
     int run(Reporter& reporter) override {
         film_.command = command;
         film_.program = program_info();
+        if (!no_page_) film_.page = page_of_ended_run();
         const Scene scene = read_scene(scene_, sets_, measurable_in);
         const Plan plan = make_plan(scene);
+        std::optional<Listening> listening;
+        if (watched_) listening.emplace(listen_at(place_));
         MovieRun movie(film_, reporter, scene, plan);
+        std::optional<WatchChild> watch;
+        if (listening) watch.emplace(movie.folder(), place_.host, std::move(*listening), report);
         return tell_folder(movie.run(), film_);
     }
 
@@ -42,6 +53,8 @@ class Movie final : public Verb {
     std::filesystem::path scene_;
     Assignments sets_;
     FilmRequest film_;
+    bool no_page_ = false, watched_ = false;
+    WatchPlace place_;
 };
 
 }  // namespace

@@ -8,31 +8,16 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/text/data_size.hpp"
-#include "render/cli/check/print_plan.hpp"
 #include "render/cli/options/option_groups.hpp"
+#include "render/cli/report/page_of_run.hpp"
 #include "render/cli/report/result.hpp"
+#include "render/cli/report/share_watcher.hpp"
 #include "render/cli/verbs/verb.hpp"
-#include "render/report/report.hpp"
 
 namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Its frames come with the contacts that the run kept.
-Assignments with_contacts() {
-    return {{"film.force_chains=true", "report"}};
-}
-
-std::optional<PlannedScene> planned(const Scene& scene) {
-    try {
-        Plan plan = make_plan(scene);
-        PlanWords words = plan_words(scene, plan);
-        return PlannedScene{std::move(plan), std::move(words.lines), std::move(words.contacts)};
-    } catch (const UserError&) {
-        return std::nullopt;  // a scene of an earlier version, which this one would not run
-    }
-}
 
 class Report final : public Verb {
   public:
@@ -46,21 +31,30 @@ class Report final : public Verb {
               "run.") {}
 
     void add_options(CLI::App& parser) override {
-        parser.add_option("RUN", run_, "Folder of a run, with its scene.toml and trajectory.nc")
+        parser
+            .add_option(
+                "RUN", runs_,
+                "Folder of a run, with its scene.toml and trajectory.nc; of several, which then stand\nside "
+                "by side on one time axis")
             ->required()
-            ->type_name("DIR");
-        parser.add_option("--out", out_, "The page's file [report.html in RUN]")->type_name("FILE");
+            ->type_name("DIR ...");
+        parser
+            .add_option("--out", out_,
+                        "The page's file [report.html in RUN; of several runs side_by_side.html]")
+            ->type_name("FILE");
         add_reporting(parser, report);
     }
 
     int run(Reporter& reporter) override {
-        std::error_code ignored;
-        const bool contacts = fs::exists(run_ / "contacts.nc", ignored);
-        RecordedRun record(run_, contacts ? with_contacts() : Assignments());
-        record.leave_out_damaged();
-        const fs::path out = out_.empty() ? record.folder() / "report.html" : out_;
-        check_out(out);
-        const ReportMade made = write_report(record, contacts, planned(record.scene()), out);
+        if (runs_.size() > most_runs)
+            throw UserError(fmt::format("report: {} runs do not fit side by side; give {} at most",
+                                        runs_.size(), most_runs));
+        if (runs_.size() > 1 && out_.empty()) out_ = "side_by_side.html";
+        if (!out_.empty()) check_out(out_);
+        const ShareWatcher watcher(reporter, Progress::Stage::paging);
+        const bool checked = false;
+        const ReportMade made =
+            *make_page_of(runs_, out_, checked, [&](double done) { return watcher("", done), true; });
         for (const std::string& line : made.news) reporter.warning(line);
         reporter.info(fmt::format("wrote {} ({}); open it in a browser", made.file.string(),
                                   data_size_text(static_cast<double>(made.bytes))));
@@ -85,7 +79,9 @@ class Report final : public Verb {
             throw UserError(fmt::format("--out {}: a page's name ends in .html", out.string()));
     }
 
-    fs::path run_, out_;
+    static constexpr std::size_t most_runs = 6;
+    std::vector<fs::path> runs_;
+    fs::path out_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "engine/scene/text/reader.hpp"
 #include "render/cli/options/option_groups.hpp"
 #include "render/cli/report/film_report.hpp"
+#include "render/cli/report/page_of_run.hpp"
 #include "render/cli/report/record.hpp"
 #include "render/cli/verbs/verb.hpp"
 #include "render/run/frames/recorded_scene.hpp"
@@ -52,6 +53,7 @@ class Resume final : public Verb {
             ->expected(1)
             ->take_all();
         parser.add_flag("--no-film", no_film_, "Leave the film as it is");
+        parser.add_flag("--no-report", no_page_, "Leave report.html as it is");
         parser.add_option("--threads", threads_, "Threads in all [as its scene says]")
             ->type_name("N")
             ->check(CLI::Range(1, 1024));
@@ -62,6 +64,7 @@ class Resume final : public Verb {
     int run(Reporter& reporter) override {
         film_.command = command;
         film_.program = program_info();
+        if (!no_page_) film_.page = page_of_ended_run();
         const fs::path folder = folder_of_run(run_);
         Scene scene = scene_to_go_on(folder, {});
         Plan plan = plan_of_run(scene, folder);
@@ -157,7 +160,7 @@ class Resume final : public Verb {
     std::optional<double> until_, more_;
     std::optional<int> threads_;
     std::vector<std::string> accept_;
-    bool no_film_ = false;
+    bool no_film_ = false, no_page_ = false;
     FilmRequest film_;
 };
 

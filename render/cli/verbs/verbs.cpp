@@ -2,8 +2,8 @@
 
 // The table: NAME stands for the function NAME_verb() of the file NAME.cpp.
 #define GRAINREEL_VERBS(verb)                                                                              \
-    verb(movie) verb(resume) verb(render) verb(compare) verb(report) verb(inspect) verb(study) verb(check) \
-        verb(new) verb(scenes) verb(doctor) verb(chart) verb(bench)
+    verb(movie) verb(resume) verb(render) verb(compare) verb(report) verb(watch) verb(inspect) verb(study) \
+        verb(check) verb(new) verb(scenes) verb(doctor) verb(chart) verb(bench)
 
 namespace grainreel {
 

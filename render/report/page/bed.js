@@ -1,10 +1,13 @@
 // The bed beside its controls: what colours mean, who is shown, a slice, and the grain that was chosen.
 class BedPanel {
-    constructor(facts, bytes, runTime) {
+    /** n: what the ids of its elements end in, where the page has several beds. */
+    constructor(facts, bytes, runTime, n = "") {
+        this.n = n;
         this.frames = new BedFrames(facts, bytes);
         this.facts = facts;
         this.runTime = runTime;
-        this.canvas = document.getElementById("bed");
+        this.others = []; // beds beside this one
+        this.canvas = this.part("bed");
         const camera = new Camera(facts.view, facts.box);
         this.viewer = new Viewer(this.canvas, this.frames, new Walls(facts.slabs, facts.box), camera);
         this.shown = facts.species.map((species) => (species.hidden ? 0 : species.ghost ? 128 : 255));
@@ -13,7 +16,7 @@ class BedPanel {
         this.bindSlice();
         this.bindChoice();
         new Handling(this);
-        this.canvas.hidden = document.getElementById("bed-controls").hidden = false;
+        this.canvas.hidden = this.part("bed-controls").hidden = false;
         this.showTime(runTime.now);
         runTime.listen((time) => this.showTime(time));
         new ResizeObserver(() => this.viewer.change()).observe(this.canvas);
@@ -22,19 +25,59 @@ class BedPanel {
         addEventListener("beforeprint", () => this.viewer.draw());
     }
 
+    part(name) {
+        return document.getElementById(name + this.n);
+    }
+
+    /** Other moments of the same run. */
+    take(facts, bytes) {
+        const chosen = this.viewer.chosen >= 0 ? this.frames.ids[this.viewer.chosen] : -1;
+        this.frames = new BedFrames(facts, bytes);
+        this.facts = facts;
+        this.viewer.take(this.frames, new Walls(facts.slabs, facts.box));
+        this.viewer.chosen = this.frames.ids.indexOf(chosen);
+        this.findColourings();
+        this.colour(this.coloured);
+        this.showTime(this.runTime.now);
+    }
+
     showTime(time) {
-        this.viewer.frame = this.frames.indexAt(time);
+        const last = this.frames.times.length - 1;
+        this.viewer.frame = this.runTime.isLive ? last : this.frames.indexAt(time);
         const shown = this.frames.times[this.viewer.frame];
-        document.getElementById("bed-says").textContent =
-            `Moment ${this.viewer.frame + 1} of ${this.frames.times.length}, ${shown.toFixed(3)} s of the run.`;
+        const which = this.runTime.isLive ? "The newest moment" : `Moment ${this.viewer.frame + 1} of ${last + 1}`;
+        this.part("bed-says").textContent = `${which}, ${shown.toFixed(3)} s of the run.`;
         this.tellChosen();
         this.viewer.change();
+    }
+
+    /** The camera has moved: beds beside this one are looked at from the same side, and as near. */
+    turned() {
+        const {azimuth, elevation, distance, fitted} = this.viewer.camera;
+        this.viewer.change();
+        for (const other of this.others) {
+            Object.assign(other.viewer.camera, {azimuth, elevation});
+            other.viewer.camera.fit();
+            other.viewer.camera.zoom(fitted / distance);
+            other.viewer.change();
+        }
     }
 
     // ---- Colours ----
 
     fillColours() {
-        const select = document.getElementById("colour-by"), facts = this.facts;
+        const select = this.part("colour-by");
+        this.findColourings();
+        this.colourings.forEach((one, index) => select.append(element("option", {value: index}, one.name)));
+        select.addEventListener("change", () => {
+            for (const panel of [this, ...this.others]) panel.colourAs(Number(select.value));
+        });
+        this.colour(0);
+    }
+
+    // With the ranges that the moments need.
+    findColourings() {
+        const facts = this.facts;
         const heights = this.viewer.startHeights();
         const lowest = heights.reduce((a, b) => Math.min(a, b)), highest = heights.reduce((a, b) => Math.max(a, b));
         const rise = this.largestRise();
@@ -47,9 +90,30 @@ class BedPanel {
         ];
         if (facts.contacts)
             this.colourings.push({name: "contact number", by: 4, range: [0, 8], unit: "", ramp: "sequential"});
-        this.colourings.forEach((one, index) => select.append(element("option", {value: index}, one.name)));
-        select.addEventListener("change", () => this.colour(Number(select.value)));
-        this.colour(0);
+    }
+
+    /** Colours as another bed has them, each on the scale that both need. */
+    static shareColourings(panels) {
+        const common = panels[0].colourings.map((one) => ({...one, low: Infinity, high: -Infinity}));
+        const endsOf = (one) => one.ends ?? one.range ?? [0, 0];
+        for (const {colourings} of panels)
+            for (const one of colourings) {
+                const into = common.find((other) => other.by === one.by);
+                if (!into) continue;
+                into.low = Math.min(into.low, endsOf(one)[0]);
+                into.high = Math.max(into.high, endsOf(one)[1]);
+            }
+        for (const panel of panels) {
+            const {lowest, highest} = panel.frames.speed;
+            const share = (speed) => Math.log(speed / lowest) / Math.log(highest / lowest);
+            for (const one of panel.colourings) {
+                const from = common.find((other) => other.by === one.by);
+                if (!from || !one.range) continue;
+                if (one.ends) one.ends = [from.low, from.high];
+                one.range = one.ends ? one.ends.map(share) : [from.low, from.high];
+            }
+            panel.colour(panel.coloured);
+        }
     }
 
     // Shares of the logarithmic scale, and the speeds in m/s, between which nearly all grains are.
@@ -78,8 +142,16 @@ class BedPanel {
         return rises[Math.floor(0.9 * rises.length)] || 1e-6;
     }
 
+    // By number of the list, where this run has it too.
+    colourAs(index) {
+        if (!this.colourings[index]) return;
+        this.part("colour-by").value = index;
+        this.colour(index);
+    }
+
     colour(index) {
-        const one = this.colourings[index], legend = document.getElementById("legend");
+        this.coloured = index;
+        const one = this.colourings[index], legend = this.part("legend");
         this.viewer.colourBy = one.by;
         this.viewer.range = one.range ?? [0, 1];
         legend.hidden = one.by === 0;
@@ -87,9 +159,9 @@ class BedPanel {
             const ramp = this.facts.ramps[one.ramp];
             this.viewer.setRamp(new Uint8Array(ramp.flatMap((colour) => [...bytesOfColour(colour), 255])));
             const [low, high] = one.ends ?? one.range;
-            document.getElementById("legend-low").textContent = `${numberText(low)} ${one.unit}`;
-            document.getElementById("legend-high").textContent = `${numberText(high)} ${one.unit}`;
-            document.getElementById("legend-bar").style.background = `linear-gradient(to right, ${ramp.join(",")})`;
+            this.part("legend-low").textContent = `${numberText(low)} ${one.unit}`;
+            this.part("legend-high").textContent = `${numberText(high)} ${one.unit}`;
+            this.part("legend-bar").style.background = `linear-gradient(to right, ${ramp.join(",")})`;
         }
         this.viewer.change();
     }
@@ -97,9 +169,9 @@ class BedPanel {
     // ---- Who is shown ----
 
     fillSpecies() {
-        const list = document.getElementById("species");
+        const list = this.part("species");
         this.facts.species.forEach((species, index) => {
-            const select = element("select", {id: `species-${index}`});
+            const select = element("select", {id: `species${this.n}-${index}`});
             for (const [value, words] of [[255, "shown"], [128, "ghost"], [0, "hidden"]])
                 select.append(element("option", {value, selected: this.shown[index] === value}, words));
             select.addEventListener("change", () => {
@@ -122,7 +194,7 @@ class BedPanel {
     // ---- A slice: what lies before a plane is taken away ----
 
     bindSlice() {
-        const select = document.getElementById("slice"), slider = document.getElementById("slice-at");
+        const select = this.part("slice"), slider = this.part("slice-at");
         const update = () => {
             const axis = ["x", "y", "z"].indexOf(select.value);
             slider.disabled = axis < 0;
@@ -145,17 +217,17 @@ class BedPanel {
     // ---- The chosen grain ----
 
     bindChoice() {
-        this.input = document.getElementById("grain-id");
-        document.getElementById("choose").addEventListener("submit", (event) => {
+        this.input = this.part("grain-id");
+        this.part("choose").addEventListener("submit", (event) => {
             event.preventDefault();
             this.choose(this.frames.ids.indexOf(Number(this.input.value)));
         });
-        this.follow = document.getElementById("follow");
+        this.follow = this.part("follow");
         this.follow.addEventListener("change", () => this.showTime(this.runTime.now));
-        document.getElementById("reset-view").addEventListener("click", () => {
+        this.part("reset-view").addEventListener("click", () => {
             this.follow.checked = false;
             this.viewer.camera.reset();
-            this.viewer.change();
+            this.turned();
         });
     }
 
@@ -168,7 +240,7 @@ class BedPanel {
     }
 
     tellChosen() {
-        const words = document.getElementById("grain-says"), {viewer, frames} = this;
+        const words = this.part("grain-says"), {viewer, frames} = this;
         const grain = viewer.chosen, frame = viewer.frame;
         viewer.path = [];
         if (grain < 0) {
@@ -247,7 +319,7 @@ class Handling {
         }
         pointer.x = event.clientX;
         pointer.y = event.clientY;
-        this.viewer.change();
+        this.panel.turned();
     }
 
     up(event) {
@@ -264,7 +336,7 @@ class Handling {
         if (document.activeElement !== this.panel.canvas) return;
         event.preventDefault();
         this.viewer.camera.zoom(Math.exp(-0.001 * event.deltaY));
-        this.viewer.change();
+        this.panel.turned();
     }
 
     key(event) {
@@ -282,7 +354,7 @@ class Handling {
         if (!acts[event.key]) return;
         event.preventDefault();
         acts[event.key]();
-        this.viewer.change();
+        this.panel.turned();
     }
 }
 

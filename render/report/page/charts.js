@@ -9,15 +9,17 @@ const chartHeight = 200; // CSS pixels, axes and all
 
 class Charts {
     /**
-     * measures: {columns: [{name, label, unit}], values: [[...]]}, the first column being the time.
-     * shown: names of the columns that have a chart at first.
+     * runs: of each run {name, measures}, measures being {columns: [{name, label, unit}], values: [[...]]} with the
+     * time as the first column; a line each. shown: names of the columns that have a chart at first.
      */
-    constructor(measures, shown, runTime) {
+    constructor(runs, shown, runTime) {
         this.runTime = runTime;
         this.place = document.getElementById("charts");
         this.plots = new Map(); // by the column's name
         this.range = null; // of time, s; null for all
-        this.take(measures);
+        this.removed = new Set(); // names of columns whose charts the reader took away
+        this.runs = runs;
+        this.takeAll();
         for (const name of shown) this.add(name);
         this.fillChooser();
         for (const [id, factor] of [["zoom-in", 0.5], ["zoom-out", 2]])
@@ -30,21 +32,38 @@ class Charts {
             matchMedia(query).addEventListener("change", () => this.redraw());
     }
 
-    /** Takes other values, of more columns or more rows. */
-    take(measures) {
-        this.measures = measures;
-        this.byName = new Map(measures.columns.map((column, index) => [column.name, index]));
+    /** Takes other values of a run, of more columns or more rows. */
+    take(measures, run = 0) {
+        this.runs[run].measures = measures;
+        this.takeAll();
+    }
+
+    takeAll() {
+        this.columns = new Map(); // by name, of all runs
+        for (const {measures} of this.runs)
+            for (const column of measures.columns.slice(1)) this.columns.set(column.name, column);
         for (const [name, plot] of this.plots) plot.setData(this.dataOf(name));
     }
 
+    // The values of a column in a run; null where it has none.
+    valuesOf(name, {measures}) {
+        const at = measures.columns.findIndex((column) => column.name === name);
+        return at > 0 ? measures.values[at] : null;
+    }
+
+    // Times, and a line for each run.
     dataOf(name) {
-        return [this.measures.values[0], this.measures.values[this.byName.get(name)]];
+        const tables = this.runs.map((run) => {
+            const times = run.measures.values[0];
+            return [times, this.valuesOf(name, run) ?? times.map(() => null)];
+        });
+        return tables.length === 1 ? tables[0] : uPlot.join(tables);
     }
 
     fillChooser() {
         const chooser = document.getElementById("more-charts");
         chooser.replaceChildren(element("option", {value: ""}, "Add a chart…"));
-        for (const column of this.measures.columns.slice(1))
+        for (const column of this.columns.values())
             if (!this.plots.has(column.name))
                 chooser.append(element("option", {value: column.name}, titleOf(column)));
         chooser.onchange = () => {
@@ -53,8 +72,12 @@ class Charts {
         };
     }
 
+    addOnce(name) {
+        if (!this.plots.has(name) && !this.removed.has(name)) this.add(name);
+    }
+
     add(name) {
-        const column = this.measures.columns[this.byName.get(name)];
+        const column = this.columns.get(name);
         if (!column) return;
         const frame = element("figure", {className: "chart"});
         const summary = this.summaryOf(column);
@@ -69,6 +92,7 @@ class Charts {
         this.plots.set(name, plot);
         this.scrubIn(plot);
         remove.addEventListener("click", () => {
+            this.removed.add(name);
             plot.destroy();
             frame.remove();
             this.plots.delete(name);
@@ -80,16 +104,22 @@ class Charts {
 
     // What the chart shows, for those who do not see it.
     summaryOf(column) {
-        const values = this.dataOf(column.name)[1].filter((value) => value !== null);
-        if (!values.length) return `${titleOf(column)} against time: no value.`;
+        const several = this.runs.length > 1;
+        const ofRuns = this.runs.map((run) => (several ? `${run.name}: ` : "") + this.summaryOfRun(column, run));
+        return `${titleOf(column)} against time: ${ofRuns.join("; ")}.`;
+    }
+
+    summaryOfRun(column, run) {
+        const values = (this.valuesOf(column.name, run) ?? []).filter((value) => value !== null);
+        if (!values.length) return "no value";
         let low = values[0], high = values[0];
         for (const value of values) {
             low = Math.min(low, value);
             high = Math.max(high, value);
         }
         return (
-            `${titleOf(column)} against time: at first ${numberText(values[0])}, at the end ` +
-            `${numberText(values[values.length - 1])}, between ${numberText(low)} and ${numberText(high)}.`
+            `at first ${numberText(values[0])}, at the end ${numberText(values[values.length - 1])}, ` +
+            `between ${numberText(low)} and ${numberText(high)}`
         );
     }
 
@@ -108,7 +138,7 @@ class Charts {
             ],
             series: [
                 {label: "time (s)", value},
-                {label: "value", value, stroke: () => colourOf("--accent"), width: 1.5, points: {show: false}},
+                ...this.runs.map(({name}, k) => ({label: name || "value", value, ...styleOfRun(k, this.runs.length)})),
             ],
             hooks: {draw: [(plot) => this.drawNow(plot)]},
         };
@@ -122,6 +152,7 @@ class Charts {
         plot.ctx.save();
         plot.ctx.strokeStyle = colourOf("--now");
         plot.ctx.lineWidth = 2 * devicePixelRatio;
+        plot.ctx.setLineDash([]);
         plot.ctx.beginPath();
         plot.ctx.moveTo(x, top);
         plot.ctx.lineTo(x, top + height);
@@ -180,6 +211,13 @@ class Charts {
             if (width > 0 && width !== plot.width) plot.setSize({width, height: chartHeight});
         }
     }
+}
+
+// Lines of several runs differ by colour and by dashes.
+function styleOfRun(k, runs) {
+    const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 5]];
+    const stroke = () => colourOf(runs > 1 ? `--run-${k % dashes.length}` : "--accent");
+    return {stroke, dash: runs > 1 ? dashes[k % dashes.length] : [], width: 1.5, points: {show: false}};
 }
 
 function titleOf(column) {

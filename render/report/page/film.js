@@ -1,24 +1,24 @@
 // The film, from the page's own bytes, tied to the run's time by a table of frames.
 class FilmPanel {
     /** film: facts {rate, type, times}; times[k] is the run's time, s, that frame k shows, or times is empty. */
-    constructor(film, bytes, runTime, bar) {
+    constructor(film, bytes, runTime, bar, n = "") {
+        this.n = n; // what the ids of its elements end in, where the page has several films
+        this.others = []; // films beside this one
+        this.leads = true; // among them: its frames are the page's moment
         this.film = film;
         this.runTime = runTime;
-        this.video = document.getElementById("film");
+        this.video = document.getElementById("film" + n);
         this.wanted = null; // a frame to seek while another seek goes on
         this.follows = false; // the last seek came from chart, bed or bar
         const blob = new Blob([bytes], {type: film.type});
         this.video.src = URL.createObjectURL(blob);
         this.tied = film.times.length > 0;
-        this.video.addEventListener("play", () => {
-            this.follows = false;
-            bar.setPlaying(true);
-        });
-        this.video.addEventListener("pause", () => bar.setPlaying(false));
+        this.video.addEventListener("play", () => this.begun(bar));
+        this.video.addEventListener("pause", () => this.ended(bar));
         this.video.addEventListener("seeked", () => this.seekWanted());
         this.video.addEventListener("seeking", () => this.noteSeek());
         this.video.addEventListener("error", () => this.say("This browser cannot play the film."));
-        bar.player = {play: () => this.play(), pause: () => this.video.pause()};
+        bar.player ??= {play: () => this.play(), pause: () => this.pause()};
         if (!this.tied) return;
         this.watchFrames();
         runTime.listen((time, source) => {
@@ -26,12 +26,41 @@ class FilmPanel {
         });
     }
 
+    // By the bar or its own buttons. Films that show the same moments go along; others are sought.
+    begun(bar) {
+        if (this.goesAlong) return;
+        this.follows = false;
+        bar.setPlaying(true);
+        this.leads = true;
+        for (const other of this.others) {
+            other.leads = false;
+            if (!other.tied || !sameTimes(other.film, this.film)) continue;
+            other.goesAlong = true;
+            other.video.currentTime = this.video.currentTime;
+            other.play();
+        }
+    }
+
+    ended(bar) {
+        if (this.goesAlong) return;
+        bar.setPlaying(false);
+        for (const other of this.others) {
+            if (!other.goesAlong) continue;
+            other.video.pause();
+            other.goesAlong = false;
+        }
+    }
+
+    pause() {
+        for (const film of [this, ...this.others]) if (!film.goesAlong) film.video.pause();
+    }
+
     play() {
         this.video.play().catch((reason) => this.say(`The film does not play: ${reason.message}.`));
     }
 
     say(text) {
-        document.getElementById("film-says").textContent = text;
+        document.getElementById("film-says" + this.n).textContent = text;
     }
 
     // Each frame as it is shown. Where the browser does not say, the film's clock does; it also has the last word when
@@ -54,13 +83,16 @@ class FilmPanel {
         this.frame = frame;
         const of = this.film.times.length;
         this.say(`Frame ${frame + 1} of ${of}, ${this.film.times[frame].toFixed(3)} s of the run.`);
-        if (!this.follows) this.runTime.set(this.film.times[frame], this);
+        if (this.leads && !this.follows) this.runTime.set(this.film.times[frame], this);
     }
 
     /** To the frame that is nearest to the run's time. */
     seek(time) {
-        this.video.pause();
-        this.wanted = nearestIndex(this.film.times, time);
+        const wanted = nearestIndex(this.film.times, time);
+        const mostLate = 2; // frames, of a film that goes along
+        if (this.goesAlong && Math.abs(wanted - (this.frame ?? wanted)) <= mostLate) return;
+        if (!this.goesAlong) this.video.pause();
+        this.wanted = wanted;
         if (!this.video.seeking) this.seekWanted();
     }
 
@@ -78,4 +110,8 @@ class FilmPanel {
         if (this.ownSeek !== undefined && Math.abs(this.video.currentTime - this.ownSeek) < 1e-3) return;
         this.follows = false;
     }
+}
+
+function sameTimes(a, b) {
+    return a.rate === b.rate && a.times.length === b.times.length && a.times.every((time, k) => Math.abs(time - b.times[k]) < 1e-9);
 }

@@ -5,40 +5,36 @@ function say(id, text) {
     if (place) place.textContent = text;
 }
 
-function offerTable(bytes, name) {
-    const link = document.getElementById("download-csv");
-    if (!link) return;
-    link.href = URL.createObjectURL(new Blob([bytes], {type: "text/csv"}));
-    link.download = name;
-    link.hidden = false;
+function offerTable(bytes, file, name) {
+    const link = element("a", {href: URL.createObjectURL(new Blob([bytes], {type: "text/csv"})), download: file}, name);
+    document.getElementById("downloads").append(link, " ");
 }
 
-async function openTable(facts, charts) {
-    const packed = bytesOf("measures-bytes");
+async function openTable(run, k, n) {
+    const packed = bytesOf("measures-bytes" + n);
     if (!packed || !charts) return;
     try {
         const bytes = await inflated(packed);
-        offerTable(bytes, "measures.csv");
-        charts.take(readTable(new TextDecoder().decode(bytes), facts.columns));
+        offerTable(bytes, facts.runs ? `${run.name}.csv` : "measures.csv", `Download ${facts.runs ? run.name : "measures.csv"}`);
+        charts.take(readTable(new TextDecoder().decode(bytes), run.columns), k);
         charts.fillChooser();
     } catch (problem) {
-        say("charts-say", `The complete table is not here: ${problem.message}. It lies in measures.csv beside the page.`);
+        say("charts-say", `The complete table is not here: ${problem.message}. It lies in measures.csv in the run’s folder.`);
     }
 }
 
-function openFilm(facts, runTime, bar) {
-    const bytes = facts.film ? bytesOf("film-bytes") : null;
-    if (bytes) return new FilmPanel(facts.film, bytes, runTime, bar);
-    return null;
+function openFilm(run, n) {
+    const bytes = run.film ? bytesOf("film-bytes" + n) : null;
+    return bytes ? new FilmPanel(run.film, bytes, runTime, bar, n) : null;
 }
 
-async function openBed(facts, runTime) {
-    const packed = facts.bed ? bytesOf("bed-bytes") : null;
+async function openBed(run, n) {
+    const packed = run.bed ? bytesOf("bed-bytes" + n) : null;
     if (!packed) return null;
     try {
-        return new BedPanel(facts.bed, await inflated(packed), runTime);
+        return new BedPanel(run.bed, await inflated(packed), runTime, n);
     } catch (problem) {
-        say("bed-says", `The bed in three dimensions is not shown: ${problem.message}. Film and charts do without it.`);
+        say("bed-says" + n, `The bed in three dimensions is not shown: ${problem.message}. Film and charts do without it.`);
         return null;
     }
 }
@@ -72,11 +68,56 @@ function firstPicture() {
     });
 }
 
+async function openFields(run, n) {
+    const packed = run.fields ? bytesOf("fields-bytes" + n) : null;
+    if (!packed) return null;
+    try {
+        return new FieldsPanel(run.fields, await inflated(packed), runTime, n);
+    } catch (problem) {
+        say("field-says" + n, `The fields are not shown: ${problem.message}.`);
+        return null;
+    }
+}
+
+// What the ids of a run's elements end in: nothing where the page has one run alone.
+function endOf(k) {
+    return facts.runs ? `-${k}` : "";
+}
+
+async function openPage() {
+    report.films = runs.map((run, k) => openFilm(run, endOf(k)));
+    report.beds = [];
+    for (const [k, run] of runs.entries()) report.beds.push(await openBed(run, endOf(k)));
+    report.fields = [];
+    for (const [k, run] of runs.entries()) report.fields.push(await openFields(run, endOf(k)));
+    const films = report.films.filter((film) => film?.tied), beds = report.beds.filter((bed) => bed);
+    for (const panels of [films, beds]) for (const one of panels) one.others = panels.filter((other) => other !== one);
+    for (const [k, film] of films.entries()) film.leads = k === 0;
+    if (beds.length > 1) BedPanel.shareColourings(beds);
+    [report.film] = report.films;
+    [report.bed] = report.beds;
+    for (const [k, run] of runs.entries()) await openTable(run, k, endOf(k));
+}
+
+// The times that the buttons go through: of the film's frames, or else of the bed's moments or the measures' rows.
+function stepsOf(run) {
+    if (run.film && run.film.times.length) return run.film.times;
+    return run.bed ? run.bed.times : run.measures ? run.measures.values[0] : [0];
+}
+
+function makeCharts() {
+    if (!runs.some((run) => run.measures)) return null;
+    const none = {columns: [{name: "time_s", label: "time", unit: "s"}], values: [[]]};
+    const shown = [...new Set(runs.flatMap((run) => run.charts))];
+    const tables = runs.map(({name, measures}) => ({name: facts.runs ? name : "", measures: measures ?? none}));
+    return new Charts(tables, shown, runTime);
+}
+
 const facts = factsOf("facts");
 const runTime = new RunTime(facts.begin, facts.end);
-const steps = facts.film && facts.film.times.length ? facts.film.times : facts.bed ? facts.bed.times : facts.measures.values[0];
-const bar = new TimeBar(runTime, steps, facts.frequency);
-const charts = facts.measures ? new Charts(facts.measures, facts.charts, runTime) : null;
+const runs = facts.runs ?? [facts];
+const bar = new TimeBar(runTime, stepsOf(runs[0]), facts.frequency);
+const charts = makeCharts();
 bindCopies();
 bindStory(runTime);
 
@@ -85,8 +126,6 @@ const report = {runTime, charts, film: null, bed: null};
 window.grainreelReport = report;
 document.addEventListener("DOMContentLoaded", async () => {
     await firstPicture();
-    report.film = openFilm(facts, runTime, bar);
-    report.bed = await openBed(facts, runTime);
-    await openTable(facts, charts);
+    await (facts.live ? new Live(facts, runTime).go() : openPage());
     document.documentElement.dataset.ready = "yes";
 });

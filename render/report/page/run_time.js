@@ -4,6 +4,7 @@ class RunTime {
         this.begin = begin;
         this.end = end;
         this.now = begin;
+        this.isLive = false; // then the run alone moves it
         this.listeners = [];
     }
 
@@ -13,6 +14,7 @@ class RunTime {
     }
 
     set(time, source) {
+        if (this.isLive && source !== "run") return;
         const now = Math.min(this.end, Math.max(this.begin, time));
         if (!Number.isFinite(now)) return;
         this.now = now;
@@ -30,7 +32,8 @@ class TimeBar {
         this.slider = document.getElementById("time");
         this.words = document.getElementById("time-words");
         this.playing = null;
-        this.player = {play: () => this.playSteps(), pause: () => this.stopSteps()};
+        this.player = null; // the film's, if there is one
+        this.stepping = {play: () => this.playSteps(), pause: () => this.stopSteps()};
         this.slider.min = 0;
         this.slider.max = 1000;
         this.slider.step = 1;
@@ -42,9 +45,13 @@ class TimeBar {
         document.getElementById("back").addEventListener("click", () => this.step(-1));
         document.getElementById("on").addEventListener("click", () => this.step(1));
         this.button = document.getElementById("play");
-        this.button.addEventListener("click", () => (this.isPlaying ? this.player.pause() : this.player.play()));
+        this.button.addEventListener("click", () => (this.isPlaying ? this.whoPlays().pause() : this.whoPlays().play()));
         runTime.listen((time, source) => this.show(time, source));
         this.show(runTime.now, null);
+    }
+
+    whoPlays() {
+        return this.player ?? this.stepping;
     }
 
     key(event) {
@@ -56,7 +63,7 @@ class TimeBar {
 
     /** To the next of the steps, or the one before. */
     step(by) {
-        this.player.pause();
+        this.whoPlays().pause();
         const at = nearestIndex(this.steps, this.runTime.now);
         this.runTime.set(this.steps[Math.min(this.steps.length - 1, Math.max(0, at + by))], "step");
     }

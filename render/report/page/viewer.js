@@ -23,15 +23,26 @@ class Viewer {
         this.rampTexture = this.gl.createTexture();
     }
 
+    /** Other moments of the same run, with their walls. */
+    take(frames, walls) {
+        this.frames = frames;
+        this.walls = walls;
+        for (const buffer of this.grainBuffers) this.gl.deleteBuffer(buffer);
+        this.gl.deleteVertexArray(this.grainArray);
+        this.loadGrains();
+    }
+
     loadGrains() {
         const gl = this.gl, frames = this.frames;
         this.grainArray = gl.createVertexArray();
+        this.grainBuffers = [];
+        const makeBuffer = () => this.grainBuffers[this.grainBuffers.push(gl.createBuffer()) - 1];
         gl.bindVertexArray(this.grainArray);
-        this.moments = gl.createBuffer();
+        this.moments = makeBuffer();
         gl.bindBuffer(gl.ARRAY_BUFFER, this.moments);
         gl.bufferData(gl.ARRAY_BUFFER, frames.packed, gl.STATIC_DRAW);
         const perGrain = (location, values, pointer) => {
-            gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+            gl.bindBuffer(gl.ARRAY_BUFFER, makeBuffer());
             gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
             pointer(location);
             gl.enableVertexAttribArray(location);

@@ -31,7 +31,7 @@ std::vector<std::string> run_command(const Study& study, const Member& member, c
     std::vector<std::string> words{"movie",   folder.scene(study).string(),
                                    "--out",   folder.member(member).string(),
                                    "--force", "--threads",
-                                   "1"};
+                                   "1",       "--no-report"};
     if (!film) words.push_back("--no-film");
     // Members are run again rather than looked into; a value of the study's own comes later and counts.
     for (const char* word : {"--set", "output.checkpoints=none"}) words.emplace_back(word);

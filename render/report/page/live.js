@@ -1,0 +1,126 @@
+// The page of a run that still goes: asks the program that shows it, once a second, what is new.
+
+const secondsBetweenLooks = 1;
+
+class Live {
+    constructor(facts, runTime) {
+        this.facts = facts;
+        this.runTime = runTime;
+        this.has = {picture: 0, bed: -1, rows: 0}; // versions that the page shows
+        this.charts = null;
+        this.bed = null;
+        runTime.isLive = true;
+        for (const words of document.querySelectorAll(".whole-run")) words.hidden = true;
+        document.getElementById("bar").hidden = true; // there is no way back in time
+        for (const button of document.querySelectorAll("button[data-time]")) button.replaceWith(button.textContent);
+        document.getElementById("bed-says").textContent = "The run has written no grains yet.";
+        document.getElementById("film-says").textContent = "The film has no picture yet.";
+        document.getElementById("charts-say").textContent = "The run has measured nothing yet.";
+    }
+
+    async go() {
+        try {
+            const state = await (await fetch("./live/state", {cache: "no-store"})).json();
+            this.failures = 0;
+            this.tell(state);
+            await this.takeParts(state);
+            if (state.last || state.stage === "gone") return;
+            this.isOver = state.over;
+        } catch {
+            this.failures = (this.failures ?? 0) + 1;
+            if (this.failures > 2) this.say("The program that shows the run has ended; what it showed last is below.");
+        }
+        const wait = this.failures > 2 || this.isOver ? 10 : document.hidden ? 5 : 1;
+        setTimeout(() => this.go(), 1000 * wait * secondsBetweenLooks);
+    }
+
+    say(text) {
+        document.getElementById("live-says").textContent = text;
+    }
+
+    tell(state) {
+        const of = `${numberText(Math.max(0, state.time))} of ${numberText(state.end)} s`;
+        const left = state.remaining === null ? "" : `, ${durationText(state.remaining)} left`;
+        const words = {
+            packing: "The grains are being packed.",
+            running: `${of}${left}.`,
+            complete: `The run is complete: ${numberText(state.time)} s.`,
+            interrupted: `The run was stopped at ${of}.`,
+            failed: `The run failed at ${of}; log.txt tells why.`,
+            gone: "The run’s folder has gone.",
+        };
+        this.say(words[state.stage] ?? `The run was broken off at ${of}.`);
+        const bar = document.getElementById("live-done");
+        if (state.stage === "packing") bar.removeAttribute("value");
+        else bar.value = state.done;
+        document.getElementById("live-report").hidden = !(state.over && state.report);
+        this.runTime.begin = Math.min(state.begin, 0);
+        this.runTime.end = Math.max(state.end, state.time);
+        this.runTime.set(state.time, "run");
+    }
+
+    async takeParts(state) {
+        if (state.rows > this.has.rows) await this.takeMeasures(state.rows);
+        if (state.bed !== this.has.bed && state.bed >= 0) await this.takeBed(state);
+        if (state.picture !== this.has.picture) await this.takePicture(state.picture);
+    }
+
+    async takeMeasures(rows) {
+        const answer = await fetch("./live/measures", {cache: "no-store"});
+        if (!answer.ok) return;
+        const measures = await answer.json();
+        this.has.rows = rows;
+        say("charts-say", "");
+        if (!this.charts) {
+            this.charts = new Charts([{name: "", measures}], measures.charts, this.runTime);
+            const link = element("a", {href: "./measures.csv", download: ""}, "Download measures.csv");
+            document.getElementById("downloads").append(link);
+            report.charts = this.charts;
+        } else {
+            this.charts.take(measures);
+            for (const name of measures.charts) this.charts.addOnce(name); // those that change only now
+        }
+        this.charts.setRange(this.charts.range);
+    }
+
+    async takeBed(state) {
+        const answer = await fetch("./live/bed", {cache: "no-store"});
+        if (!answer.ok) return;
+        const bytes = new Uint8Array(await answer.arrayBuffer());
+        const length = new DataView(bytes.buffer).getUint32(0, true);
+        const facts = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
+        this.has.bed = state.bed;
+        try {
+            const packed = await inflated(bytes.subarray(4 + length));
+            if (this.bed) {
+                this.bed.take(facts, packed);
+            } else {
+                this.bed = new BedPanel(facts, packed, this.runTime);
+                report.bed = this.bed;
+            }
+        } catch (problem) {
+            say("bed-says", `The bed in three dimensions is not shown: ${problem.message}.`);
+            this.has.bed = state.bed;
+        }
+    }
+
+    // The old picture stays until the new one is there.
+    async takePicture(version) {
+        const picture = document.getElementById("live-picture");
+        const next = new Image();
+        next.src = `./live/picture?n=${version}`;
+        await next.decode();
+        this.has.picture = version;
+        picture.src = next.src;
+        picture.hidden = false;
+        say("film-says", "The film’s newest picture.");
+    }
+}
+
+/** "45 s", "3 min", "2 h 5 min". */
+function durationText(seconds) {
+    const whole = Math.ceil(seconds);
+    if (whole < 100) return `${whole} s`;
+    const minutes = Math.ceil(whole / 60);
+    return minutes < 100 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}

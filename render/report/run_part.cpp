@@ -1,0 +1,153 @@
+#include "render/report/run_part.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/output/measures_csv.hpp"
+#include "render/report/embed/base64.hpp"
+#include "render/report/embed/html.hpp"
+#include "render/report/embed/read_bytes.hpp"
+#include "render/report/embed/zlib_pack.hpp"
+#include "render/report/page_files.hpp"
+#include "render/report/page_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_table_bytes = 2'000'000;  // of measures.csv, packed
+
+// As an element that no browser runs or shows.
+std::string blob(const std::string& id, const std::vector<std::uint8_t>& bytes) {
+    if (bytes.empty()) return "";
+    return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
+                       base64(bytes));
+}
+
+std::vector<std::uint8_t> packed_table(const fs::path& file) {
+    std::error_code error;
+    if (!fs::exists(file, error)) return {};
+    std::vector<std::uint8_t> packed = zlib_packed(read_bytes(file));
+    if (packed.size() > most_table_bytes) packed.clear();
+    return packed;
+}
+
+}  // namespace
+
+RunPart::RunPart(const PageRun& run, std::string name, std::string n, std::size_t most_film)
+    : run_(run), name_(std::move(name)), n_(std::move(n)), most_film_(most_film) {}
+
+void RunPart::read(const PageProgress& progress) {
+    const fs::path& folder = run_.run->folder();
+    record_ = run_facts(folder);
+    table_ = read_measures(folder / "measures.csv");
+    if (table_) measures_ = page_measures(scene(), *table_);
+    film_ = page_film(scene(), folder, record_.film_frames, progress, most_film_);
+    poster_ = page_poster(folder);
+    times_ = film_times_of();
+    fields_ = page_fields(scene(), folder);
+    lead_ = lead_html(scene(), record_);
+    late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
+    whole_table_ = !late_blobs_.empty();
+    late_blobs_ += blob("fields-bytes" + n_, fields_.packed);
+    late_blobs_ += blob("film-bytes" + n_, film_.bytes);
+}
+
+std::size_t RunPart::taken() const {
+    const std::size_t words_and_facts = 400'000;
+    return late_blobs_.size() + poster_.size() / 3 * 4 + words_and_facts;
+}
+
+void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
+    bed_ = bed_frames(*run_.run, run_.contacts, most_bytes, progress);
+}
+
+std::string RunPart::title() const {
+    return html_text(scene().title.empty() ? scene().name : scene().title);
+}
+
+FilmTimes RunPart::film_times_of() const {
+    if (film_.bytes.empty() || !record_.film_frames) return {};
+    if (auto kept = kept_film_times(run_.run->folder(), *record_.film_frames)) return *kept;
+    double first = run_.run->span().from;
+    if (table_ && measures_.time < measures_.columns.size() && table_->rows() > 0)
+        first = std::min(first, table_->values(measures_.time, 0, 1).front());
+    return film_times(scene(), *record_.film_frames, first, record_.status == "complete");
+}
+
+Span RunPart::span() const {
+    Span span = run_.run->span();
+    if (!times_.times.empty()) {
+        span.from = std::min(span.from, times_.times.front());
+        span.to = std::max(span.to, times_.times.back());
+    }
+    return span;
+}
+
+std::string RunPart::film(bool beside) const {
+    return film_html(film_, poster_, times_.why_not, n_, beside);
+}
+
+std::string RunPart::bed() const {
+    return filled(page_files().bed, {{"about", bed_about(bed_, scene())}, {"n", n_}});
+}
+
+std::string RunPart::fields(int level) const {
+    if (!fields_.why_not.empty())
+        return fmt::format("<p class=\"faint\">{}</p>\n", html_text(fields_.why_not));
+    if (!fields_.present()) return "";
+    std::string about = fmt::format(
+        "Coarse-grained from the grains; each value is rounded to 1/254 of what the quantity goes through. "
+        "fields.nc has all of them exactly.");
+    if (scene().output.fields.grid == FieldOutput::Grid::xyz) about += " The map shows means over the depth.";
+    if (fields_.records.size() < fields_.all_records)
+        about += fmt::format(" Of its {} records these are {}, evenly spread.", fields_.all_records,
+                             fields_.records.size());
+    return filled(page_files().fields,
+                  {{"n", n_}, {"level", std::to_string(level)}, {"about", html_text(about)}});
+}
+
+std::string RunPart::charts_about() const {
+    if (!table_ || measures_.rows.empty()) return "The run has no measures.";
+    std::string text =
+        whole_table_ ? "" : "The complete table is too long for this page; it lies in measures.csv. ";
+    if (!whole_table_ && measures_.rows.size() < table_->rows())
+        text += fmt::format("Charts show {} of its {} rows, evenly spread.", measures_.rows.size(),
+                            table_->rows());
+    return html_text(text);
+}
+
+std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) const {
+    return chapters_html(scene(), record_, run_.planned, run_.run->folder(),
+                         on_page_of_its_own ? page.filename().string() : "", n_);
+}
+
+std::string RunPart::facts() const {
+    return facts_json({name_, scene(), span(), film_, times_, bed_, table_.get(), measures_, fields_});
+}
+
+std::string RunPart::bed_blob() const {
+    return blob("bed-bytes" + n_, bed_.packed);
+}
+
+std::string RunPart::late_blobs() const {
+    return late_blobs_;
+}
+
+std::vector<std::string> RunPart::news() const {
+    std::vector<std::string> news = run_.run->news();
+    for (const std::string& note : {film_.note, times_.why_not})
+        if (!note.empty()) news.push_back(note);
+    if (bed_.moments.size() < bed_.all_moments)
+        news.push_back(
+            fmt::format("the page has {} of the trajectory's {} moments; there is no room for the others",
+                        bed_.moments.size(), bed_.all_moments));
+    if (bed_.grains < bed_.all_grains)
+        news.push_back(fmt::format("the page has {} of {} grains, those nearest to the middle of the depth",
+                                   bed_.grains, bed_.all_grains));
+    return news;
+}
+
+}  // namespace grainreel

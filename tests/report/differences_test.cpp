@@ -1,0 +1,43 @@
+// In what scenes differ.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/report/differences.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::Pair;
+using testing::UnorderedElementsAre;
+
+TEST(Differences, KeysHaveTheirTableAndItsNumber) {
+    EXPECT_THAT(
+        keys_of_scene("title = \"a # b\"  # not this\n[drive]\nfrequency = 20\n\n[[species]]\nname = \"a\"\n"
+                      "[[species]]\nname = \"b\"\nlist = [\n  1,\n  2]\n"),
+        UnorderedElementsAre(Pair("title", "\"a # b\""), Pair("drive.frequency", "20"),
+                             Pair("species.1.name", "\"a\""), Pair("species.2.name", "\"b\""),
+                             Pair("species.2.list", "[1,2]")));
+}
+
+TEST(Differences, OnlyWhatDiffersIsInTheTable) {
+    const test::TemporaryFolder here;
+    test::write_text(here / "a.toml", "title = \"<i>a</i>\"\n[run]\nduration = 1\nstep = 0.3\n");
+    test::write_text(here / "b.toml",
+                     "title = \"b\"\n[run]\nduration = 1.0\nstep = 0.30000000000000004\nseed = 7\n");
+    const std::string table = differences_html({{"first", here / "a.toml"}, {"second", here / "b.toml"}});
+    EXPECT_THAT(
+        table,
+        HasSubstr(
+            "<th scope=\"row\">title</th><td>&quot;&lt;i&gt;a&lt;/i&gt;&quot;</td><td>&quot;b&quot;</td>"));
+    EXPECT_THAT(table, HasSubstr("<th scope=\"row\">run.seed</th><td>–</td><td>7</td>"));
+    EXPECT_THAT(table, Not(HasSubstr("run.duration")));
+    EXPECT_THAT(table, Not(HasSubstr("run.step")));
+    EXPECT_THAT(differences_html({{"a", here / "a.toml"}, {"a", here / "a.toml"}}),
+                HasSubstr("The scenes are the same."));
+}
+
+}  // namespace
+}  // namespace grainreel
