@@ -261,7 +261,8 @@ class BedPanel {
             `at (${inMm}) mm`,
             speed > 0 ? `speed ${speed.toPrecision(2)} m/s` : `speed below ${numberText(this.facts.speed.lowest)} m/s`,
         ];
-        if (this.facts.contacts) parts.push(`${frames.contactsAt(frame, grain)} contacts`);
+        const contacts = this.facts.contacts ? frames.contactsAt(frame, grain) : null;
+        if (contacts !== null) parts.push(`${contacts} contacts`);
         parts.push(`way so far at least ${numberText(1000 * lengthOf(viewer.path))} mm`);
         words.textContent = `${name}: ${parts.join(", ")}.`;
         if (this.follow.checked) viewer.camera.target = place;
