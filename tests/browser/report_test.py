@@ -185,12 +185,16 @@ def a_click_finds_the_grain(browser, run):
     frame = int(abs(trajectory["time"][:] - browser.run(
         "return grainreelReport.bed.frames.times[grainreelReport.bed.viewer.frame]")).argmin())
     places, radii, ids = trajectory["coordinates"][frame], trajectory["radius"][frame], trajectory["id"][frame]
-    left, top, width, height = browser.place_of("#bed")
+    left, top, _, _ = browser.place_of("#bed")
+    border, width, height = browser.run("const c = document.getElementById('bed');"
+                                        "return [c.clientLeft, c.clientWidth, c.clientHeight]")
+    left, top = left + border, top + border
     found = 0
-    for across in numpy.linspace(0.3, 0.7, 7):
-        for down in numpy.linspace(0.4, 0.9, 9):
-            expected = first_on_ray(camera, across, down, width / height, places, radii)
-            x, y = left + round(across * width), top + round(down * height)
+    for across in numpy.linspace(0.25, 0.75, 11):
+        for down in numpy.linspace(0.55, 0.92, 11):
+            column, row = round(across * width), round(down * height)
+            expected = first_on_ray(camera, (column + 0.5) / width, (row + 0.5) / height, width / height, places, radii)
+            x, y = left + column, top + row
             browser.run("grainreelReport.bed.choose(-1)")
             browser.pointer("mousePressed", x, y)
             browser.pointer("mouseReleased", x, y, 0)

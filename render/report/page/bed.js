@@ -328,8 +328,9 @@ class Handling {
         this.pointers.delete(event.pointerId);
         const mostForClick = 5; // pixels
         if (event.type !== "pointerup" || !alone || this.moved > mostForClick || event.button !== 0) return;
-        const box = this.panel.canvas.getBoundingClientRect();
-        this.panel.choose(this.viewer.pick(event.clientX - box.left, event.clientY - box.top));
+        const canvas = this.panel.canvas, box = canvas.getBoundingClientRect();
+        const x = event.clientX - box.left - canvas.clientLeft, y = event.clientY - box.top - canvas.clientTop;
+        this.panel.choose(this.viewer.pick(x, y));
     }
 
     // The page scrolls unless the bed was clicked before.
