@@ -13,7 +13,7 @@ namespace {
 
 constexpr double steps = 65535;     // of 16 bits
 constexpr double speed_span = 1e5;  // highest over lowest speed that is told
-constexpr std::uint8_t most_contacts = 254;
+constexpr std::uint8_t most_contacts = 254, unknown_contacts = 255;
 constexpr double usual_packed = 7;  // bytes a grain and moment: what shaken beds take is 6.2 to 6.6
 
 // A grain that the page has.
@@ -44,8 +44,9 @@ void append(std::vector<std::uint8_t>& bytes, Number number) {
 
 class BedWriter {
   public:
-    BedWriter(const FrameArchive& run, bool contacts, const PageProgress& progress)
-        : run_(run), contacts_(contacts), progress_(progress) {}
+    BedWriter(const FrameArchive& run, bool contacts, const PageProgress& progress,
+              const ContactsKnown& known)
+        : run_(run), contacts_(contacts), progress_(progress), known_(known) {}
 
     BedFrames write(const std::vector<std::size_t>& chosen) {
         survey(chosen);
@@ -57,7 +58,7 @@ class BedWriter {
         double done = 0;
         for (const std::size_t index : chosen) {
             go_on_or_stop(progress_, ++done / static_cast<double>(chosen.size()));
-            add(read(index));
+            add(read(index), !contacts_ || !known_ || known_(index));
         }
         bed_.packed = zlib_packed(bytes_);
         return std::move(bed_);
@@ -109,7 +110,7 @@ class BedWriter {
         bed_.grains = kept_.size();
     }
 
-    void add(const Frame& frame) {
+    void add(const Frame& frame, bool known) {
         const std::size_t n = kept_.size(), begin = bytes_.size();
         bytes_.resize(begin + 9 * n, 0);
         std::uint8_t* const at = bytes_.data() + begin;
@@ -121,7 +122,10 @@ class BedWriter {
             at[6 * n + grain] = speed_byte(frame.velocity[i].norm(), bed_.lowest_speed, bed_.highest_speed);
             at[8 * n + grain] = 1;
         }
-        count_contacts(frame.touches, at + 7 * n);
+        if (known)
+            count_contacts(frame.touches, at + 7 * n);
+        else
+            std::fill_n(at + 7 * n, n, unknown_contacts);
     }
 
     void add_place(std::uint8_t* at, int axis, std::size_t grain, double place) {
@@ -153,6 +157,7 @@ class BedWriter {
     const FrameArchive& run_;
     const bool contacts_;
     const PageProgress& progress_;
+    const ContactsKnown& known_;
     bool boxed_ = false;
     BedFrames bed_;
     std::vector<Kept> kept_;  // by rising id
@@ -175,17 +180,18 @@ std::uint8_t speed_byte(double speed, double lowest, double highest) {
 
 BedFrames bed_frames_of(const FrameArchive& run, bool contacts, const std::vector<std::size_t>& chosen,
                         const PageProgress& progress) {
-    return BedWriter(run, contacts, progress).write(chosen);
+    const ContactsKnown all;
+    return BedWriter(run, contacts, progress, all).write(chosen);
 }
 
 BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes,
-                     const PageProgress& progress) {
+                     const PageProgress& progress, const ContactsKnown& known) {
     const std::size_t all = run.moments().size();
     const double a_moment =
         usual_packed * static_cast<double>(std::max<std::size_t>(1, most_grains_at_once(run)));
     auto wanted = static_cast<std::size_t>(
         std::clamp(static_cast<double>(most_bytes) / a_moment, 1.0, static_cast<double>(all)));
-    BedWriter writer(run, contacts, progress);
+    BedWriter writer(run, contacts, progress, known);
     while (true) {
         BedFrames bed = writer.write(spread(all, wanted));
         if (bed.packed.size() <= most_bytes || wanted == 1) return bed;

@@ -4,11 +4,12 @@
 //   ids, N int32; species, N uint16; radii in m, N float32;
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the
 //   moment before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence.
-// Where a grain is not present, speed, contacts and presence are 0 and its place repeats the one before.
-// render/report/page/bed_frames.js reads them.
+// A contact number of 255 is not known. Where a grain is not present, speed, contacts and presence are 0 and
+// its place repeats the one before. render/report/page/bed_frames.js reads them.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,16 @@ struct BedFrames {
     Vec3 error() const { return (high - low) / (2 * 65535.0); }
 };
 
+// Whether a moment's contacts are known, by its index; none: they are in each.
+using ContactsKnown = std::function<bool(std::size_t)>;
+
 constexpr std::size_t kMostGrainsOnPage = 100000;
 
 // As many evenly spread moments of the run as fit into so many packed bytes, the first and the last among
 // them; at least one. Of more grains than kMostGrainsOnPage those that lie nearest to the plane x = 0 when
 // they are first seen. contacts: whether the run's frames have touches. Throws DamagedFrame.
 BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes,
-                     const PageProgress& progress = kNoPageProgress);
+                     const PageProgress& progress = kNoPageProgress, const ContactsKnown& known = {});
 // Of these moments, by rising index into the run's.
 BedFrames bed_frames_of(const FrameArchive& run, bool contacts, const std::vector<std::size_t>& chosen,
                         const PageProgress& progress = kNoPageProgress);

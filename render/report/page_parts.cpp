@@ -165,10 +165,10 @@ std::string bed_about(const BedFrames& bed, const Scene& scene) {
         "differences of places. Nothing is interpolated between moments. ",
         error.x(), error.y(), error.z());
     if (bed.moments.size() == bed.all_moments)
-        text += fmt::format("These are all {} moments of trajectory.nc.", bed.all_moments);
+        text += fmt::format("These are all {} moments that the run kept.", bed.all_moments);
     else
         text += fmt::format(
-            "Of the {} moments of trajectory.nc these are {}, evenly spread; the page has no room for "
+            "Of the {} moments that the run kept these are {}, evenly spread; the page has no room for "
             "the others.",
             bed.all_moments, bed.moments.size());
     if (bed.grains < bed.all_grains)
@@ -178,18 +178,21 @@ std::string bed_about(const BedFrames& bed, const Scene& scene) {
             bed.all_grains, bed.grains);
     if (!bed.contacts)
         text += " The run kept no contacts (output.contacts), so contact numbers are not known.";
+    else
+        text +=
+            " Contact numbers are known at the moments of contacts.nc, and not at those of the film alone.";
     if (scene.container.wall_grains) text += " Grains that are glued to walls are not shown.";
     return html_text(text);
 }
 
 std::string story_html(const Scene& scene) {
     if (scene.film.captions.empty()) return "";
-    std::string html = "<ol>\n";
+    std::string html = "<ol class=\"story\">\n";
     for (const FilmCaption& caption : scene.film.captions)
         html += fmt::format(
-            "<li><button type=\"button\" class=\"no-print\" data-time=\"{:.9g}\">{:.4g} s</button> "
-            "{}</li>\n",
-            caption.from, caption.from, html_text(caption.text));
+            "<li data-from=\"{0:.9g}\" data-until=\"{1:.9g}\"><button type=\"button\" class=\"no-print\" "
+            "data-time=\"{0:.9g}\">{0:.4g} s</button> <span>{2}</span></li>\n",
+            caption.from, caption.to, html_text(caption.text));
     return chapter("What to look at", html + "</ol>\n");
 }
 

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/error.hpp"
 #include "engine/output/measures_csv.hpp"
+#include "render/report/all_moments.hpp"
 #include "render/report/embed/base64.hpp"
 #include "render/report/embed/html.hpp"
 #include "render/report/embed/read_bytes.hpp"
@@ -61,6 +63,16 @@ std::size_t RunPart::taken() const {
 }
 
 void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
+    if (AllMoments::has_more(run_.run->folder())) {
+        try {
+            const AllMoments all(*run_.run);
+            const auto known = [&all](std::size_t index) { return all.is_of_trajectory(index); };
+            bed_ = bed_frames(all, run_.contacts, most_bytes, progress, known);
+            return;
+        } catch (const UserError&) {
+            // Damaged, or of another run: the trajectory does without it.
+        }
+    }
     bed_ = bed_frames(*run_.run, run_.contacts, most_bytes, progress);
 }
 
@@ -141,9 +153,8 @@ std::vector<std::string> RunPart::news() const {
     for (const std::string& note : {film_.note, times_.why_not})
         if (!note.empty()) news.push_back(note);
     if (bed_.moments.size() < bed_.all_moments)
-        news.push_back(
-            fmt::format("the page has {} of the trajectory's {} moments; there is no room for the others",
-                        bed_.moments.size(), bed_.all_moments));
+        news.push_back(fmt::format("the page has {} of the run's {} moments; there is no room for the others",
+                                   bed_.moments.size(), bed_.all_moments));
     if (bed_.grains < bed_.all_grains)
         news.push_back(fmt::format("the page has {} of {} grains, those nearest to the middle of the depth",
                                    bed_.grains, bed_.all_grains));

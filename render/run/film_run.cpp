@@ -68,9 +68,7 @@ FilmRun::Ended FilmRun::run() {
     if (stopped) close_record(stopped);
     close_film();
     find_folder();
-    // Where the folder is by now.
-    if (has_folder_ && film_report_.frames > 0 && !request_.to_stdout)
-        failure_.attempt([&] { film_closed(film_report_.frames); });
+    if (has_film_ && has_folder_) failure_.attempt([&] { film_closed(film_report_.frames); });
     close_record(stopped);
     if (record_.status == RunStatus::complete) folder_->remove_previous();
     make_page();
@@ -143,6 +141,7 @@ void FilmRun::close_film() {
     });
     film_report_.frames = film_->frames_done();
     film_.reset();
+    has_film_ = request_.film && !request_.to_stdout;
     times_.add("drawing (beside the engine)", film_report_.draw_seconds);
     times_.add("encoding (beside the engine)", film_report_.encode_seconds);
 }

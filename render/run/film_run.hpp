@@ -94,6 +94,7 @@ class FilmRun {
     void report_end();
 
     bool begun_ = false;
+    bool has_film_ = false;   // a film was made and is closed
     bool has_folder_ = true;  // false once somebody has removed or replaced it
 };
 

@@ -142,20 +142,22 @@ def places_are_those_of_the_trajectory(browser, run):
     trajectory.set_auto_mask(False)
     places, times = trajectory["coordinates"][:], trajectory["time"][:]
     speeds = numpy.linalg.norm(trajectory["velocities"][:], axis=2)
-    frames = browser.run("return grainreelReport.bed.frames.times")
-    assert len(frames) == len(times)
+    frames = numpy.array(browser.run("return grainreelReport.bed.frames.times"))
+    film = netCDF4.Dataset(run / "film_moments.nc")["time"][:]
+    assert len(frames) == len({round(time, 9) for time in [*times, *film]}), "the film's moments and the trajectory's"
     low, high = (numpy.array(browser.run(f"return grainreelReport.bed.frames.{end}")) for end in ("low", "high"))
     stated = (high - low) / (2 * 65535) * (1 + 1e-6)
     fastest = speeds.max()
-    for frame in range(0, len(frames), len(frames) // 10):
-        assert close(frames[frame], times[frame], 1e-9)
+    for frame in range(0, len(times), len(times) // 10):
+        moment = int(abs(frames - times[frame]).argmin())
+        assert close(frames[moment], times[frame], 1e-9)
         shown = numpy.array(browser.run(
             "const f = grainreelReport.bed.frames; return [...f.ids.keys()].map((g) => f.place(arguments[0], g));",
-            frame))
+            moment))
         assert (abs(shown - places[frame]) <= stated).all(), abs(shown - places[frame]).max(axis=0)
         told = numpy.array(browser.run(
             "const f = grainreelReport.bed.frames; return [...f.ids.keys()].map((g) => f.speedAt(arguments[0], g));",
-            frame))
+            moment))
         seen = speeds[frame] > 1.001e-5 * fastest
         assert (abs(told[seen] / speeds[frame][seen] - 1) < 0.0235).all()
 
@@ -163,11 +165,13 @@ def places_are_those_of_the_trajectory(browser, run):
 def contact_numbers_are_those_of_the_run(browser, run):
     contacts = netCDF4.Dataset(run / "contacts.nc")
     contacts.set_auto_mask(False)
-    frame = len(netCDF4.Dataset(run / "trajectory.nc")["time"]) // 2
+    times = netCDF4.Dataset(run / "trajectory.nc")["time"][:]
+    frame = len(times) // 2
+    moment = browser.run("return grainreelReport.bed.frames.indexAt(arguments[0])", float(times[frame]))
     rows = (contacts["frame"][:] == frame) & (contacts["normal"][:] > 0)
     ids = list(contacts["first"][:][rows]) + list(contacts["second"][:][rows])
     told = browser.run("const f = grainreelReport.bed.frames;"
-                       "return [...f.ids.keys()].map((g) => [f.ids[g], f.contactsAt(arguments[0], g)]);", frame)
+                       "return [...f.ids.keys()].map((g) => [f.ids[g], f.contactsAt(arguments[0], g)]);", moment)
     assert told == [[grain, ids.count(grain)] for grain, _ in told]
 
 
@@ -177,14 +181,20 @@ def a_click_finds_the_grain(browser, run):
     trajectory.set_auto_mask(False)
     camera = browser.run("const c = grainreelReport.bed.viewer.camera;"
                          "return {eye: c.eye(), azimuth: c.azimuth, elevation: c.elevation, fov: c.start.fov};")
-    frame = browser.run("return grainreelReport.bed.viewer.frame")
+    browser.run("grainreelReport.runTime.set(arguments[0], 'test')", float(trajectory["time"][32]))
+    frame = int(abs(trajectory["time"][:] - browser.run(
+        "return grainreelReport.bed.frames.times[grainreelReport.bed.viewer.frame]")).argmin())
     places, radii, ids = trajectory["coordinates"][frame], trajectory["radius"][frame], trajectory["id"][frame]
-    left, top, width, height = browser.place_of("#bed")
+    left, top, _, _ = browser.place_of("#bed")
+    border, width, height = browser.run("const c = document.getElementById('bed');"
+                                        "return [c.clientLeft, c.clientWidth, c.clientHeight]")
+    left, top = left + border, top + border
     found = 0
-    for across in numpy.linspace(0.3, 0.7, 7):
-        for down in numpy.linspace(0.4, 0.9, 9):
-            expected = first_on_ray(camera, across, down, width / height, places, radii)
-            x, y = left + round(across * width), top + round(down * height)
+    for across in numpy.linspace(0.25, 0.75, 11):
+        for down in numpy.linspace(0.55, 0.92, 11):
+            column, row = round(across * width), round(down * height)
+            expected = first_on_ray(camera, (column + 0.5) / width, (row + 0.5) / height, width / height, places, radii)
+            x, y = left + column, top + row
             browser.run("grainreelReport.bed.choose(-1)")
             browser.pointer("mousePressed", x, y)
             browser.pointer("mouseReleased", x, y, 0)
@@ -304,6 +314,25 @@ def everything_is_labelled(browser, run):
     assert all(b - a <= 1 for a, b in zip(levels, levels[1:])), levels
 
 
+def the_story_goes_along(browser, run):
+    for time, text in [(0.6, "Half <i>time</i>"), (0.9, ""), (0.5, "Half <i>time</i>"), (0.45, "")]:
+        browser.run("grainreelReport.runTime.set(arguments[0], 'test')", time)
+        assert browser.run("return document.getElementById('caption-now').textContent") == text, time
+        assert browser.run("return document.querySelectorAll('li[aria-current]').length") == (1 if text else 0)
+
+
+def large_print_is_large_and_fits(browser, run):
+    before = browser.run("return parseFloat(getComputedStyle(document.querySelector('p.lead')).fontSize)")
+    for width in (1280, 390):
+        browser.resize(width, 1000)
+        browser.run("document.getElementById('large-print').click()")
+        assert close(browser.run("return parseFloat(getComputedStyle(document.querySelector('p.lead')).fontSize)"),
+                     1.5 * before, 0.1)
+        wide = browser.run("return document.documentElement.scrollWidth")
+        assert wide <= width, (width, wide)
+        browser.run("document.getElementById('large-print').click()")
+
+
 def words_fit(browser, run):
     for width in (1280, 390):
         browser.resize(width, 1000)
@@ -314,7 +343,8 @@ def words_fit(browser, run):
 
 TESTS = [text_is_no_markup, film_frames_are_half_slow_motion, film_plays, chart_moves_film_and_bed,
          buttons_and_story_move_all, places_are_those_of_the_trajectory, contact_numbers_are_those_of_the_run,
-         a_click_finds_the_grain, controls_change_the_picture, fields_are_those_of_the_run, looks_as_before, everything_is_labelled, words_fit]
+         a_click_finds_the_grain, controls_change_the_picture, fields_are_those_of_the_run, looks_as_before, everything_is_labelled, the_story_goes_along,
+         large_print_is_large_and_fits, words_fit]
 
 
 def without(page, reason, **browser_options):

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -84,6 +86,49 @@ TEST_F(ReportProgram, TheFilmIsTiedByTheRunsOwnTable) {
     const std::string page = text_of(here / "run/report.html");
     EXPECT_THAT(page, HasSubstr(R"("times":[0.0,0.01,0.02)"));
     EXPECT_THAT(page, Not(HasSubstr("the film goes by itself")));
+}
+
+nlohmann::json facts_of(const std::string& page) {
+    const std::size_t begin = page.find('>', page.find("id=\"facts\"")) + 1;
+    return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+// Without film_moments.nc the bed has the trajectory's moments alone, five of them; a damaged one is as good
+// as none.
+TEST_F(ReportProgram, TheBedHasTheMomentOfEachFrameOfTheFilm) {
+    run({});
+    const auto facts = facts_of(text_of(here / "run/report.html"));
+    const auto times = facts["bed"]["times"].get<std::vector<double>>();
+    const auto shown = facts["film"]["times"].get<std::vector<double>>();
+    ASSERT_EQ(shown.size(), 13u);
+    for (const double time : shown) EXPECT_THAT(times, testing::Contains(testing::DoubleNear(time, 1e-12)));
+    EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+    EXPECT_EQ(std::adjacent_find(times.begin(), times.end()), times.end());
+    write_text(here / "run/film_moments.nc", text_of(here / "run/film_moments.nc").substr(0, 3000));
+    ASSERT_EQ(program({"report", "run"}).status, 0);
+    EXPECT_EQ(facts_of(text_of(here / "run/report.html"))["bed"]["times"].size(), 5u);
+}
+
+// Charts of both, in what they differ, and elements of their own.
+TEST_F(ReportProgram, SetsRunsSideBySide) {
+    run({});
+    ASSERT_EQ(
+        program({"movie", "fifty.toml", "--out", "wild", "--set", "drive.g_level=3", "--no-film"}).status, 0);
+    const Ended ended = program({"report", "run", "wild", "--out", "both.html"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const std::string page = text_of(here / "both.html");
+    const auto facts = facts_of(page);
+    ASSERT_EQ(facts["runs"].size(), 2u);
+    EXPECT_EQ(facts["runs"][1]["name"], "wild");
+    EXPECT_TRUE(facts["runs"][1]["film"].is_null());
+    EXPECT_THAT(page, HasSubstr("id=\"film-0\""));
+    EXPECT_THAT(page, Not(HasSubstr("id=\"film-1\"")));
+    for (const char* id :
+         {"bed-bytes-0", "bed-bytes-1", "measures-bytes-0", "measures-bytes-1", "film-bytes-0"})
+        EXPECT_THAT(page, HasSubstr(fmt::format("id=\"{}\"", id)));
+    EXPECT_THAT(page, HasSubstr("<th scope=\"row\">drive.amplitude</th>"));
+    EXPECT_THAT(page, Not(HasSubstr("<th scope=\"row\">drive.frequency</th>")));
+    EXPECT_EQ(program({"report", "run", "nowhere"}).status, 2);
 }
 
 TEST_F(ReportProgram, TheSamePageOfTheSameRun) {

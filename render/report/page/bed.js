@@ -261,7 +261,8 @@ class BedPanel {
             `at (${inMm}) mm`,
             speed > 0 ? `speed ${speed.toPrecision(2)} m/s` : `speed below ${numberText(this.facts.speed.lowest)} m/s`,
         ];
-        if (this.facts.contacts) parts.push(`${frames.contactsAt(frame, grain)} contacts`);
+        const contacts = this.facts.contacts ? frames.contactsAt(frame, grain) : null;
+        if (contacts !== null) parts.push(`${contacts} contacts`);
         parts.push(`way so far at least ${numberText(1000 * lengthOf(viewer.path))} mm`);
         words.textContent = `${name}: ${parts.join(", ")}.`;
         if (this.follow.checked) viewer.camera.target = place;
@@ -327,8 +328,9 @@ class Handling {
         this.pointers.delete(event.pointerId);
         const mostForClick = 5; // pixels
         if (event.type !== "pointerup" || !alone || this.moved > mostForClick || event.button !== 0) return;
-        const box = this.panel.canvas.getBoundingClientRect();
-        this.panel.choose(this.viewer.pick(event.clientX - box.left, event.clientY - box.top));
+        const canvas = this.panel.canvas, box = canvas.getBoundingClientRect();
+        const x = event.clientX - box.left - canvas.clientLeft, y = event.clientY - box.top - canvas.clientTop;
+        this.panel.choose(this.viewer.pick(x, y));
     }
 
     // The page scrolls unless the bed was clicked before.

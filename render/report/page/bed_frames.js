@@ -60,8 +60,10 @@ class BedFrames {
         return byte === 0 ? 0 : lowest * Math.pow(highest / lowest, (byte - 1) / 253);
     }
 
+    /** null where it is not known. */
     contactsAt(frame, grain) {
-        return this.packed[4 * (frame * this.grains + grain) + 3] >> 8;
+        const number = this.packed[4 * (frame * this.grains + grain) + 3] >> 8;
+        return number === 255 ? null : number;
     }
 
     /**

@@ -72,7 +72,9 @@ class FilmPanel {
             return;
         }
         const next = (now, frame) => {
-            this.shown(frame.mediaTime);
+            // A late frame of a film that has stopped is not where it stopped.
+            const stopped = this.video.paused && !this.video.seeking;
+            this.shown(stopped ? this.video.currentTime : frame.mediaTime);
             this.video.requestVideoFrameCallback(next);
         };
         this.video.requestVideoFrameCallback(next);

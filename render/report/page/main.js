@@ -39,10 +39,29 @@ async function openBed(run, n) {
     }
 }
 
-// The captions of the film, each of which leads to its moment.
+// The captions of the film, each of which leads to its moment. The one of the page's moment stands below the film too.
 function bindStory(runTime) {
     for (const button of document.querySelectorAll("button[data-time]"))
         button.addEventListener("click", () => runTime.set(Number(button.dataset.time), "story"));
+    const now = document.getElementById("caption-now"), items = [...document.querySelectorAll("li[data-from]")];
+    if (!now || !items.length) return;
+    runTime.listen((time) => {
+        const rounding = 1e-6; // s
+        const shown = items.filter(({dataset}) => time >= dataset.from - rounding && time < dataset.until - rounding);
+        for (const item of items) item.toggleAttribute("aria-current", shown.includes(item));
+        const text = shown.map((item) => item.querySelector("span").textContent).join(" ");
+        if (now.textContent !== text) now.textContent = text;
+        now.hidden = !text;
+    });
+}
+
+// For the back row of a lecture hall.
+function bindLargePrint() {
+    const button = document.getElementById("large-print");
+    button.addEventListener("click", () => {
+        const isLarge = document.documentElement.classList.toggle("large");
+        button.setAttribute("aria-pressed", isLarge);
+    });
 }
 
 function bindCopies() {
@@ -119,6 +138,7 @@ const runs = facts.runs ?? [facts];
 const bar = new TimeBar(runTime, stepsOf(runs[0]), facts.frequency);
 const charts = makeCharts();
 bindCopies();
+bindLargePrint();
 bindStory(runTime);
 
 // For tests and for the curious.

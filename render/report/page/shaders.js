@@ -26,6 +26,7 @@ vec3 placeOf(uvec3 number) { return low + vec3(number) * size / 65535.0; }
 
 vec3 colourFor(vec4 ofSpecies, vec3 now) {
     if (colourBy == 0) return ofSpecies.rgb;
+    if (colourBy == 4 && state.y == 255u) return vec3(0.6); // not known at this moment
     float value = colourBy == 1 ? float(max(int(state.x) - 1, 0)) / 253.0
                 : colourBy == 2 ? startHeight
                 : colourBy == 3 ? (now.z - placeOf(earlier).z)
