@@ -49,7 +49,32 @@ def highest_return(heights, radius):
     return max(above[impact:]) / above[0]
 
 
+def along_walls(run, after, diameter):
+    """Upward way of the grains beside left and right wall in a period, less that of all, in diameters."""
+    return (run.mean("flow_left", after) + run.mean("flow_right", after)) / 2 / diameter
+
+
 CHECKS = [
+    Check(
+        name="convection_box",
+        claim="a shaken bed sinks along rough vertical walls (Knight et al. 1996)",
+        scene="convection_box",
+        runs=(("run.duration=2 s", DRAFT),),
+        control=["contact.wall.friction=0"],
+        what="flow along left and right wall, diameters a period",
+        number=lambda run: along_walls(run, 0.8, 0.002),
+        most=-0.15,
+    ),
+    Check(
+        name="convection_wedge",
+        claim="a shaken bed climbs along slanted walls (Knight, Jaeger & Nagel 1993)",
+        scene="convection_wedge",
+        runs=(("run.duration=2.5 s", DRAFT),),
+        control=["container.half_angle=1 deg"],
+        what="flow along left and right slant, diameters a period",
+        number=lambda run: along_walls(run, 1, 0.005),
+        least=0.015,
+    ),
     Check(
         name="bed_takes_off",
         claim="the floor bears less than a tenth of a bed from sin(2 pi p) = 0.9/Gamma on, as of a block",
