@@ -88,6 +88,16 @@ CHECKS = [
         least=0.3,
     ),
     Check(
+        name="arching",
+        claim="a layer that is thrown high stands in arches (Sano et al. 2003)",
+        scene="arching",
+        runs=(("run.duration=0.8 s", DRAFT),),
+        control=["drive.g_level=2.5"],
+        what="root mean square height of the surface, diameters",
+        number=lambda run: run.mean("surface_rms", 0.4) / 0.002,
+        least=0.7,
+    ),
+    Check(
         name="shallow_bed_coherent",
         claim="a bed of ten diameters moves as one mass, one of half a diameter does not (Thomas et al. 1989)",
         scene="shallow_bed",
