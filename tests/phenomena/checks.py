@@ -89,7 +89,7 @@ CHECKS = [
     ),
     Check(
         name="arching",
-        claim="a layer that is thrown high stands in arches (Sano et al. 2003)",
+        claim="a layer that is thrown high stands in arches (J. Phys. Soc. Jpn. 72, 1390)",
         scene="arching",
         runs=(("run.duration=0.8 s", DRAFT),),
         control=["drive.g_level=2.5"],
