@@ -7,6 +7,8 @@ import math
 from dataclasses import dataclass
 from typing import Callable
 
+from bed_states import coherence, over_the_cycle
+
 DRAFT = "run.accuracy=draft"
 
 
@@ -49,7 +51,72 @@ def highest_return(heights, radius):
     return max(above[impact:]) / above[0]
 
 
+def along_walls(run, after, diameter):
+    """Upward way of the grains beside left and right wall in a period, less that of all, in diameters."""
+    return (run.mean("flow_left", after) + run.mean("flow_right", after)) / 2 / diameter
+
+
 CHECKS = [
+    Check(
+        name="convection_box",
+        claim="a shaken bed sinks along rough vertical walls (Knight et al. 1996)",
+        scene="convection_box",
+        runs=(("run.duration=2 s", DRAFT),),
+        control=["contact.wall.friction=0"],
+        what="flow along left and right wall, diameters a period",
+        number=lambda run: along_walls(run, 0.8, 0.002),
+        most=-0.15,
+    ),
+    Check(
+        name="convection_wedge",
+        claim="a shaken bed climbs along slanted walls (Knight, Jaeger & Nagel 1993)",
+        scene="convection_wedge",
+        runs=(("run.duration=2.5 s", DRAFT),),
+        control=["container.half_angle=1 deg"],
+        what="flow along left and right slant, diameters a period",
+        number=lambda run: along_walls(run, 1, 0.005),
+        least=0.015,
+    ),
+    Check(
+        name="heap",
+        claim="a low heap stands between rough walls near 1.2 g",
+        scene="heaping",
+        runs=(("run.duration=2.5 s", DRAFT),),
+        control=["contact.wall.friction=0"],
+        what="surface in the middle less that at the walls, diameters",
+        number=lambda run: run.mean("mound_height", 1.5) / 0.002,
+        least=0.3,
+    ),
+    Check(
+        name="arching",
+        claim="a layer that is thrown high stands in arches (J. Phys. Soc. Jpn. 72, 1390)",
+        scene="arching",
+        runs=(("run.duration=0.8 s", DRAFT),),
+        control=["drive.g_level=2.5"],
+        what="root mean square height of the surface, diameters",
+        number=lambda run: run.mean("surface_rms", 0.4) / 0.002,
+        least=0.7,
+    ),
+    Check(
+        name="shallow_bed_coherent",
+        claim="a bed of ten diameters moves as one mass, one of half a diameter does not (Thomas et al. 1989)",
+        scene="shallow_bed",
+        runs=(("species.0.count=1160", "run.duration=2 s", DRAFT),),
+        control=["species.0.count=58"],
+        what="share of the kinetic energy that is in the motion of the centre of mass",
+        number=lambda run: coherence(run, 1),
+        least=0.5,
+    ),
+    Check(
+        name="shallow_bed_expands",
+        claim="a bed of four diameters moves as one mass that expands, a deeper one stays dense (Thomas et al. 1989)",
+        scene="shallow_bed",
+        runs=(("species.0.count=464", "run.duration=2 s", DRAFT),),
+        control=["species.0.count=1740"],
+        what="least solid fraction over the cycle",
+        number=lambda run: min(over_the_cycle(run, "bed_solid_fraction", 1)),
+        most=0.35,
+    ),
     Check(
         name="bed_takes_off",
         claim="the floor bears less than a tenth of a bed from sin(2 pi p) = 0.9/Gamma on, as of a block",
