@@ -49,6 +49,12 @@ def highest_return(heights, radius):
     return max(above[impact:]) / above[0]
 
 
+def flow(run):
+    """Mass that runs out in a second, from 0.4 to 0.6 s."""
+    rows = [row for row in run.rows if row["time"] >= 0.4]
+    return (rows[-1]["outflow"] - rows[0]["outflow"]) / (rows[-1]["time"] - rows[0]["time"])
+
+
 CHECKS = [
     Check(
         name="bed_takes_off",
@@ -89,6 +95,35 @@ CHECKS = [
         what="share of the surface that is inverted every period; by chance 0.125",
         number=lambda run: run.mean("surface_half", 1.5),
         least=0.5,
+    ),
+    Check(
+        name="wedge_segregation",
+        claim="in the default film the big grains end on top, and walls without friction do not bring them there",
+        scene="wedge_segregation",
+        control=["contact.wall.friction=0"],
+        what="height of big over small grains in the last second, over the bed's height",
+        number=lambda run: run.mean("height_difference", 10),
+        least=0.1,
+    ),
+    Check(
+        name="wedge_mixture",
+        claim="shaking above Gamma = 1 brings the big grains of a mixture in a sealed wedge up",
+        scene="wedge_mixture",
+        control=["drive.g_level=1.2"],
+        what="height of big over small grains from 6 to 7 s, over the bed's height",
+        number=lambda run: run.mean("height_difference", 6),
+        least=0.0,
+        runs=(("run.duration=7 s", DRAFT),),
+    ),
+    Check(
+        name="hopper_rate",
+        claim="vertical shaking slows the discharge of a wedge hopper (Wassgren et al. 2002)",
+        scene="hopper_mixture",
+        control=["drive.g_level=0.01"],
+        what="mass flow when shaken with Gamma = 8 over that at rest",
+        number=lambda shaken, rest: flow(shaken) / flow(rest),
+        most=0.9,
+        runs=(("drive.g_level=8", "run.duration=0.6 s", DRAFT), ("drive.g_level=0.01", "run.duration=0.6 s", DRAFT)),
     ),
     Check(
         name="gravity_scales_out",
