@@ -33,6 +33,7 @@ class Check:
         return f"{self.least:.4g} to {self.most:.4g}"
 
 
+NARROW = ("container.width=120 mm", "species.grains.count=2000")  # half of the scene
 ON_EARTH = ("gravity=9.81", "drive.frequency=12 Hz", "run.duration=2 s", DRAFT)
 ON_THE_MOON = ("run.duration=4.922 s", DRAFT)
 
@@ -95,6 +96,17 @@ CHECKS = [
         what="share of the surface that is inverted every period; by chance 0.125",
         number=lambda run: run.mean("surface_half", 1.5),
         least=0.5,
+        runs=((*NARROW, DRAFT),),
+    ),
+    Check(
+        name="quarter_waves",
+        claim="harder shaking makes waves that come back every fourth period (Umbanhowar & Swinney 2000: from Gamma = 5.5)",
+        scene="surface_waves",
+        control=["drive.g_level=3"],
+        what="share of the surface that is inverted after two periods; by chance 0.25",
+        number=lambda run: run.mean("surface_quarter", 1.5),
+        least=0.4,
+        runs=((*NARROW, "drive.g_level=6", "drive.frequency=22 Hz", DRAFT),),
     ),
     Check(
         name="wedge_segregation",
@@ -124,6 +136,26 @@ CHECKS = [
         number=lambda shaken, rest: flow(shaken) / flow(rest),
         most=0.9,
         runs=(("drive.g_level=8", "run.duration=0.6 s", DRAFT), ("drive.g_level=0.01", "run.duration=0.6 s", DRAFT)),
+    ),
+    Check(
+        name="void_filling",
+        claim="big grains rise between walls without friction too, where small ones fall into the gaps below them (Rosato 1987)",
+        scene="void_filling",
+        control=["drive.g_level=1.5"],
+        what="height of big over small grains from 4 to 5 s, over the bed's height",
+        number=lambda run: run.mean("height_difference", 4),
+        least=-0.3,
+        runs=(("run.duration=5 s", DRAFT),),
+    ),
+    Check(
+        name="reversal",
+        claim="a lower frequency mixes again what a higher one has sorted (compare Brone & Muzzio 1997)",
+        scene="frequency_reversal",
+        control=["drive.stage=[]"],
+        what="height of big over small grains, sorted from 12 to 13 s less mixed again from 18 to 19 s",
+        number=lambda run: run.mean("height_difference", 12, 13) - run.mean("height_difference", 18, 19),
+        least=0.08,
+        runs=(("run.duration=19 s", "run.precision=mixed", DRAFT),),
     ),
     Check(
         name="gravity_scales_out",
