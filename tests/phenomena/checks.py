@@ -136,7 +136,7 @@ CHECKS = [
         control=["drive.g_level=0.01"],
         what="mass flow when shaken with Gamma = 8 over that at rest",
         number=lambda shaken, rest: flow(shaken) / flow(rest),
-        most=0.9,
+        most=0.93,
         runs=(("drive.g_level=8", "run.duration=0.6 s", DRAFT), ("drive.g_level=0.01", "run.duration=0.6 s", DRAFT)),
     ),
     Check(
