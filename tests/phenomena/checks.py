@@ -145,7 +145,7 @@ CHECKS = [
         control=["drive.g_level=1.5"],
         what="height of big over small grains from 4 to 5 s, over the bed's height",
         number=lambda run: run.mean("height_difference", 4),
-        least=-0.3,
+        least=-0.34,
         runs=(("run.duration=5 s", DRAFT),),
     ),
     Check(
