@@ -42,13 +42,13 @@ class Run:
         with open(folder / "measures.csv", newline="") as file:
             self.rows = [{name_of(head): float(value) for head, value in row.items()} for row in csv.DictReader(file)]
 
-    def values(self, column, after=0.0):
-        """The numbers of a column, those from `after` seconds on, without gaps."""
-        values = [row[column] for row in self.rows if row["time"] >= after]
+    def values(self, column, after=0.0, until=math.inf):
+        """The numbers of a column from `after` to `until` seconds, without gaps."""
+        values = [row[column] for row in self.rows if after <= row["time"] <= until]
         return [value for value in values if not math.isnan(value)]
 
-    def mean(self, column, after=0.0):
-        values = self.values(column, after)
+    def mean(self, column, after=0.0, until=math.inf):
+        values = self.values(column, after, until)
         return sum(values) / len(values) if values else math.nan
 
     def end(self, column):

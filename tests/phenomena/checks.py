@@ -35,6 +35,9 @@ class Check:
         return f"{self.least:.4g} to {self.most:.4g}"
 
 
+NARROW = ("container.width=120 mm", "species.grains.count=2000")  # half of the scene
+SORT_AND_MIX = ('drive.stage=[{from="3 s", frequency="25 Hz", g_level=7, over=4},'
+                ' {from="10 s", frequency="9 Hz", g_level=4, over=4}]')
 ON_EARTH = ("gravity=9.81", "drive.frequency=12 Hz", "run.duration=2 s", DRAFT)
 ON_THE_MOON = ("run.duration=4.922 s", DRAFT)
 
@@ -54,6 +57,11 @@ def highest_return(heights, radius):
 def along_walls(run, after, diameter):
     """Upward way of the grains beside left and right wall in a period, less that of all, in diameters."""
     return (run.mean("flow_left", after) + run.mean("flow_right", after)) / 2 / diameter
+
+
+def discharge_time(run):
+    """From the opening of the outlet until 99 % have run out."""
+    return run.end("emptied") - 0.3
 
 
 CHECKS = [
@@ -156,6 +164,66 @@ CHECKS = [
         what="share of the surface that is inverted every period; by chance 0.125",
         number=lambda run: run.mean("surface_half", 1.5),
         least=0.5,
+        runs=((*NARROW, DRAFT),),
+    ),
+    Check(
+        name="quarter_waves",
+        claim="harder shaking makes waves that come back every fourth period (Umbanhowar & Swinney 2000: from Gamma = 5.5)",
+        scene="surface_waves",
+        control=["drive.g_level=3"],
+        what="share of the surface that is inverted after two periods; by chance 0.25",
+        number=lambda run: run.mean("surface_quarter", 1.5),
+        least=0.4,
+        runs=((*NARROW, "drive.g_level=6", "drive.frequency=22 Hz", DRAFT),),
+    ),
+    Check(
+        name="wedge_segregation",
+        claim="in the default film the big grains end on top, and walls without friction do not bring them there",
+        scene="wedge_segregation",
+        control=["contact.wall.friction=0"],
+        what="height of big over small grains in the last second, over the bed's height",
+        number=lambda run: run.mean("height_difference", 10),
+        least=0.1,
+    ),
+    Check(
+        name="wedge_mixture",
+        claim="shaking above Gamma = 1 brings the big grains of a mixture in a sealed wedge up",
+        scene="wedge_mixture",
+        control=["drive.g_level=1.2"],
+        what="height of big over small grains from 6 to 7 s, over the bed's height",
+        number=lambda run: run.mean("height_difference", 6),
+        least=0.0,
+        runs=(("run.duration=7 s", DRAFT),),
+    ),
+    Check(
+        name="hopper_rate",
+        claim="vertical shaking slows the discharge of a wedge hopper (Wassgren et al. 2002)",
+        scene="hopper_mixture",
+        control=["drive.g_level=0.01"],
+        what="time to run out when shaken with Gamma = 8 over that at rest",
+        number=lambda shaken, rest: discharge_time(shaken) / discharge_time(rest),
+        least=1.08,
+        runs=tuple((f"drive.g_level={g}", "run.duration=1.3 s", "run.precision=mixed", DRAFT) for g in (8, 0.01)),
+    ),
+    Check(
+        name="void_filling",
+        claim="big grains rise between walls without friction too, where small ones fall into the gaps below them (Rosato 1987)",
+        scene="void_filling",
+        control=["drive.g_level=1.5"],
+        what="height of big over small grains from 4 to 5 s, over the bed's height",
+        number=lambda run: run.mean("height_difference", 4),
+        least=-0.34,
+        runs=(("run.duration=5 s", DRAFT),),
+    ),
+    Check(
+        name="reversal",
+        claim="a lower frequency mixes again what a higher one has sorted (compare Brone & Muzzio 1997)",
+        scene="frequency_reversal",
+        control=["drive.stage=[]"],
+        what="height of big over small grains, sorted from 9 to 10 s less mixed again from 14 to 15 s",
+        number=lambda run: run.mean("height_difference", 9, 10) - run.mean("height_difference", 14, 15),
+        least=0.06,
+        runs=(("run.duration=15 s", SORT_AND_MIX, "run.precision=mixed", DRAFT),),
     ),
     Check(
         name="gravity_scales_out",
