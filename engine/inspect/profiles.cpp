@@ -91,9 +91,10 @@ std::vector<AnswerCell> row_of(const Bins& all, std::size_t k) {
     const double edge = all.low + static_cast<double>(k) * all.width;
     const auto grains = static_cast<double>(bin.grains);
     const double solid = std::accumulate(bin.volume.begin(), bin.volume.end(), 0.0);
-    std::vector<AnswerCell> row = {edge,  edge + all.width,         bin.grains,
-                                   solid, ratio(bin.speed, grains), ratio(bin.upward, grains)};
+    std::vector<AnswerCell> row = {edge, edge + all.width, bin.grains, ratio(bin.speed, grains),
+                                   ratio(bin.upward, grains)};
     for (const double volume : bin.volume) row.push_back(ratio(volume, solid));
+    row.emplace_back(solid);
     return row;
 }
 
@@ -114,14 +115,14 @@ Answer profile_answer(const Snapshot& s, const std::string& along) {
                       {{along + "_from", Dimension::length, "", AnswerColumn::kKey},
                        {along + "_to", Dimension::length, "", AnswerColumn::kKey},
                        {"grains", Dimension::number, "whose centre is there"},
-                       {"solid_volume", Dimension::number, "of these grains, m3"},
                        {"mean_speed", Dimension::speed, "", "grains"},
                        {"mean_vz", Dimension::speed, "", "grains"}},
                       {},
                       true};
     for (const Species& species : s.scene.species)
         table.columns.push_back(
-            {"share_" + species.name, Dimension::number, "of that volume", "solid_volume"});
+            {"share_" + species.name, Dimension::number, "of their solid volume", "solid_volume"});
+    table.columns.push_back({"solid_volume", Dimension::number, "of these grains, m3"});
     for (std::size_t k = 0; k < all.bins.size(); ++k) table.rows.push_back(row_of(all, k));
     Answer answer{{std::move(table)}, {}};
     if (all.left_out > 0) answer.notes.push_back(fmt::format("{} grains lie outside the bins", all.left_out));

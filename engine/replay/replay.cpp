@@ -41,9 +41,9 @@ Simulation nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpo
         }
     }
     if (mistake) throw *mistake;
-    throw UserError(fmt::format(
-        "{}: has no checkpoint of step {} or before, so that it cannot be brought back there",
-        run.string(), step));
+    throw UserError(
+        fmt::format("{}: has no checkpoint of step {} or before, so that it cannot be brought back there",
+                    run.string(), step));
 }
 
 }  // namespace
@@ -58,16 +58,25 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
     return make_plan(started_from(scene, kept.front().file));
 }
 
-Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {
+Scene scene_of_checkpoint(const fs::path& checkpoint, const Assignments& sets) {
     const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
     if (!label)
         throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
                                     checkpoint.string()));
-    Scene scene = read_scene_text(label->scene, checkpoint, {}, measurable_in);
+    // It does not say how its grains came to be; they are in it.
+    Assignments all{{"start.method=file"},
+                    {"start.file=" + fs::absolute(checkpoint).string()},
+                    {"start.keep_clock=true"}};
+    all.insert(all.end(), sets.begin(), sets.end());
+    return read_scene_text(label->scene, checkpoint, all, measurable_in);
+}
+
+Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {
+    Scene scene = scene_of_checkpoint(checkpoint, {});
     // Instruments and fields see the run and change nothing of it.
     scene.output.instruments.clear();
     scene.output.fields = {};
-    return Simulation::at_checkpoint(scene, make_plan(started_from(scene, checkpoint)), checkpoint, threads);
+    return Simulation::at_checkpoint(scene, make_plan(scene), checkpoint, threads);
 }
 
 Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,

@@ -141,7 +141,7 @@ TEST_F(ResumedRun, GrainsThatLeaveAreToldOnce) {
 
 // A picture of them shows more than a moment: the run begins anew where it was packed.
 TEST_F(ResumedRun, AFilmOfMeansAndForcesIsMadeAnew) {
-    const Words more = {"--duration", "0.5 s",
+    const Words more = {"--duration", "1.5 s",
                         "--set",      "film.segment=[{playback=2, exposure=\"5 ms\"}]",
                         "--set",      "film.force_chains=true",
                         "--frames"};

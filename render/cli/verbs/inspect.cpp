@@ -98,7 +98,10 @@ class Inspect final : public Verb {
         if (average_ && !(where_ || profile_ || wall_ || pairs_))
             throw UserError("--average: goes with --where, --profile, --wall or --pair-distribution");
         const std::unique_ptr<const Record> record = open_record();
-        for (const std::string& line : record->news()) reporter.detail(line);
+        for (const std::string& line : record->news()) {
+            reporter.detail(line);
+            if (!fs::is_directory(run_)) missing_.push_back(line);
+        }
         MomentFinder finder(*record);
         Answer answer =
             average_ ? mean_answer(finder, *record, reporter) : single_answer(finder, *record, reporter);

@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/columns.hpp"
 #include "engine/replay/replay.hpp"
-#include "engine/scene/text/reader.hpp"
 #include "engine/start/grain_table.hpp"
 #include "engine/start/restart.hpp"
 #include "render/run/frames/recorded_scene.hpp"
@@ -87,8 +85,7 @@ SavedState::SavedState(const fs::path& file, const Assignments& sets) : file_(fi
 
 void SavedState::read_checkpoint(const Assignments& sets) {
     const Simulation run = run_of_checkpoint(file_, 1);
-    const std::string kept = label_of_checkpoint(file_)->scene;
-    scene_ = read_scene_text(kept, file_, sets_for_drawing(sets), measurable_in);
+    scene_ = scene_of_checkpoint(file_, sets_for_drawing(sets));
     scene_.name = file_.stem().string();
     frame_ = run.frame();
     measured_ = MeasuredRow{frame_.time, run.measured(), run.measures().values()};
@@ -99,6 +96,8 @@ void SavedState::read_checkpoint(const Assignments& sets) {
 void SavedState::read_table(const Assignments& sets) {
     frame_ = by_id(read_grain_table(file_));
     frame_.time = frame_.cycles = unknown;
+    news_.push_back(fmt::format(
+        "{}: holds neither time nor walls; heights are counted from the floor at rest", file_.string()));
     const std::int32_t last = *std::max_element(frame_.species.begin(), frame_.species.end());
     const fs::path beside = file_.parent_path();
     std::error_code error;

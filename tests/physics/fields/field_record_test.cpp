@@ -140,6 +140,20 @@ TEST_F(ShakenFields, GoOnThroughACheckpoint) {
     EXPECT_FALSE(std::isnan(fields_at(changed, plan.fields.end)[1][0]));
 }
 
+// A checkpoint of the step at which a record ends may be saved before the record is written.
+TEST_F(ShakenFields, AFinishedRecordIsInTheCheckpointOfItsEnd) {
+    const Scene scene = scene_of();
+    const Plan plan = make_plan(scene);
+    Simulation run(scene, plan, 1);
+    run.pack();
+    const FieldValues written = fields_at(run, plan.fields.record);
+    run.save_checkpoint(here / "half.grs");
+    Simulation next(next_of(), plan, 1);
+    next.pack();
+    EXPECT_TRUE(same(written, next.fields()[0]));
+    EXPECT_TRUE(same(fields_at(run, plan.fields.end), fields_at(next, plan.fields.end)));
+}
+
 TEST(FieldTimes, RecordsAreWholePeriodsAndTheLastMayBeShorter) {
     FieldOutput fields;
     fields.periods = 2;
