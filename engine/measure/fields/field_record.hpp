@@ -25,8 +25,8 @@ class FieldRecord {
     // The mean over the record that ended last; none before the first has ended.
     const std::optional<CoarseFields>& last() const { return last_; }
 
-    // What was gathered of the record that goes on, and the mean of the one that has ended just now: it may not
-    // have been written yet.
+    // What was gathered of the record that goes on, and the mean of the one that has ended just now: it may
+    // not have been written yet.
     void save(std::ostream& out) const;
     // Makes the reading fail where save() could not have written what is read. What was gathered with other
     // settings is left: gathering then waits for the next record.
