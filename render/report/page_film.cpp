@@ -60,13 +60,14 @@ std::string copy_filter(int height) {
 std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film,
                                        const std::function<void()>& picture_taken) {
     const ScratchFolder scratch;
-    FilmReader reader(film);
+    const int threads = std::clamp(usable_processors(), 1, most_threads_of_copy);
+    FilmReader reader(film, threads);
     FilterGraph graph(reader.codec(), copy_filter(reader.codec().height));
     EncoderSettings settings;
     settings.path = scratch.file("copy.mp4");
     settings.rate = scene.film.rate;
     settings.quality = quality_of_copy;
-    settings.threads = std::clamp(usable_processors(), 1, most_threads_of_copy);
+    settings.threads = threads;
     std::unique_ptr<Encoder> copy;
     const auto take_pictures = [&] {
         while (const AvFramePtr picture = graph.pull()) {

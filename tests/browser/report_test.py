@@ -231,6 +231,24 @@ def first_on_ray(camera, across, down, aspect, places, radii):
     return int(depth.argmin())
 
 
+def near_neighbours_are_told(browser, run):
+    trajectory = netCDF4.Dataset(run / "trajectory.nc")
+    trajectory.set_auto_mask(False)
+    frame = 10
+    browser.run("grainreelReport.runTime.set(arguments[0], 'test')", float(trajectory["time"][frame]))
+    places, radii, ids = trajectory["coordinates"][frame], trajectory["radius"][frame], trajectory["id"][frame]
+    for grain in (0, 17, 45):
+        gaps = numpy.linalg.norm(places - places[grain], axis=1) - radii - radii[grain]
+        sure = {int(ids[k]) for k in range(len(ids)) if k != grain and gaps[k] < 0.099 * radii[grain]}
+        may = {int(ids[k]) for k in range(len(ids)) if k != grain and gaps[k] < 0.101 * radii[grain]}
+        browser.run("grainreelReport.bed.choose(grainreelReport.bed.frames.ids.indexOf(arguments[0]))", int(ids[grain]))
+        said = browser.run("return document.getElementById('grain-says').textContent")
+        told = said.split("Near neighbours: ")[1].rstrip(".")
+        told = set() if told == "none" else {int(word) for word in told.split(", ")}
+        assert sure <= told <= may, (said, sure, may)
+    browser.run("grainreelReport.bed.choose(-1)")
+
+
 def controls_change_the_picture(browser, run):
     """Colours, a hidden species, a slice: each gives another picture, and taking it back the first again."""
     picture = ("const v = grainreelReport.bed.viewer; v.draw(); return v.canvas.toDataURL();")
@@ -343,7 +361,7 @@ def words_fit(browser, run):
 
 TESTS = [text_is_no_markup, film_frames_are_half_slow_motion, film_plays, chart_moves_film_and_bed,
          buttons_and_story_move_all, places_are_those_of_the_trajectory, contact_numbers_are_those_of_the_run,
-         a_click_finds_the_grain, controls_change_the_picture, fields_are_those_of_the_run, looks_as_before, everything_is_labelled, the_story_goes_along,
+         a_click_finds_the_grain, near_neighbours_are_told, controls_change_the_picture, fields_are_those_of_the_run, looks_as_before, everything_is_labelled, the_story_goes_along,
          large_print_is_large_and_fits, words_fit]
 
 

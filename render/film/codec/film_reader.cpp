@@ -7,7 +7,7 @@
 
 namespace grainreel {
 
-FilmReader::FilmReader(const std::filesystem::path& path)
+FilmReader::FilmReader(const std::filesystem::path& path, int threads)
     : path_(path), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
     AVFormatContext* context = nullptr;
     check(avformat_open_input(&context, ffmpeg_url(path).c_str(), nullptr, nullptr));
@@ -17,6 +17,7 @@ FilmReader::FilmReader(const std::filesystem::path& path)
     codec_.reset(avcodec_alloc_context3(avcodec_find_decoder(parameters.codec_id)));
     check(codec_ && packet_ && frame_ ? 0 : AVERROR(ENOMEM));
     check(avcodec_parameters_to_context(codec_.get(), &parameters));
+    codec_->thread_count = threads;
     check(avcodec_open2(codec_.get(), nullptr, nullptr));
 }
 

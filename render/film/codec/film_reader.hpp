@@ -9,8 +9,8 @@ namespace grainreel {
 
 class FilmReader {
   public:
-    // Throws RunError when the file is no film.
-    explicit FilmReader(const std::filesystem::path& path);
+    // threads: that decode. Throws RunError when the file is no film.
+    explicit FilmReader(const std::filesystem::path& path, int threads = 1);
 
     // The next frame; null at the end. Valid until the next call. Throws RunError when the file is damaged.
     AVFrame* next();

@@ -264,7 +264,9 @@ class BedPanel {
         const contacts = this.facts.contacts ? frames.contactsAt(frame, grain) : null;
         if (contacts !== null) parts.push(`${contacts} contacts`);
         parts.push(`way so far at least ${numberText(1000 * lengthOf(viewer.path))} mm`);
-        words.textContent = `${name}: ${parts.join(", ")}.`;
+        const near = frames.nearNeighbours(frame, grain).map((other) => frames.ids[other]), mostNamed = 12;
+        const named = near.slice(0, mostNamed).join(", ") + (near.length > mostNamed ? " and others" : "");
+        words.textContent = `${name}: ${parts.join(", ")}. Near neighbours: ${named || "none"}.`;
         if (this.follow.checked) viewer.camera.target = place;
     }
 }

@@ -80,6 +80,21 @@ class BedFrames {
         return path;
     }
 
+    /**
+     * Grains whose surfaces are nearer to this one's than a twentieth of its diameter. Whether they push each other the
+     * places do not tell.
+     */
+    nearNeighbours(frame, grain) {
+        const here = this.place(frame, grain), radius = this.radii[grain], near = [];
+        for (let other = 0; other < this.grains; ++other) {
+            if (other === grain || !this.isPresent(frame, other)) continue;
+            const apart = this.place(frame, other).map((value, axis) => value - here[axis]);
+            if (this.period > 0) apart[0] -= this.period * Math.round(apart[0] / this.period);
+            if (Math.hypot(...apart) < 1.1 * radius + this.radii[other]) near.push(other);
+        }
+        return near;
+    }
+
     indexAt(time) {
         return nearestIndex(this.times, time);
     }
