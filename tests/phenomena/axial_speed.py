@@ -10,6 +10,7 @@ is left.
 """
 import argparse
 import math
+import sys
 from pathlib import Path
 
 from fields import Fields
@@ -62,6 +63,8 @@ def main():
     fastest = max((v, height) for height, v in zip(z, speed) if height <= surface and not math.isnan(v))
     part = [(surface - height, math.log(v)) for height, v in zip(z, speed)
             if height < fastest[1] and v > 0.03 * fastest[0]]
+    if len(part) < 3:
+        sys.exit("the fastest rise is at the floor, so there is no fall with depth to be fitted")
     a, b, left = line(part)
     print(f"# surface at {surface:.4f} m; fastest {fastest[0]:.4g} m/s at a depth of {surface - fastest[1]:.4f} m")
     print(f"# v = {math.exp(a):.4g} m/s exp(-depth / {-1 / b:.4g} m) over {len(part)} heights; r^2 = {1 - left:.3f}")
