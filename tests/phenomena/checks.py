@@ -207,7 +207,7 @@ CHECKS = [
     ),
     Check(
         name="void_filling",
-        claim="big grains rise between walls without friction too, where small ones fall into the gaps below them (Rosato 1987)",
+        claim="big grains rise between walls without friction too, as small ones fill the gaps below (Rosato 1987)",
         scene="void_filling",
         control=["drive.g_level=1.5"],
         what="height of big over small grains from 4 to 5 s, over the bed's height",
