@@ -141,7 +141,7 @@ Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most)
     const std::int32_t wall = wall_named(s, name);
     Forces on_wall;
     for (const ContactForce& one : s.forces->contacts)
-        if (one.second == wall) on_wall.push_back(&one);
+        if (one.second == wall && one.pushes()) on_wall.push_back(&one);
     Answer answer{{sum_table(s, on_wall)}, {}};
     if (on_wall.empty()) {
         answer.notes.emplace_back("no grain touches it");

@@ -66,7 +66,7 @@ AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
                        {"partner_height", Dimension::length, "above the floor"}},
                       {}};
     for (const ContactForce& one : s.forces->contacts) {
-        if (one.first != id && one.second != id) continue;
+        if ((one.first != id && one.second != id) || !one.pushes()) continue;
         const bool is_first = one.first == id;
         const std::int32_t partner = is_first ? one.second : one.first;
         AnswerCell number, height;

@@ -64,9 +64,10 @@ Scene scene_of_checkpoint(const fs::path& checkpoint, const Assignments& sets) {
         throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
                                     checkpoint.string()));
     // It does not say how its grains came to be; they are in it.
-    Assignments all{{"start.method=file"},
-                    {"start.file=" + fs::absolute(checkpoint).string()},
-                    {"start.keep_clock=true"}};
+    const std::string name = checkpoint.string();
+    Assignments all{{"start.method=file", name},
+                    {"start.file=" + fs::absolute(checkpoint).string(), name},
+                    {"start.keep_clock=true", name}};
     all.insert(all.end(), sets.begin(), sets.end());
     return read_scene_text(label->scene, checkpoint, all, measurable_in);
 }

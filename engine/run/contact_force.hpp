@@ -20,6 +20,8 @@ struct ContactForce {
 
     Vec3 on_second() const { return normal_force * normal + tangential; }  // N
     Vec3 on_first() const { return -on_second(); }
+    // Bodies may also touch without a force: springs that are latched, and grains that part.
+    bool pushes() const { return normal_force != 0 || !tangential.isZero(0); }
     // Whether friction is all used up, so that the surfaces slide.
     bool slides() const {
         constexpr double all = 1 - 1e-6;

@@ -204,6 +204,48 @@ TEST_F(ResumedRun, AnAcceptedDriveTakesOverSmoothly) {
     for (int k = 0; k < 5; ++k) EXPECT_EQ(kept[k], back[k]) << k;
 }
 
+// Each pair of the run's scene has its own friction, and all of them change.
+TEST_F(ResumedRun, AnAcceptedFrictionIsThatOfAllPairs) {
+    ASSERT_EQ(run(movie("run", {"--duration", "0.1 s", "--no-film"})).status, 0);
+    fs::copy(here / "run", here / "as_before", fs::copy_options::recursive);
+    ASSERT_EQ(run({"resume", "run", "--for", "0.1 s", "--accept", "contact.friction=0.2"}).status, 0);
+    ASSERT_EQ(run({"resume", "as_before", "--for", "0.1 s"}).status, 0);
+    const std::string text = text_of(here / "run/scene.toml");
+    EXPECT_EQ(text.find("\nfriction = 0.4"), text.npos);
+    EXPECT_NE(text.find("\nfriction = 0.2"), text.npos);
+    EXPECT_NE(record("run")["engine"]["state_hash"], record("as_before")["engine"]["state_hash"]);
+    const Ended same = run({"resume", "run", "--for", "0.1 s", "--accept", "contact.friction=0.2"});
+    EXPECT_EQ(same.status, 2);
+    EXPECT_THAT(same.err, HasSubstr("--accept: 'contact.friction' is what it was in this run"));
+}
+
+TEST_F(ResumedRun, WithoutOneOfItsFilesItIsRefusedAndLeftAsItIs) {
+    ASSERT_EQ(
+        run(movie("whole", {"--duration", "0.2 s", "--no-film", "--set", "output.contacts=true"})).status, 0);
+    for (const char* file : {"trajectory.nc", "measures.csv", "contacts.nc"})
+        for (const bool emptied : {false, true}) {
+            fs::remove_all(here / "run");
+            fs::copy(here / "whole", here / "run", fs::copy_options::recursive);
+            emptied ? fs::resize_file(here / "run" / file, 0) : (void)fs::remove(here / "run" / file);
+            const Ended ended = run({"resume", "run", "--for", "0.1 s"});
+            EXPECT_EQ(ended.status, 2) << file << ' ' << ended.err;
+            EXPECT_THAT(ended.err, HasSubstr(file));
+            for (const char* other : {"trajectory.nc", "measures.csv", "contacts.nc", "final.csv",
+                                      "checkpoint.grs", "run.json", "scene.toml"}) {
+                if (std::string(other) == file) continue;
+                EXPECT_EQ(text_of(here / "run" / other) == text_of(here / "whole" / other), true) << other;
+            }
+        }
+}
+
+// The rows tell how far the run came, where its last checkpoint is lost.
+TEST_F(ResumedRun, ALostCheckpointDoesNotMakeItShorter) {
+    ASSERT_EQ(run(movie("run", {"--duration", "0.2 s", "--no-film"})).status, 0);
+    fs::remove(here / "run/checkpoint.grs");
+    ASSERT_EQ(run({"resume", "run", "--for", "0.1 s"}).status, 0);
+    EXPECT_NEAR(record("run")["engine"]["simulated_s"].get<double>(), 0.3, 1e-3);
+}
+
 TEST_F(ResumedRun, WhatWouldOverlapOrChangeTheGrainsIsNotAccepted) {
     ASSERT_EQ(run(movie("run", {"--duration", "0.1 s", "--no-film"})).status, 0);
     const std::string text = text_of(here / "run/scene.toml");
@@ -215,6 +257,8 @@ TEST_F(ResumedRun, WhatWouldOverlapOrChangeTheGrainsIsNotAccepted) {
     };
     refused("drive.g_level=8", "--accept: grains would overlap by");
     refused("gravity=[0.0, 0.0, -1.6]", "'gravity' cannot change while a run goes on");
+    refused("drive.frequency=10 Hz", "cannot change while a run goes on");
+    refused("contact.restitution=0.5", "--accept: 'contact.restitution' is what it was in this run");
     ASSERT_EQ(run({"resume", "run", "--for", "0.1 s"}).status, 0);
 }
 

@@ -140,10 +140,8 @@ class Inspect final : public Verb {
             for (std::size_t k = 0; k < i; ++k) questions[i]->excludes(questions[k]);
         parser.add_flag("--through", through_, "With --pixel: what lies behind it, too")
             ->needs(questions.back());
-        parser
-            .add_option("--film-time", film_time_,
-                        "With --pixel or --png: where a camera that moves is then, s [0]")
-            ->type_name("TIME");
+        add_time(parser, "--film-time", film_time_,
+                 "With --pixel or --png: where a camera that moves is then [that of --frame, else 0]");
         parser.add_option("--bins", bins_, "With --histogram: how many [20]")
             ->type_name("N")
             ->check(CLI::Range(1, 10000));
@@ -152,14 +150,14 @@ class Inspect final : public Verb {
     Answer single_answer(MomentFinder& finder, const Record& record, Reporter& reporter) {
         const Snapshot snapshot = snapshot_of(finder, record, reporter);
         Answer answer = answer_of(finder, snapshot, reporter);
-        if (!picture_.empty()) draw_answer(snapshot, grains_in(answer), film_time_, picture_, gl_);
+        if (!picture_.empty()) draw_answer(snapshot, grains_in(answer), film_time(snapshot), picture_, gl_);
         return answer;
     }
 
     std::unique_ptr<const Record> open_record() const {
         std::error_code ignored;
         if (fs::is_regular_file(run_, ignored)) return std::make_unique<SavedState>(run_, sets_);
-        return std::make_unique<RecordedRun>(run_, sets_for_contacts());
+        return std::make_unique<RecordedRun>(run_, sets_for_contacts(), true);
     }
 
     // With what has contacts read, when the run kept them.
@@ -173,6 +171,12 @@ class Inspect final : public Verb {
 
     // Whether the question is about what only the engine knows.
     bool asks_for_forces() const { return wall_ || largest_overlap_; }
+
+    // s of the film; a camera that moves is somewhere else at each.
+    double film_time(const Snapshot& snapshot) const {
+        if (film_time_) return *film_time_;
+        return moment_.frame ? static_cast<double>(*moment_.frame) / snapshot.scene.film.rate : 0;
+    }
 
     bool asks_nothing() const {
         return !where_ && !profile_ && !slice_ && !histogram_ && pixel_.empty() && !pairs_ && !compare_;
@@ -258,7 +262,7 @@ class Inspect final : public Verb {
             });
         if (!pixel_.empty())
             return named("--pixel", [&] {
-                return pixel_answer(snapshot, {pixel_[0], pixel_[1], through_, film_time_});
+                return PixelPicker(snapshot, film_time(snapshot)).at(pixel_[0], pixel_[1], through_);
             });
         if (pairs_) return named("--pair-distribution", [&] { return pair_distribution_answer(snapshot); });
         if (compare_) {
@@ -287,7 +291,7 @@ class Inspect final : public Verb {
     gl::Provider gl_ = gl::Provider::automatic;
     std::vector<double> pixel_;
     bool through_ = false;
-    double film_time_ = 0;
+    std::optional<double> film_time_;
     MomentRequest moment_;
     std::optional<double> compare_, average_;
     double phase_ = 0;

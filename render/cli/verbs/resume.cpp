@@ -21,6 +21,7 @@
 #include "render/run/frames/recorded_scene.hpp"
 #include "render/run/movie_run.hpp"
 #include "render/run/resume/accepted_changes.hpp"
+#include "render/run/resume/kept_files.hpp"
 #include "render/run/resume/resume_point.hpp"
 #include "render/run/thread_plan.hpp"
 
@@ -47,8 +48,8 @@ class Resume final : public Verb {
         add_time(parser, "--for", more_, "So much further than it has come")->excludes(until);
         parser
             .add_option("--accept", accept_,
-                        "A key that may differ from now on, as in drive.g_level or drive.g_level=4: of the "
-                        "drive or of friction; may be repeated")
+                        "A key that may differ from now on, as in drive.g_level=4 or contact.friction=0.2; "
+                        "without a value as it is in scene.toml; may be repeated")
             ->type_name("KEY[=VALUE]")
             ->expected(1)
             ->take_all();
@@ -84,6 +85,7 @@ class Resume final : public Verb {
         if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
                                   plan.clock.time(point.simulation.step()), scene.run.duration));
+        if (!point.held_back.empty()) reporter.info(point.held_back);
         for (const AcceptedChange& change : changes)
             reporter.info(
                 fmt::format("'{}' is {} from there on; it was {}", change.key, change.now, change.then));
@@ -97,6 +99,19 @@ class Resume final : public Verb {
         std::vector<std::string> keys;
         for (const std::string& one : accept_) keys.push_back(one.substr(0, one.find('=')));
         return keys;
+    }
+
+    // "contact.friction=0.2" stands for the friction of each pair, which the scene of a run has one by one.
+    static Assignments spelled_out(const std::string& one, const fs::path& file) {
+        const std::size_t equals = one.find('=');
+        const std::string key = one.substr(0, equals), value = one.substr(equals);
+        if (key != "contact.friction" && key != "contact.rolling_friction") return {{one, "--accept"}};
+        const std::size_t species = read_scene(file, {}, measurable_in).species.size();
+        Assignments all;
+        for (std::size_t k = 0; k < species * (species + 3) / 2; ++k)
+            all.push_back({fmt::format("contact.pair[{}].{}{}", k, key.substr(sizeof "contact." - 1), value),
+                           "--accept"});
+        return all;
     }
 
     // The run is another one from the checkpoint on, which is saved again with what it is now, so that later
@@ -125,17 +140,18 @@ class Resume final : public Verb {
         Assignments sets;
         if (threads_) sets.push_back({fmt::format("run.threads={}", *threads_), "--threads"});
         for (const std::string& one : accept_)
-            if (undone.empty() && one.find('=') != std::string::npos) sets.push_back({one, "--accept"});
+            if (undone.empty() && one.find('=') != std::string::npos)
+                for (Assignment& set : spelled_out(one, file)) sets.push_back(std::move(set));
         sets.insert(sets.end(), undone.begin(), undone.end());
         const Scene before = read_scene(file, sets, measurable_in);
         const std::vector<KeptCheckpoint> kept = kept_checkpoints(folder);
         if (kept.empty())
             throw UserError(
-                fmt::format("{}: has no checkpoint; the run was stopped while its grains were packed, "
-                            "so run its scene.toml again",
+                fmt::format("{}: has no checkpoint; the run was stopped while its grains were packed, or its "
+                            "checkpoints were removed; run its scene.toml again",
                             folder.string()));
         const Plan plan = plan_of_run(before, folder);
-        const double reached = plan.clock.time(kept.back().step);
+        const double reached = plan.clock.time(reached_step(folder, kept));
         const double end = until_ ? *until_ : more_ ? reached + *more_ : before.run.duration;
         // One that was killed while its film was finished has come to its end and is not complete.
         const bool complete = status_in_run_json(folder / "run.json") == to_string(RunStatus::complete);
@@ -146,6 +162,12 @@ class Resume final : public Verb {
         if (until_ || more_)
             sets.push_back({fmt::format("run.duration={} s", end), until_ ? "--until" : "--for"});
         return read_scene(file, sets, measurable_in);
+    }
+
+    // A checkpoint may have been lost: the rows of the run tell too how far it came.
+    static std::int64_t reached_step(const fs::path& folder, const std::vector<KeptCheckpoint>& kept) {
+        const std::vector<std::int64_t> rows = steps_in_measures(folder / "measures.csv");
+        return rows.empty() ? kept.back().step : std::max(kept.back().step, rows.back());
     }
 
     // run.json and the pictures name the scene that the run was made of.

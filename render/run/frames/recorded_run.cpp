@@ -28,7 +28,7 @@ constexpr const char* without_trajectory =
 
 }  // namespace
 
-RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets)
+RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, bool as_filmed)
     : folder_(folder_of_run(folder)),
       scene_(scene_of_run(folder_, sets)),
       trajectory_(file_of_run(folder_, "trajectory.nc", without_trajectory)) {
@@ -38,6 +38,7 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets)
     check_species(scene_, trajectory_.info(), name);
     read_moments();
     clock_ = clock_of(scene_, moments_);
+    if (clock_.step == 0 && scene_.run.step) clock_.step = *scene_.run.step;  // with one moment at step 0
     measures_ = read_measures(name_of("measures.csv"));
     check_same_run();
     // The trajectory holds single moments alone, and of those its own.
@@ -49,7 +50,7 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets)
             fmt::format("{}: has no orientations, and the film shows rotation; run it with "
                         "output.orientation = true, or let film.rotation be false",
                         name));
-    frame_what_is_reached();
+    if (!as_filmed) frame_what_is_reached();
     if (needs_touches(scene_.film.shows)) read_contacts();
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
     if (scene_.film.shows.outflow) read_outflow_of_run();

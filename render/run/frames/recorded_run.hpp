@@ -26,7 +26,10 @@ class RecordedRun final : public Record, private PartSupply {
     // Throws UserError for another key, when the folder has no scene.toml or no trajectory.nc that holds a
     // frame, when its files are of two runs, and when the film shows contacts or orientations and the run
     // kept none.
-    RecordedRun(const std::filesystem::path& folder, const Assignments& sets);
+    //
+    // Pictures are framed by how high the run's grains got (known_reach), or, as_filmed, as the run's own
+    // film was, which did not know that yet.
+    RecordedRun(const std::filesystem::path& folder, const Assignments& sets, bool as_filmed = false);
 
     // Reads all there is and leaves out the frames whose grains are damaged, with a line of news, so that no
     // damage shows up when half a film is made. Throws UserError when none is left, or contacts are damaged.

@@ -57,27 +57,30 @@ AnswerTable table_of(const Snapshot& s, const Frame& shown, const Ray& ray, bool
 
 }  // namespace
 
-Ray ray_of(const Snapshot& s, const PixelQuestion& question) {
-    Exaggeration exaggeration(s.scene.film.exaggerate);
-    const View view = view_of(s.scene, exaggeration.shown(s.frame), question.film_time);
-    const double x = question.x - view.port.x, y = question.y - view.port.y;
-    if (!(x >= 0 && y >= 0 && x < view.port.width && y < view.port.height))
-        throw UserError(fmt::format(
-            "{:g},{:g} is outside the part of the picture that shows the bed, from {},{} to {},{}",
-            question.x, question.y, view.port.x, view.port.y, view.port.x + view.port.width - 1,
-            view.port.y + view.port.height - 1));
-    const double right = (x + 0.5 - 0.5 * view.port.width) / view.focal;
-    const double up = (0.5 * view.port.height - y - 0.5) / view.focal;
-    const Vec3 aside = right * view.right + up * view.up;
-    if (view.orthographic) return {view.eye + aside, view.forward};
-    return {view.eye, view.forward + aside};
-}
-
-Answer pixel_answer(const Snapshot& s, const PixelQuestion& question) {
+PixelPicker::PixelPicker(const Snapshot& s, double film_time) : snapshot_(s) {
     Exaggeration exaggeration(s.scene.film.exaggerate);
     ShownGrains not_hidden(s.scene, s.scene.film.shows.hidden);
-    const Frame& shown = not_hidden.of(exaggeration.shown(s.frame));
-    Answer answer{{table_of(s, shown, ray_of(s, question), question.through)}, {}};
+    const Frame& shown = exaggeration.shown(s.frame);
+    view_ = view_of(s.scene, shown, film_time);
+    shown_ = not_hidden.of(shown);
+}
+
+Ray PixelPicker::ray(double at_x, double at_y) const {
+    const double x = at_x - view_.port.x, y = at_y - view_.port.y;
+    if (!(x >= 0 && y >= 0 && x < view_.port.width && y < view_.port.height))
+        throw UserError(fmt::format(
+            "{:g},{:g} is outside the part of the picture that shows the bed, from {},{} to {},{}", at_x,
+            at_y, view_.port.x, view_.port.y, view_.port.x + view_.port.width - 1,
+            view_.port.y + view_.port.height - 1));
+    const double right = (x + 0.5 - 0.5 * view_.port.width) / view_.focal;
+    const double up = (0.5 * view_.port.height - y - 0.5) / view_.focal;
+    const Vec3 aside = right * view_.right + up * view_.up;
+    if (view_.orthographic) return {view_.eye + aside, view_.forward};
+    return {view_.eye, view_.forward + aside};
+}
+
+Answer PixelPicker::at(double x, double y, bool through) const {
+    Answer answer{{table_of(snapshot_, shown_, ray(x, y), through)}, {}};
     if (answer.tables[0].rows.empty()) answer.notes.emplace_back("nothing is at that pixel");
     return answer;
 }

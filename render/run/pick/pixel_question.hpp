@@ -4,21 +4,27 @@
 #include "engine/inspect/answer.hpp"
 #include "engine/inspect/ray.hpp"
 #include "engine/inspect/snapshot.hpp"
+#include "render/draw/camera/view.hpp"
 
 namespace grainreel {
 
-struct PixelQuestion {
-    double x = 0, y = 0;   // of the picture, from its top left corner; a pixel's middle is at + 0.5
-    bool through = false;  // what lies behind, too
-    double film_time = 0;  // s since the film's first frame: where a camera that moves is then
+// A moment as the scene's film shows it: its size, camera, cut, hidden species. Ghosts are seen through.
+class PixelPicker {
+  public:
+    // film_time: s since the film's first frame: where a camera that moves is then. The snapshot must outlive
+    // this.
+    PixelPicker(const Snapshot& snapshot, double film_time);
+
+    // The ray that a pixel looks along; x, y: of the picture, from its top left corner, a pixel's middle at
+    // + 0.5. Throws UserError outside the part of the picture that shows the bed.
+    Ray ray(double x, double y) const;
+    // What is there, the nearest first; through: what lies behind, too. Throws likewise.
+    Answer at(double x, double y, bool through) const;
+
+  private:
+    const Snapshot& snapshot_;
+    Frame shown_;
+    View view_;
 };
-
-// The ray that a pixel of the film's picture looks along. Throws UserError outside the part that shows the
-// bed.
-Ray ray_of(const Snapshot& snapshot, const PixelQuestion& question);
-
-// With the scene's film: its size, camera, cut, hidden species. Ghosts are seen through. Throws UserError
-// outside the part of the picture that shows the bed.
-Answer pixel_answer(const Snapshot& snapshot, const PixelQuestion& question);
 
 }  // namespace grainreel

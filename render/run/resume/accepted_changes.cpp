@@ -20,7 +20,7 @@ bool ends_in(const std::string& key, const std::string& name) {
 }
 
 bool is_of_drive(const std::string& key) {
-    return key == "drive.amplitude" || key == "drive.frequency";
+    return key == "drive.amplitude";
 }
 
 bool is_friction(const std::string& key) {
@@ -32,8 +32,6 @@ bool is_named(const std::string& key, const std::vector<std::string>& accepted) 
     return std::any_of(accepted.begin(), accepted.end(), [&](const std::string& name) {
         if (name == key) return true;
         if (name == "drive.g_level") return key == "drive.amplitude";
-        // Another frequency at the same acceleration is another amplitude too.
-        if (name == "drive.frequency") return key == "drive.amplitude";
         if (name == "contact.friction") return is_friction(key) && ends_in(key, "friction");
         if (name == "contact.rolling_friction") return is_friction(key) && ends_in(key, "rolling_friction");
         return false;
@@ -44,7 +42,7 @@ void check_can_change(const std::string& key) {
     if (is_of_drive(key) || is_friction(key)) return;
     throw UserError(
         fmt::format("--accept: '{}' cannot change while a run goes on; these can: drive.g_level, "
-                    "drive.amplitude, drive.frequency, contact.friction, contact.rolling_friction",
+                    "drive.amplitude, contact.friction, contact.rolling_friction",
                     key));
 }
 
@@ -63,8 +61,6 @@ std::string words_for(const Scene& before, const Scene& after, const std::vector
             else
                 add(fmt::format("amplitude {:.3g} mm instead of {:.3g} mm", 1e3 * after.drive.amplitude,
                                 1e3 * before.drive.amplitude));
-        } else if (change.key == "drive.frequency") {
-            add(fmt::format("{:.4g} Hz instead of {:.4g} Hz", after.drive.frequency, before.drive.frequency));
         } else {
             add(fmt::format("{} {} instead of {}",
                             ends_in(change.key, "rolling_friction") ? "rolling friction" : "friction",
@@ -97,15 +93,22 @@ std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkp
     const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
     if (!label) return changes;
     for (const KeyDifference& difference : deciding_differences(label->scene, scene_to_keep(scene, plan))) {
+        check_can_change(difference.key);
         if (!is_named(difference.key, accepted))
             throw UserError(fmt::format(
                 "{}: '{}' is {}, but it was {} in this run; put back what it was, or give --accept {}",
                 scene.where(difference.key), difference.key,
                 difference.now.empty() ? "not there" : difference.now,
                 difference.then.empty() ? "not there" : difference.then, difference.key));
-        check_can_change(difference.key);
         changes.push_back({difference.key, difference.then, difference.now});
     }
+    for (const std::string& name : accepted)
+        if (std::none_of(changes.begin(), changes.end(),
+                         [&](const AcceptedChange& change) { return is_named(change.key, {name}); }))
+            throw UserError(
+                fmt::format("--accept: '{}' is what it was in this run, or is no key that can "
+                            "change; give a value, as in drive.g_level=3",
+                            name));
     return changes;
 }
 
@@ -140,12 +143,12 @@ Scene changed_at(double time, const Scene& before, const Scene& after,
 }
 
 void check_overlap_stays(const Scene& scene, const Plan& before, const Plan& after) {
-    const double limit = std::max(scene.run.overlap, before.expected_overlap) * (1 + 1e-9);
-    if (after.expected_overlap <= limit) return;
-    throw UserError(fmt::format(
-        "--accept: grains would overlap by {:.2g} % of their diameter, and the stiffness of this run "
-        "is for {:.2g} %; shake less, or start anew from its final.csv",
-        100 * after.expected_overlap, 100 * scene.run.overlap));
+    const double limit = std::max(scene.run.overlap, before.expected_overlap);
+    if (after.expected_overlap <= limit * (1 + 1e-9)) return;
+    throw UserError(
+        fmt::format("--accept: grains would overlap by {:.3g} % of their diameter, and this run is made for "
+                    "{:.3g} %; shake less, or start anew from its final.csv",
+                    100 * after.expected_overlap, 100 * limit));
 }
 
 }  // namespace grainreel

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <system_error>
 
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/output/contacts_file.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/plan/rhythm.hpp"
@@ -51,6 +55,25 @@ std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
     for (const double step : table->values(place, 0, table->rows()))
         steps.push_back(static_cast<std::int64_t>(step));
     return steps;
+}
+
+void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& plan) {
+    const auto need = [&](const char* name, bool wanted) {
+        if (wanted && !is_there(run / name))
+            throw UserError(fmt::format("{}: is missing, so the run cannot go on; run its scene.toml again",
+                                        (run / name).string()));
+    };
+    need("measures.csv", true);
+    need("trajectory.nc", plan.trajectory_every > 0);
+    need("contacts.nc", plan.trajectory_every > 0 && scene.output.contacts);
+    need("fields.nc", scene.output.fields.wanted());
+    need("outflow.csv", plan.opens && !scene.container.tray);
+    if (!read_measures(run / "measures.csv"))
+        throw UserError(fmt::format("{}: cannot be read, so the run cannot go on; run its scene.toml again",
+                                    (run / "measures.csv").string()));
+    // Each says by itself that it cannot be read.
+    if (plan.trajectory_every > 0) TrajectoryReader reader(run / "trajectory.nc");
+    if (plan.trajectory_every > 0 && scene.output.contacts) ContactsReader reader(run / "contacts.nc");
 }
 
 bool files_reach(const fs::path& run, const Plan& plan, std::int64_t first, std::int64_t step) {

@@ -15,6 +15,10 @@ std::vector<std::int64_t> steps_in_trajectory(const std::filesystem::path& file)
 // Of the rows of measures.csv; likewise.
 std::vector<std::int64_t> steps_in_measures(const std::filesystem::path& file);
 
+// Throws UserError for a file that the run writes and that is missing or cannot be read, before any of them
+// is touched.
+void check_files_of_run(const std::filesystem::path& run, const Scene& scene, const Plan& plan);
+
 // Whether trajectory and measures have all that a run which began at `first` has written before `step`.
 bool files_reach(const std::filesystem::path& run, const Plan& plan, std::int64_t first, std::int64_t step);
 

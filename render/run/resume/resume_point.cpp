@@ -105,6 +105,16 @@ std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, 
     return std::nullopt;
 }
 
+// Of a checkpoint that the run goes on from; empty for the last one.
+std::string why_held_back(const KeptCheckpoint& one, const KeptCheckpoint& last, const Limits& limits,
+                          const Plan& plan) {
+    if (one.step == last.step) return "";
+    const char* why = last.step > limits.film
+                          ? "the film has to be drawn anew from there"
+                          : "what lies in its files, or in its checkpoints, is whole up to there";
+    return fmt::format("the run had come to {:.6g} s; {}", plan.clock.time(last.step), why);
+}
+
 [[noreturn]] void refuse(const fs::path& run, const Limits& limits, std::int64_t earliest) {
     if (limits.film < earliest)
         throw UserError(
@@ -132,6 +142,7 @@ ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::pa
             fmt::format("{}: has no checkpoint; the run was stopped while its grains were packed, so "
                         "run its scene.toml again",
                         run.string()));
+    check_files_of_run(run, scene, plan);
     const std::vector<std::int64_t> rows = steps_in_measures(run / "measures.csv"),
                                     pictures = steps_in_trajectory(run / kFilmMoments);
     Limits limits;
@@ -147,7 +158,7 @@ ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::pa
         if (std::optional<Simulation> simulation = usable(*one, scene, plan, threads, mistake)) {
             const auto end = std::lower_bound(pictures.begin(), pictures.end(), one->step);
             return {std::move(*simulation), limits.first, static_cast<std::size_t>(end - pictures.begin()),
-                    one->file};
+                    one->file, why_held_back(*one, kept.back(), limits, plan)};
         }
     }
     if (mistake) throw *mistake;

@@ -16,6 +16,7 @@ struct ResumePoint {
     std::int64_t first = 0;    // step at which the run began
     std::size_t pictures = 0;  // of the film, that are drawn again from their kept moments
     std::filesystem::path checkpoint{};
+    std::string held_back{};  // why it is not the run's last checkpoint; empty: it is
 };
 
 // The last checkpoint from which all files of the run's folder can go on. Its film, where `film` says that it
