@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/inspect/questions.hpp"
+#include "engine/measure/wall_faces.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -65,13 +66,14 @@ AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
 }
 
 // In bins as high as a mean grain is wide.
-AnswerTable height_table(const Snapshot& s, const Forces& on_wall) {
+AnswerTable height_table(const Snapshot& s, const std::string& wall, const Forces& on_wall) {
     AnswerTable table{"by_height",
                       "Its normal force by height above the floor",
                       {{"from", Dimension::length, "", AnswerColumn::kKey},
                        {"to", Dimension::length, "", AnswerColumn::kKey},
                        {"contacts", Dimension::number, ""},
-                       {"normal_force", Dimension::force, "sum"}},
+                       {"normal_force", Dimension::force, "sum"},
+                       {"pressure", Dimension::pressure, "of a wall that stands"}},
                       {},
                       true};
     double width = 0;
@@ -83,9 +85,13 @@ AnswerTable height_table(const Snapshot& s, const Forces& on_wall) {
         ++count;
         force += one->normal_force;
     }
-    for (const auto& [bin, sums] : bins)
-        table.rows.push_back({static_cast<double>(bin) * width, static_cast<double>(bin + 1) * width,
-                              sums.first, sums.second});
+    for (const auto& [bin, sums] : bins) {
+        const double low = static_cast<double>(bin) * width, high = static_cast<double>(bin + 1) * width;
+        const double area = area_between(s.scene.container, wall, low, high);
+        AnswerCell pressure;
+        if (area > 0) pressure = sums.second / area;
+        table.rows.push_back({low, high, sums.first, sums.second, pressure});
+    }
     return table;
 }
 
@@ -148,7 +154,7 @@ Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most)
         return answer;
     }
     answer.tables.push_back(species_table(s, on_wall));
-    answer.tables.push_back(height_table(s, on_wall));
+    answer.tables.push_back(height_table(s, wall_names(s)[static_cast<std::size_t>(-1 - wall)], on_wall));
     answer.tables.push_back(touching_table(s, on_wall, most));
     return answer;
 }

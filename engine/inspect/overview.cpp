@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -64,6 +67,20 @@ AnswerTable species_table(const Snapshot& s) {
     return table;
 }
 
+// The highest grain that has another one within a tenth of its radius: the highest of all may be in flight.
+std::optional<std::size_t> tip_of_bed(const Snapshot& s) {
+    std::vector<std::size_t> order(s.frame.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return s.height(a) > s.height(b); });
+    for (const std::size_t i : order)
+        for (const std::size_t k : order) {
+            const double gap =
+                (s.frame.position[i] - s.frame.position[k]).norm() - s.frame.radius[i] - s.frame.radius[k];
+            if (i != k && gap < 0.1 * s.frame.radius[i]) return i;
+        }
+    return std::nullopt;
+}
+
 AnswerTable extremes_table(const Snapshot& s) {
     AnswerTable table{"extremes",
                       "Who stands out",
@@ -82,6 +99,10 @@ AnswerTable extremes_table(const Snapshot& s) {
                               s.height(i), s.frame.velocity[i].norm()});
     };
     add("highest", "height", true);
+    if (const auto tip = tip_of_bed(s))
+        table.rows.push_back({"tip of the bed", static_cast<std::int64_t>(s.frame.id[*tip]),
+                              name_of_body(s, s.frame.id[*tip]), s.height(*tip),
+                              s.frame.velocity[*tip].norm()});
     add("lowest", "height", false);
     add("fastest", "speed", true);
     add("fastest spin", "spin", true);

@@ -30,8 +30,8 @@ int slices_of(const Scene& scene) {
     return static_cast<int>(std::clamp(std::round(slices), 1.0, double{kMostSlices}));
 }
 
-// m2, of a face between two heights; 0 for one that lies. Below the edge between slant and wall the width of
-// front and back grows evenly with height.
+}  // namespace
+
 double area_between(const Container& c, const std::string& face, double low, double high) {
     const bool wedge = c.shape == Container::Shape::wedge && c.half_angle > 0;
     const double edge = wedge ? c.slant_height : 0;
@@ -46,8 +46,6 @@ double area_between(const Container& c, const std::string& face, double low, dou
     const double half = wedge ? c.half_width - (edge - middle) * std::tan(c.half_angle) : 0;
     return 2 * (slanted * half + part(edge, c.height) * c.half_width);
 }
-
-}  // namespace
 
 std::vector<std::string> face_names(const Scene& scene) {
     std::vector<std::string> names;

@@ -18,6 +18,10 @@ std::vector<std::string> face_names(const Scene& scene);
 // A force's quantum is 2^-48 of what the stiffest wall would give the largest grain over its radius.
 WallScale wall_scale(const Scene& scene, const Plan& plan);
 
+// m2, of a face of the container ("left slant") between two heights (m); 0 for one that lies. Below the edge
+// between slant and wall the width of front and back grows evenly with height.
+double area_between(const Container& container, const std::string& face, double low, double high);
+
 // Pressure on the faces of the container that stand, in slices of equal height.
 class PressureProfile {
   public:

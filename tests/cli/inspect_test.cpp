@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
@@ -133,6 +134,21 @@ TEST(Expressions, TellWhatIsWrongAndWhere) {
 double number(const AnswerCell& cell) {
     if (const auto* count = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*count);
     return std::get<double>(cell);
+}
+
+// Grain 63 is lifted out of the lattice: it is the highest, and one of the layer below it is the tip.
+TEST(Questions, TheTipOfTheBedIsNotInFlight) {
+    Bed bed;
+    bed.snapshot.frame.position[63].z() += 3 * d;
+    bed.snapshot.frame.position[50].z() += 0.01 * d;
+    for (const AnswerTable& table : overview_of(bed.snapshot).tables)
+        if (table.name == "extremes") {
+            EXPECT_EQ(std::get<std::int64_t>(table.rows[0][1]), 63);
+            EXPECT_EQ(std::get<std::string>(table.rows[1][0]), "tip of the bed");
+            EXPECT_EQ(std::get<std::int64_t>(table.rows[1][1]), 50);
+            return;
+        }
+    ADD_FAILURE() << "no table of extremes";
 }
 
 TEST(Questions, AProfileCountsTheLayers) {
@@ -330,6 +346,20 @@ TEST_F(InspectedMoment, AWallTellsWhoTouchesIt) {
     EXPECT_EQ(told["touching"]["rows"].size(), sum[0].get<std::size_t>());
     EXPECT_NEAR(normal, sum[4].get<double>(), 1e-9 * normal);
     EXPECT_NEAR(-sum[3].get<double>(), normal, 1e-9 * normal);  // the floor is level, friction along it
+    // Pressure on a wall that stands is its force over width and height of a bin.
+    int bins = 0;
+    for (const auto& [name, width] : std::map<std::string, double>{
+             {"left wall", 0.02}, {"right wall", 0.02}, {"front", 0.03}, {"back", 0.03}}) {
+        const auto side = answer({"--at", "0.05 s", "--wall", name})["tables"];
+        if (!side.contains("by_height")) continue;  // nothing touches it
+        for (const auto& bin : side["by_height"]["rows"]) {
+            const double area = width * (std::min(bin[1].get<double>(), 0.040) - bin[0].get<double>());
+            EXPECT_NEAR(bin[4].get<double>(), bin[3].get<double>() / area, 1e-9 * bin[4].get<double>());
+            ++bins;
+        }
+    }
+    EXPECT_GT(bins, 0);
+    EXPECT_TRUE(told["by_height"]["rows"][0][4].is_null());
     EXPECT_THAT(refusal({"--wall", "roof"}),
                 HasSubstr("--wall: 'roof' is no wall of this scene; it has floor"));
 }

@@ -262,7 +262,10 @@ class Inspect final : public Verb {
             });
         if (!pixel_.empty())
             return named("--pixel", [&] {
-                return PixelPicker(snapshot, film_time(snapshot)).at(pixel_[0], pixel_[1], through_);
+                Answer there = PixelPicker(snapshot, film_time(snapshot)).at(pixel_[0], pixel_[1], through_);
+                if (there.tables[0].rows.empty())
+                    throw UserError(fmt::format("nothing is at {:g},{:g}", pixel_[0], pixel_[1]));
+                return there;
             });
         if (pairs_) return named("--pair-distribution", [&] { return pair_distribution_answer(snapshot); });
         if (compare_) {
