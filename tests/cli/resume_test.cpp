@@ -204,6 +204,20 @@ TEST_F(ResumedRun, AnAcceptedDriveTakesOverSmoothly) {
     for (int k = 0; k < 5; ++k) EXPECT_EQ(kept[k], back[k]) << k;
 }
 
+TEST_F(ResumedRun, ARunThatGoesOnKeepsItsCheckpoints) {
+    Program program(movie("run", {"--duration", "600 s", "--no-film"}), {.folder = here.path()});
+    ASSERT_TRUE(wait_until(program, [&] { return frames_in("run") >= 5; }));
+    program.send(SIGSTOP);
+    const std::string checkpoint = text_of(here / "run/checkpoint.grs");
+    const Ended ended = run({"resume", "run", "--accept", "drive.g_level=1.5"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, HasSubstr("run: is in use by process "));
+    EXPECT_EQ(text_of(here / "run/checkpoint.grs") == checkpoint, true);
+    program.send(SIGCONT);
+    program.send(SIGKILL);
+    program.wait();
+}
+
 // Each pair of the run's scene has its own friction, and all of them change.
 TEST_F(ResumedRun, AnAcceptedFrictionIsThatOfAllPairs) {
     ASSERT_EQ(run(movie("run", {"--duration", "0.1 s", "--no-film"})).status, 0);

@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/output/folder_lock.hpp"
 #include "engine/output/run_json.hpp"
 #include "engine/replay/checkpoint_ring.hpp"
 #include "engine/replay/replay.hpp"
@@ -122,6 +123,10 @@ class Resume final : public Verb {
         const Scene changed = changed_at(time, scene, scene_to_go_on(folder, {}), changes);
         const Plan changed_plan = plan_of_run(changed, folder);
         check_overlap_stays(scene, plan, changed_plan);
+        // Its files are not touched while it goes on.
+        if (const auto holder = FolderLock::holder(folder))
+            throw UserError(
+                fmt::format("{}: is in use by {}; wait until it has ended", folder.string(), *holder));
         point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
         scene = changed;
         plan = changed_plan;
