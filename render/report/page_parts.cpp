@@ -9,7 +9,7 @@
 #include "engine/scene/text/scene_file.hpp"
 #include "render/report/embed/base64.hpp"
 #include "render/report/embed/html.hpp"
-#include "render/report/methods.hpp"
+#include "render/report/facts/methods.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "render/report/bed_frames.hpp"
-#include "render/report/page_film.hpp"
+#include "render/report/bed/bed_frames.hpp"
+#include "render/report/facts/run_facts.hpp"
+#include "render/report/film/page_film.hpp"
 #include "render/report/report.hpp"
-#include "render/report/run_facts.hpp"
 
 namespace grainreel {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/text_file.hpp"
-#include "render/report/differences.hpp"
 #include "render/report/embed/html.hpp"
+#include "render/report/facts/differences.hpp"
 #include "render/report/page_files.hpp"
 #include "render/report/run_part.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/measures_csv.hpp"
-#include "render/report/all_moments.hpp"
+#include "render/report/bed/all_moments.hpp"
 #include "render/report/embed/base64.hpp"
 #include "render/report/embed/html.hpp"
 #include "render/report/embed/read_bytes.hpp"

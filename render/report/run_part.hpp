@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "render/report/page_facts.hpp"
+#include "render/report/facts/page_facts.hpp"
+#include "render/report/facts/run_facts.hpp"
 #include "render/report/page_fields.hpp"
 #include "render/report/page_progress.hpp"
 #include "render/report/report.hpp"
-#include "render/report/run_facts.hpp"
 
 namespace grainreel {
 

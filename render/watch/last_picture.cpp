@@ -6,7 +6,7 @@
 #include "render/film/codec/ffmpeg_handles.hpp"
 #include "render/film/codec/filter_graph.hpp"
 #include "render/film/codec/remux.hpp"
-#include "render/report/small_jpeg.hpp"
+#include "render/report/film/small_jpeg.hpp"
 
 namespace grainreel {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "render/report/embed/html.hpp"
-#include "render/report/page_facts.hpp"
+#include "render/report/facts/page_facts.hpp"
 #include "render/report/page_files.hpp"
 #include "render/report/page_parts.hpp"
 

@@ -12,7 +12,7 @@
 #include "engine/output/measures_csv.hpp"
 #include "engine/output/run_json.hpp"
 #include "engine/scene/text/reader.hpp"
-#include "render/report/page_facts.hpp"
+#include "render/report/facts/page_facts.hpp"
 #include "render/report/page_measures.hpp"
 #include "render/run/frames/recorded_run.hpp"
 #include "render/watch/last_picture.hpp"

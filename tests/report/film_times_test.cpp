@@ -4,7 +4,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/reader.hpp"
-#include "render/report/film_times.hpp"
+#include "render/report/film/film_times.hpp"
 #include "render/run/film_times_table.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "engine/state/body.hpp"
 #include "render/draw/container/container_drawing.hpp"
-#include "render/report/slabs.hpp"
+#include "render/report/bed/slabs.hpp"
 
 namespace grainreel {
 namespace {

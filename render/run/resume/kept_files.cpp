@@ -17,11 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_there(const fs::path& file) {
-    std::error_code ignored;
-    return fs::exists(file, ignored);
-}
-
 // Whether `steps`, which rise, have each step of the rhythm from `first` up to, without, `end`.
 bool has_all(const std::vector<std::int64_t>& steps, const Rhythm& rhythm, const Clock& clock,
              std::int64_t first, std::int64_t end) {
@@ -31,6 +26,11 @@ bool has_all(const std::vector<std::int64_t>& steps, const Rhythm& rhythm, const
 }
 
 }  // namespace
+
+bool is_there(const fs::path& file) {
+    std::error_code ignored;
+    return fs::exists(file, ignored);
+}
 
 std::vector<std::int64_t> steps_in_trajectory(const fs::path& file) {
     std::vector<std::int64_t> steps;

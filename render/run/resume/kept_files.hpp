@@ -10,6 +10,8 @@
 
 namespace grainreel {
 
+bool is_there(const std::filesystem::path& file);
+
 // Steps of a trajectory's frames, up to the first that is damaged; none where there is no such file.
 std::vector<std::int64_t> steps_in_trajectory(const std::filesystem::path& file);
 // Of the rows of measures.csv; likewise.

@@ -23,11 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_there(const fs::path& file) {
-    std::error_code ignored;
-    return fs::exists(file, ignored);
-}
-
 // Whether each picture shows one moment, and nothing that the kept moment lacks.
 bool is_of_single_moments(const Film& film) {
     const bool spans =

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "engine/measure/measure_table.hpp"
-#include "render/report/bed_frames.hpp"
-#include "render/report/film_times.hpp"
+#include "render/report/bed/bed_frames.hpp"
+#include "render/report/film/film_times.hpp"
+#include "render/report/film/page_film.hpp"
 #include "render/report/page_fields.hpp"
-#include "render/report/page_film.hpp"
 #include "render/report/page_measures.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "render/report/page_film.hpp"
+#include "render/report/film/page_film.hpp"
 
 #include <stdlib.h>
 
@@ -12,7 +12,7 @@
 #include "render/film/codec/film_reader.hpp"
 #include "render/film/codec/filter_graph.hpp"
 #include "render/report/embed/read_bytes.hpp"
-#include "render/report/small_jpeg.hpp"
+#include "render/report/film/small_jpeg.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/report/slabs.hpp"
+#include "render/report/bed/slabs.hpp"
 
 #include <cmath>
 #include <numbers>

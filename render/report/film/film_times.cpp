@@ -1,4 +1,4 @@
-#include "render/report/film_times.hpp"
+#include "render/report/film/film_times.hpp"
 
 #include <algorithm>
 #include <cmath>

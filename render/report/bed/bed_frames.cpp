@@ -1,4 +1,4 @@
-#include "render/report/bed_frames.hpp"
+#include "render/report/bed/bed_frames.hpp"
 
 #include <algorithm>
 #include <array>

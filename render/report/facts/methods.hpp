@@ -7,7 +7,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/report/run_facts.hpp"
+#include "render/report/facts/run_facts.hpp"
 
 namespace grainreel {
 

@@ -1,4 +1,4 @@
-#include "render/report/methods.hpp"
+#include "render/report/facts/methods.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,4 +1,4 @@
-#include "render/report/all_moments.hpp"
+#include "render/report/bed/all_moments.hpp"
 
 #include "engine/state/wall_motion.hpp"
 #include "render/run/frames/same_run.hpp"

@@ -1,4 +1,4 @@
-#include "render/report/run_facts.hpp"
+#include "render/report/facts/run_facts.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "render/report/small_jpeg.hpp"
+#include "render/report/film/small_jpeg.hpp"
 
 #include "render/film/codec/filter_graph.hpp"
 

@@ -1,4 +1,4 @@
-#include "render/report/differences.hpp"
+#include "render/report/facts/differences.hpp"
 
 #include <cstdlib>
 #include <set>

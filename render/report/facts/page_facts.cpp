@@ -1,4 +1,4 @@
-#include "render/report/page_facts.hpp"
+#include "render/report/facts/page_facts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/draw/grains/colour_map.hpp"
-#include "render/report/slabs.hpp"
+#include "render/report/bed/slabs.hpp"
 
 namespace grainreel {
 namespace {
