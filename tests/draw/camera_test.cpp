@@ -5,7 +5,7 @@
 
 #include "engine/scene/bed.hpp"
 #include "render/draw/camera/camera_path.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -6,7 +6,7 @@
 #include "render/draw/grains/colour_scale.hpp"
 #include "render/draw/grains/grain_colours.hpp"
 #include "render/draw/plots/ticks.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render/draw/words/writer.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

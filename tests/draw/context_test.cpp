@@ -13,7 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/gl/objects.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

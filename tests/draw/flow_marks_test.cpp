@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/draw/marks/streamline.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

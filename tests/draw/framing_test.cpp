@@ -6,7 +6,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/scene/text/reader.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

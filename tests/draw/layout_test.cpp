@@ -7,7 +7,7 @@
 
 #include "render/draw/words/first_gutter.hpp"
 #include "render/draw/words/numbers_plan.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -9,7 +9,7 @@
 #include "render/draw/marks/trails.hpp"
 #include "render/draw/plots/plot.hpp"
 #include "render/draw/words/overlay.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

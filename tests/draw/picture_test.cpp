@@ -19,7 +19,7 @@
 #include "render/draw/picture/palette.hpp"
 #include "render/draw/words/captions.hpp"
 #include "render/gl/objects.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

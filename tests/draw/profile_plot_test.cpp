@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/draw/words/cairo_surface.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "engine/state/glued_grains.hpp"
 #include "render/draw/grains/glued_spheres.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -1,7 +1,7 @@
 // Grains in the picture against geometry.
 #include <gtest/gtest.h>
 
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/measure_table.hpp"
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {
