@@ -39,6 +39,7 @@ libgtest-dev         gtest
 libgmock-dev         gmock
 python3-xarray       xarray for Python, which reads fields.nc in a test
 python3-netcdf4      netCDF4 for Python
+python3-vtk9         VTK for Python, which reads fields.nc in a test
 "
 browser_packages="
 chromium             a browser, for ./test --browser

@@ -22,8 +22,8 @@ std::int64_t floor_of(double value) {
 
 // The cell of the grid that a number stands for; -1 beyond its edge.
 std::int64_t inside(const GridAxis& axis, std::int64_t k) {
-    if (axis.periodic) return ((k % axis.count) + axis.count) % axis.count;
-    return k >= 0 && k < axis.count ? k : -1;
+    if (k >= 0 && k < axis.count) return k;
+    return axis.periodic ? ((k % axis.count) + axis.count) % axis.count : -1;
 }
 
 }  // namespace
@@ -75,27 +75,38 @@ void Footprint::add_kernel(const Vec3& middle, double share) {
         }
 }
 
+// What each cell of the box adds to an index of the grid, axis by axis; -1 beyond the grid's edge.
+void Footprint::set_offsets() {
+    std::int64_t stride = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        offsets_[k].clear();
+        for (std::int64_t cell = box_[k].begin; cell < box_[k].end; ++cell) {
+            const std::int64_t in_grid = inside(grid_.axes[k], cell);
+            offsets_[k].push_back(in_grid < 0 ? -1 : in_grid * stride);
+        }
+        stride *= grid_.axes[k].count;
+    }
+}
+
 // The cells of the box that have a value, scaled.
 std::span<const CellWeight> Footprint::collect() {
-    cells_.clear();
+    set_offsets();
+    cells_.resize(values_.size());
     double sum = 0;
     const double* value = values_.data();
-    for (std::int64_t z = box_[2].begin; z < box_[2].end; ++z) {
-        const std::int64_t cell_z = inside(grid_.axes[2], z);
-        for (std::int64_t y = box_[1].begin; y < box_[1].end; ++y) {
-            const std::int64_t cell_y = inside(grid_.axes[1], y);
-            for (std::int64_t x = box_[0].begin; x < box_[0].end; ++x, ++value) {
-                if (*value <= 0) continue;
-                sum += *value;
-                const std::int64_t cell_x = inside(grid_.axes[0], x);
-                if (cell_x >= 0 && cell_y >= 0 && cell_z >= 0)
-                    cells_.push_back({grid_.index(cell_x, cell_y, cell_z), *value});
+    CellWeight* next = cells_.data();
+    for (const std::int64_t z : offsets_[2])
+        for (const std::int64_t y : offsets_[1])
+            for (const std::int64_t x : offsets_[0]) {
+                const double here = *value++;
+                if (here <= 0) continue;
+                sum += here;
+                if ((x | y | z) >= 0) *next++ = {x + y + z, here};
             }
-        }
-    }
+    const std::span<CellWeight> found{cells_.data(), next};
     const double scale = 1 / (sum * grid_.cell_volume());
-    for (CellWeight& cell : cells_) cell.weight *= scale;
-    return cells_;
+    for (CellWeight& cell : found) cell.weight *= scale;
+    return found;
 }
 
 std::span<const CellWeight> Footprint::of_point(const Vec3& point) {

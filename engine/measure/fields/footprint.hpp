@@ -38,11 +38,13 @@ class Footprint {
     Range range_of(std::size_t axis, double low, double high) const;
     void clear_box(const Vec3& low, const Vec3& high);
     void add_kernel(const Vec3& middle, double share);
+    void set_offsets();
     std::span<const CellWeight> collect();
 
     const FieldGrid& grid_;
     FieldKernel kernel_;
     std::array<Range, 3> box_{};
+    std::array<std::vector<std::int64_t>, 3> offsets_;
     std::vector<double> values_;   // of the box, x fastest
     std::vector<double> squares_;  // m2, away along one row
     std::vector<CellWeight> cells_;
