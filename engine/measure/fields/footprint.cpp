@@ -36,49 +36,13 @@ Footprint::Range Footprint::range_of(std::size_t k, double low, double high) con
     return {floor_of((low - axis.low) * cells), floor_of((high - axis.low) * cells) + 1};
 }
 
-void Footprint::clear_box(const Vec3& low, const Vec3& high) {
-    std::size_t size = 1;
+// The cells within the cutoff of a box, and what each of them adds to an index of the grid, axis by axis: -1
+// beyond the grid's edge.
+void Footprint::set_box(const Vec3& low, const Vec3& high) {
+    std::int64_t stride = 1;
     for (std::size_t k = 0; k < 3; ++k) {
         const int axis = static_cast<int>(k);
         box_[k] = range_of(k, low[axis] - kernel_.cutoff(), high[axis] + kernel_.cutoff());
-        size *= static_cast<std::size_t>(box_[k].end - box_[k].begin);
-    }
-    values_.assign(size, 0);
-}
-
-// Adds its values about a point, times `share`. Cells of one row lie side by side: along x, or along y where
-// x is not resolved.
-void Footprint::add_kernel(const Vec3& middle, double share) {
-    std::array<Range, 3> near;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double at = middle[static_cast<int>(k)];
-        near[k] = range_of(k, at - kernel_.cutoff(), at + kernel_.cutoff());
-    }
-    const auto square = [&](std::size_t k, std::int64_t cell) {
-        const GridAxis& axis = grid_.axes[k];
-        const double away = axis.resolved ? axis.middle(cell) - middle[static_cast<int>(k)] : 0;
-        return away * away;
-    };
-    const std::size_t along = grid_.axes[0].resolved ? 0 : 1, across = 1 - along;
-    const Range row = near[along];
-    squares_.clear();
-    for (std::int64_t cell = row.begin; cell < row.end; ++cell) squares_.push_back(square(along, cell));
-    const std::int64_t width = box_[along].end - box_[along].begin,
-                       layer = width * (box_[across].end - box_[across].begin);
-    for (std::int64_t z = near[2].begin; z < near[2].end; ++z)
-        for (std::int64_t other = near[across].begin; other < near[across].end; ++other) {
-            const double away = square(2, z) + square(across, other);
-            double* const values = values_.data() + (z - box_[2].begin) * layer +
-                                   (other - box_[across].begin) * width + row.begin - box_[along].begin;
-            for (std::size_t k = 0; k < squares_.size(); ++k)
-                values[k] += share * kernel_.at(away + squares_[k]);
-        }
-}
-
-// What each cell of the box adds to an index of the grid, axis by axis; -1 beyond the grid's edge.
-void Footprint::set_offsets() {
-    std::int64_t stride = 1;
-    for (std::size_t k = 0; k < 3; ++k) {
         offsets_[k].clear();
         for (std::int64_t cell = box_[k].begin; cell < box_[k].end; ++cell) {
             const std::int64_t in_grid = inside(grid_.axes[k], cell);
@@ -88,20 +52,56 @@ void Footprint::set_offsets() {
     }
 }
 
-// The cells of the box that have a value, scaled.
-std::span<const CellWeight> Footprint::collect() {
-    set_offsets();
-    cells_.resize(values_.size());
-    double sum = 0;
-    const double* value = values_.data();
+// Of the distance along one axis between a point and the middles of cells.
+void Footprint::set_squares(std::size_t k, Range range, double point) {
+    const GridAxis& axis = grid_.axes[k];
+    squares_[k].clear();
+    for (std::int64_t cell = range.begin; cell < range.end; ++cell) {
+        const double away = axis.resolved ? axis.middle(cell) - point : 0;
+        squares_[k].push_back(away * away);
+    }
+}
+
+// Adds the kernel about a point, times `share`, to the values of the box. Cells of one row lie side by side:
+// along x, or along y where x is not resolved.
+void Footprint::add_kernel(const Vec3& middle, double share) {
+    std::array<Range, 3> near;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double at = middle[static_cast<int>(k)];
+        near[k] = range_of(k, at - kernel_.cutoff(), at + kernel_.cutoff());
+        set_squares(k, near[k], at);
+    }
+    const std::size_t along = grid_.axes[0].resolved ? 0 : 1, across = 1 - along;
+    const std::int64_t width = box_[along].end - box_[along].begin,
+                       layer = width * (box_[across].end - box_[across].begin);
+    double* plane = values_.data() + (near[2].begin - box_[2].begin) * layer +
+                    (near[across].begin - box_[across].begin) * width + near[along].begin - box_[along].begin;
+    for (const double square_z : squares_[2]) {
+        double* row = plane;
+        for (const double square : squares_[across]) {
+            const double away = square_z + square;
+            for (std::size_t k = 0; k < squares_[along].size(); ++k)
+                row[k] += share * kernel_.at(away + squares_[along][k]);
+            row += width;
+        }
+        plane += layer;
+    }
+}
+
+// The cells of the box that have a value, scaled. `value` is asked for each cell once, x fastest.
+template <class Value>
+std::span<const CellWeight> Footprint::collect(const Value& value) {
+    cells_.resize(offsets_[0].size() * offsets_[1].size() * offsets_[2].size());
     CellWeight* next = cells_.data();
-    for (const std::int64_t z : offsets_[2])
-        for (const std::int64_t y : offsets_[1])
-            for (const std::int64_t x : offsets_[0]) {
-                const double here = *value++;
+    double sum = 0;
+    for (std::size_t z = 0; z < offsets_[2].size(); ++z)
+        for (std::size_t y = 0; y < offsets_[1].size(); ++y)
+            for (std::size_t x = 0; x < offsets_[0].size(); ++x) {
+                const double here = value(x, y, z);
                 if (here <= 0) continue;
                 sum += here;
-                if ((x | y | z) >= 0) *next++ = {x + y + z, here};
+                const std::int64_t at_x = offsets_[0][x], at_y = offsets_[1][y], at_z = offsets_[2][z];
+                if ((at_x | at_y | at_z) >= 0) *next++ = {at_x + at_y + at_z, here};
             }
     const std::span<CellWeight> found{cells_.data(), next};
     const double scale = 1 / (sum * grid_.cell_volume());
@@ -110,19 +110,23 @@ std::span<const CellWeight> Footprint::collect() {
 }
 
 std::span<const CellWeight> Footprint::of_point(const Vec3& point) {
-    clear_box(point, point);
-    add_kernel(point, 1);
-    return collect();
+    set_box(point, point);
+    for (std::size_t k = 0; k < 3; ++k) set_squares(k, box_[k], point[static_cast<int>(k)]);
+    return collect([&](std::size_t x, std::size_t y, std::size_t z) {
+        return kernel_.at(squares_[2][z] + squares_[1][y] + squares_[0][x]);
+    });
 }
 
 std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& branch) {
     const Vec3 end = begin + branch;
-    clear_box(begin.cwiseMin(end), begin.cwiseMax(end));
+    set_box(begin.cwiseMin(end), begin.cwiseMax(end));
+    values_.assign(offsets_[0].size() * offsets_[1].size() * offsets_[2].size(), 0);
     const int stretches =
         std::max(1, static_cast<int>(std::ceil(branch.norm() / (longest_stretch * kernel_.width()))));
     for (int k = 0; k < stretches; ++k)
         for (const auto& [at, share] : quadrature) add_kernel(begin + (k + at) / stretches * branch, share);
-    return collect();
+    const double* next = values_.data();
+    return collect([&](std::size_t, std::size_t, std::size_t) { return *next++; });
 }
 
 }  // namespace grainreel

@@ -36,17 +36,18 @@ class Footprint {
         std::int64_t begin = 0, end = 1;  // cells, those beyond the edge of the grid counted
     };
     Range range_of(std::size_t axis, double low, double high) const;
-    void clear_box(const Vec3& low, const Vec3& high);
+    void set_box(const Vec3& low, const Vec3& high);
+    void set_squares(std::size_t axis, Range range, double point);
     void add_kernel(const Vec3& middle, double share);
-    void set_offsets();
-    std::span<const CellWeight> collect();
+    template <class Value>
+    std::span<const CellWeight> collect(const Value& value);
 
     const FieldGrid& grid_;
     FieldKernel kernel_;
     std::array<Range, 3> box_{};
     std::array<std::vector<std::int64_t>, 3> offsets_;
-    std::vector<double> values_;   // of the box, x fastest
-    std::vector<double> squares_;  // m2, away along one row
+    std::array<std::vector<double>, 3> squares_;  // m2
+    std::vector<double> values_;                  // of the box, x fastest
     std::vector<CellWeight> cells_;
 };
 
