@@ -8,10 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/columns/grain_columns.hpp"
+#include "engine/inspect/forces.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/inspect/statistics.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 namespace {
@@ -111,6 +113,34 @@ AnswerTable extremes_table(const Snapshot& s) {
     return table;
 }
 
+// Forces of a moment that was brought back; else the names alone.
+AnswerTable walls_table(const Snapshot& s) {
+    AnswerTable table{"walls",
+                      "Walls, and the force of the grains on them",
+                      {{"wall", Dimension::number, "as --wall has it"},
+                       {"contacts", Dimension::number, ""},
+                       {"force_x", Dimension::force, ""},
+                       {"force_y", Dimension::force, ""},
+                       {"force_z", Dimension::force, ""},
+                       {"normal_force", Dimension::force, "sum"}},
+                      {}};
+    const std::size_t count = faces_of(s.scene).size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto wall = static_cast<std::int32_t>(-1 - static_cast<std::int64_t>(k));
+        if (!s.forces) {
+            table.rows.push_back({name_of_body(s, wall), {}, {}, {}, {}, {}});
+            continue;
+        }
+        Vec3 force(0, 0, 0);
+        double normal = 0;
+        const std::vector<const ContactForce*> pushes = pushes_on_wall(s, wall);
+        for (const ContactForce* one : pushes) force += one->on_second(), normal += one->normal_force;
+        table.rows.push_back({name_of_body(s, wall), static_cast<std::int64_t>(pushes.size()), force.x(),
+                              force.y(), force.z(), normal});
+    }
+    return table;
+}
+
 // What the run's observers made of it: energies, segregation, how the bed stands. What has no value is left
 // out.
 AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
@@ -150,6 +180,7 @@ bool outside(const Snapshot& s, std::size_t i) {
 
 Answer overview_of(const Snapshot& s) {
     Answer answer{{moment_table(s), species_table(s), extremes_table(s)}, {}};
+    if (AnswerTable walls = walls_table(s); !walls.rows.empty()) answer.tables.push_back(std::move(walls));
     if (s.measured) answer.tables.push_back(measured_table(s, *s.measured));
     std::size_t out = 0, odd = 0;
     for (std::size_t i = 0; i < s.frame.size(); ++i) {

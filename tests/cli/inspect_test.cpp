@@ -13,7 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/inspect/expression.hpp"
-#include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/columns/grain_columns.hpp"
 #include "engine/inspect/mean_answer.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "tests/cli/program.hpp"
