@@ -165,25 +165,25 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
         if (a->overlap != b->overlap) return a->overlap > b->overlap;
         return a->first != b->first ? a->first < b->first : a->second < b->second;
     });
-    AnswerTable table{"overlaps",
-                      fmt::format("The largest overlaps of {} contacts", all.size()),
-                      {{"first", Dimension::number, "id"},
-                       {"species", Dimension::number, "of the first"},
-                       {"second", Dimension::number, "id; empty of a wall"},
-                       {"what", Dimension::number, "species or wall of the second"},
-                       {"overlap", Dimension::length, ""},
-                       {"overlap_share", Dimension::number, "of the smaller radius, as largest_overlap of measures.csv"},
-                       {"normal_force", Dimension::force, ""},
-                       {"height", Dimension::length, "of the contact above the floor"}},
-                      {}};
+    AnswerTable table{
+        "overlaps",
+        fmt::format("The largest overlaps of {} contacts", all.size()),
+        {{"first", Dimension::number, "id"},
+         {"species", Dimension::number, "of the first"},
+         {"second", Dimension::number, "id; empty of a wall"},
+         {"what", Dimension::number, "species or wall of the second"},
+         {"overlap", Dimension::length, ""},
+         {"overlap_share", Dimension::number, "of the smaller radius, as largest_overlap of measures.csv"},
+         {"normal_force", Dimension::force, ""},
+         {"height", Dimension::length, "of the contact above the floor"}},
+        {}};
     all.resize(std::min(all.size(), most));
     for (const ContactForce* one : all) {
         AnswerCell second;
         if (one->second >= 0) second = static_cast<std::int64_t>(one->second);
         table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first), second,
-                              name_of_body(s, one->second), one->overlap,
-                              one->overlap / one->smaller_radius, one->normal_force,
-                              (one->point - s.frame.floor().place).z()});
+                              name_of_body(s, one->second), one->overlap, one->overlap / one->smaller_radius,
+                              one->normal_force, (one->point - s.frame.floor().place).z()});
     }
     Answer answer{{std::move(table)}, {}};
     if (all.empty()) answer.notes.emplace_back("nothing touches");

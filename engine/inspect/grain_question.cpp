@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/inspect/forces.hpp"
 #include "engine/inspect/columns/grain_columns.hpp"
+#include "engine/inspect/forces.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/measure/segregation/neighbour_pairs.hpp"
 #include "engine/state/container_faces.hpp"
@@ -76,9 +76,8 @@ AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
             number = static_cast<std::int64_t>(partner);
             if (const auto place = s.place_of(partner)) height = s.height(*place);
         }
-        table.rows.push_back({number, name_of_body(s, partner), one.overlap,
-                              one.overlap / one.smaller_radius, one.normal_force,
-                              one.tangential.norm(), one.slides() ? "yes" : "no",
+        table.rows.push_back({number, name_of_body(s, partner), one.overlap, one.overlap / one.smaller_radius,
+                              one.normal_force, one.tangential.norm(), one.slides() ? "yes" : "no",
                               (is_first ? one.torque_on_first : one.torque_on_second).norm(), height});
     }
     return table;

@@ -44,7 +44,8 @@ std::vector<double> side_gap(const Snapshot& s, const GrainList& grains) {
 
 LargeArray<Place> places_of_all(const Snapshot& s) {
     LargeArray<Place> places;
-    for (std::size_t i = 0; i < s.frame.size(); ++i) places.push_back({s.frame.position[i], s.frame.radius[i]});
+    for (std::size_t i = 0; i < s.frame.size(); ++i)
+        places.push_back({s.frame.position[i], s.frame.radius[i]});
     return places;
 }
 
@@ -73,7 +74,7 @@ std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
 // Sums over a grain's neighbours.
 struct Around {
     double all = 0, unlike = 0;
-    double mass = 0;          // kg, its own too
+    double mass = 0;         // kg, its own too
     Vec3 momentum{0, 0, 0};  // likewise
 };
 
@@ -150,15 +151,25 @@ std::vector<GrainColumn> bed_columns() {
     return {
         {"wall_gap", length, "from its surface to the nearest wall; below 0 where they overlap", wall_gap},
         {"side_gap", length, "the same of side walls and slants alone", side_gap},
-        {.name = "depth", .dimension = length, .about = "of the centre below the bed's surface above it",
-         .of = below_surface, .costly = true},
-        {.name = "neighbours", .dimension = number,
-         .about = "grains closer than a quarter of the smallest species' diameter", .of = neighbours,
+        {.name = "depth",
+         .dimension = length,
+         .about = "of the centre below the bed's surface above it",
+         .of = below_surface,
          .costly = true},
-        {.name = "unlike_share", .dimension = number, .about = "share of other species among these",
-         .of = unlike_share, .costly = true},
-        {.name = "fluctuation", .dimension = speed,
-         .about = "speed against the mean velocity of itself and these, by mass", .of = fluctuation,
+        {.name = "neighbours",
+         .dimension = number,
+         .about = "grains closer than a quarter of the smallest species' diameter",
+         .of = neighbours,
+         .costly = true},
+        {.name = "unlike_share",
+         .dimension = number,
+         .about = "share of other species among these",
+         .of = unlike_share,
+         .costly = true},
+        {.name = "fluctuation",
+         .dimension = speed,
+         .about = "speed against the mean velocity of itself and these, by mass",
+         .of = fluctuation,
          .costly = true},
     };
 }

@@ -30,10 +30,11 @@ std::optional<std::size_t> column_named(std::string_view name) {
 std::string why_lacking(std::string_view name, Needs needs) {
     switch (needs) {
         case Needs::contacts:
-            return fmt::format("'{}' needs contacts, and the run kept none; run it with output.contacts = true",
-                               name);
+            return fmt::format(
+                "'{}' needs contacts, and the run kept none; run it with output.contacts = true", name);
         case Needs::forces:
-            return fmt::format("'{}' is known only of a moment that is brought back, and this one was not", name);
+            return fmt::format("'{}' is known only of a moment that is brought back, and this one was not",
+                               name);
         case Needs::period:
             return fmt::format(
                 "'{}' needs the moment one period of the drive earlier, which is not to be had here", name);

@@ -181,8 +181,7 @@ Json json_table(const AnswerTable& table) {
         rows.push_back(std::move(cells));
     }
     Json all = {{"title", table.title}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
-    for (const Dimension dimension : table.row_dimensions)
-        all["row_units"].push_back(si_unit(dimension));
+    for (const Dimension dimension : table.row_dimensions) all["row_units"].push_back(si_unit(dimension));
     return all;
 }
 

@@ -63,7 +63,8 @@ class ShortFormatter final : public CLI::Formatter {
     std::string make_option_opts(const CLI::Option* option) const override {
         constexpr std::size_t most_named = 3;
         std::string text = CLI::Formatter::make_option_opts(option);
-        if (option->get_excludes().size() > most_named) text.erase(std::min(text.size(), text.find(" Excludes:")));
+        if (option->get_excludes().size() > most_named)
+            text.erase(std::min(text.size(), text.find(" Excludes:")));
         return text;
     }
 };

@@ -31,7 +31,8 @@ namespace fs = std::filesystem;
 
 std::string about_columns() {
     std::string text =
-        "Quantities of a grain, for --where and --histogram (numbers have units there, as in 2 cm). * brings the "
+        "Quantities of a grain, for --where and --histogram (numbers have units there, as in 2 cm). * brings "
+        "the "
         "moment\nback, which may take a while:\n";
     for (const GrainColumn& column : grain_columns())
         text += fmt::format("  {:<20}{}{}{}\n", column.name, column.needs == Needs::nothing ? "  " : "* ",
@@ -43,19 +44,20 @@ std::string about_columns() {
 class Inspect final : public Verb {
   public:
     Inspect()
-        : Verb("inspect", "Ask a moment of a run: who is this grain, where are the big ones",
-               "Without a question: the moment on one screen: the species, which grain stands out and which is "
-               "the tip of\nthe bed, what pushes on which wall, and what the run measured, segregation among "
-               "it. A moment that the\nrun did not keep is brought back from its checkpoints, and so are the "
-               "forces.\n\n" +
-                   about_columns() +
-                   "\nExamples:\n"
-                   "  grainreel inspect output/gravel --at 1.2s\n"
-                   "  grainreel inspect output/gravel --at 1.2s --where \"species == big and height > 2 cm\"\n"
-                   "  grainreel inspect output/gravel --at 1.2s --wall \"left slant\"\n"
-                   "  grainreel inspect output/gravel --at 1.2s --grain 12 --png grain.png\n"
-                   "\nExit status: 0 done, 2 a mistake in the options, or a run that cannot be read.") {
-    }
+        : Verb(
+              "inspect", "Ask a moment of a run: who is this grain, where are the big ones",
+              "Without a question: the moment on one screen: the species, which grain stands out and which "
+              "is "
+              "the tip of\nthe bed, what pushes on which wall, and what the run measured, segregation among "
+              "it. A moment that the\nrun did not keep is brought back from its checkpoints, and so are the "
+              "forces.\n\n" +
+                  about_columns() +
+                  "\nExamples:\n"
+                  "  grainreel inspect output/gravel --at 1.2s\n"
+                  "  grainreel inspect output/gravel --at 1.2s --where \"species == big and height > 2 cm\"\n"
+                  "  grainreel inspect output/gravel --at 1.2s --wall \"left slant\"\n"
+                  "  grainreel inspect output/gravel --at 1.2s --grain 12 --png grain.png\n"
+                  "\nExit status: 0 done, 2 a mistake in the options, or a run that cannot be read.") {}
 
     void add_options(CLI::App& parser) override {
         parser
@@ -90,7 +92,10 @@ class Inspect final : public Verb {
         parser.option_defaults()->group("Picture");
         add_time(parser, "--film-time", film_time_,
                  "With --pixel or --png: where a camera that moves is then [that of --frame, else 0]");
-        parser.add_option("--png", picture_, "Draw the moment too, with the answer ringed and all else pale; with --grain and --wall the forces on it as arrows")
+        parser
+            .add_option("--png", picture_,
+                        "Draw the moment too, with the answer ringed and all else pale; with --grain and "
+                        "--wall the forces on it as arrows")
             ->type_name("FILE")
             ->excludes(average);
         add_gl(parser, gl_);
@@ -128,10 +133,14 @@ class Inspect final : public Verb {
   private:
     void add_questions(CLI::App& parser) {
         std::vector<CLI::Option*> questions = {
-            parser.add_option("--grain", grain_, "This grain: place, velocity, contacts, what pushes it, neighbours")
+            parser
+                .add_option("--grain", grain_,
+                            "This grain: place, velocity, contacts, what pushes it, neighbours")
                 ->type_name("ID"),
             parser
-                .add_option("--wall", wall_, "This wall, as in floor or \"left slant\" (the overview lists them): force and moment on it, "
+                .add_option("--wall", wall_,
+                            "This wall, as in floor or \"left slant\" (the overview lists them): force and "
+                            "moment on it, "
                             "pressure by height, who touches it, how many of each species")
                 ->type_name("NAME"),
             parser.add_flag("--largest-overlap", largest_overlap_, "The contacts that overlap most"),
@@ -164,7 +173,8 @@ class Inspect final : public Verb {
         const Snapshot& snapshot = chosen.snapshot;
         Answer answer = answer_of(finder, snapshot, reporter);
         answer.moment = chosen.about;
-        if (!picture_.empty()) draw_answer(snapshot, marks_of(snapshot, answer), film_time(snapshot), picture_, gl_);
+        if (!picture_.empty())
+            draw_answer(snapshot, marks_of(snapshot, answer), film_time(snapshot), picture_, gl_);
         return answer;
     }
 
@@ -242,9 +252,8 @@ class Inspect final : public Verb {
                      fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
                                  record.moments().size())}};
         }
-        Snapshot snapshot = takes(Needs::period)
-                                ? finder.brought_back_with_ways(asked, watcher_of(reporter))
-                                : finder.brought_back(asked, watcher_of(reporter));
+        Snapshot snapshot = takes(Needs::period) ? finder.brought_back_with_ways(asked, watcher_of(reporter))
+                                                 : finder.brought_back(asked, watcher_of(reporter));
         const Frame& frame = snapshot.frame;
         AnswerMoment about{frame.time, frame.step, fmt::format("{}brought back", last)};
         return {std::move(snapshot), std::move(about)};

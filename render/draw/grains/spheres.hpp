@@ -44,7 +44,7 @@ class SpherePainter {
     GrainColours grain_colours_;
     GluedSpheres glued_;
     Team& team_;
-    std::vector<std::uint8_t> painted_;  // by species; empty: all of them
+    std::vector<std::uint8_t> painted_;      // by species; empty: all of them
     std::vector<std::int32_t> not_painted_;  // ids; empty: by species
     SphereLayer layer_;
     Spheres spheres_;

@@ -9,10 +9,10 @@
 namespace grainreel {
 namespace {
 
-constexpr double longest = 0.14;  // over the smaller side of the bed's part of the picture
-constexpr double shortest = 9;    // pens
+constexpr double longest = 0.14;         // over the smaller side of the bed's part of the picture
+constexpr double shortest = 9;           // pens
 constexpr double thin = 1.6, thick = 3;  // pens, of shafts
-constexpr double along_sight = 0.25;       // of the length in space that is seen, below which it is a circle
+constexpr double along_sight = 0.25;     // of the length in space that is seen, below which it is a circle
 
 std::vector<Pixel> circle(const Pixel& middle, double radius) {
     constexpr int corners = 24;
@@ -57,7 +57,8 @@ std::vector<ForceArrow> force_arrows(const View& view, const std::vector<PointFo
         const Vec3 way = pixels / view.pixels_per_metre(one.at) / force * one.force;
         const Vec3 tail = one.pulls ? one.at : Vec3(one.at - way);
         const Vec3 tip = tail + way;
-        arrows.push_back({view.project(tail), view.project(tip), share, one.force.dot(view.forward) < 0, pixels});
+        arrows.push_back(
+            {view.project(tail), view.project(tip), share, one.force.dot(view.forward) < 0, pixels});
     }
     return arrows;
 }

@@ -22,14 +22,14 @@ double longest_force_arrow(const View& view);
 // long enough to be seen. A force along the line of sight has a length near 0.
 struct ForceArrow {
     Pixel tail, tip;
-    double share;           // of the strongest force
-    bool at_eye;            // it points towards the eye
-    double in_space;        // pixels, if it lay across the line of sight
+    double share;     // of the strongest force
+    bool at_eye;      // it points towards the eye
+    double in_space;  // pixels, if it lay across the line of sight
 };
 std::vector<ForceArrow> force_arrows(const View& view, const std::vector<PointForce>& forces, double pen);
 
-// A force along the line of sight is a circle: with a point where it comes towards the eye, with a cross where
-// it goes away. pen: pixels, of the border.
+// A force along the line of sight is a circle: with a point where it comes towards the eye, with a cross
+// where it goes away. pen: pixels, of the border.
 void draw_point_forces(const View& view, const std::vector<PointForce>& forces, const Palette& palette,
                        double pen, Shapes& on);
 

@@ -164,7 +164,9 @@ Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const R
     const Clock& clock = record_.clock();
     const int periods = record_.periods();
     const AskedMoment before{clock.step_at(clock.cycles(moment.step) - periods),
-                             clock.time(moment.step) - periods / scene.drive.highest_frequency(), {}, 0};
+                             clock.time(moment.step) - periods / scene.drive.highest_frequency(),
+                             {},
+                             0};
     if (before.step < record_.moments().front().step || !can_bring_back(before))
         throw UserError(fmt::format(
             "ways over a period need the moment {} before {:.6g} s, and the run does not reach back so far",

@@ -37,8 +37,10 @@ AnswerForces forces_on_grain(const Snapshot& s, std::int64_t id) {
     answer.grains = {s.frame.id[*grain]};
     const std::string name = fmt::format("grain {}", id);
     if (!s.forces) {
-        answer.words = fmt::format("forces on {} are not known"
-                                   "\nnot brought back", name);
+        answer.words = fmt::format(
+            "forces on {} are not known"
+            "\nnot brought back",
+            name);
         return answer;
     }
     for (const ContactForce& one : s.forces->contacts) {
@@ -47,8 +49,8 @@ AnswerForces forces_on_grain(const Snapshot& s, std::int64_t id) {
         const Vec3 force = is_first ? one.on_first() : one.on_second();
         answer.forces.push_back({point_on(s, *grain, one, is_first), force, one.normal_force < 0});
     }
-    answer.words = answer.forces.empty() ? fmt::format("nothing touches {}", name)
-                                         : words_about(name, answer.forces);
+    answer.words =
+        answer.forces.empty() ? fmt::format("nothing touches {}", name) : words_about(name, answer.forces);
     const double weight = s.mass(*grain) * s.scene.gravity.norm();
     if (weight > 0) answer.words += fmt::format("\nits weight {}", text_of_force(weight));
     return answer;
@@ -66,8 +68,8 @@ AnswerForces forces_on_wall(const Snapshot& s, const std::string& name) {
     std::sort(answer.grains.begin(), answer.grains.end());
     answer.grains.erase(std::unique(answer.grains.begin(), answer.grains.end()), answer.grains.end());
     const std::string what = name_of_body(s, wall);
-    answer.words = answer.forces.empty() ? fmt::format("no grain touches {}", what)
-                                         : words_about(what, answer.forces);
+    answer.words =
+        answer.forces.empty() ? fmt::format("no grain touches {}", what) : words_about(what, answer.forces);
     return answer;
 }
 
