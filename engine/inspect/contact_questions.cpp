@@ -35,13 +35,14 @@ AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
              {"force_x", Dimension::force, ""},
              {"force_y", Dimension::force, ""},
              {"force_z", Dimension::force, ""},
-             {"normal_force", Dimension::force, "sum"},
+             {"normal_force", Dimension::force, "sum of all normal forces"},
              {"moment_x", Dimension::moment, "about the container's origin"},
              {"moment_y", Dimension::moment, ""},
              {"moment_z", Dimension::moment, ""},
-             {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"}},
+             {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"},
+             {"force", Dimension::force, "magnitude of the force"}},
             {{static_cast<std::int64_t>(on_wall.size()), force.x(), force.y(), force.z(), normal, moment.x(),
-              moment.y(), moment.z(), share}},
+              moment.y(), moment.z(), share, force.norm()}},
             true};
 }
 

@@ -85,7 +85,7 @@ std::optional<std::size_t> tip_of_bed(const Snapshot& s) {
 
 AnswerTable extremes_table(const Snapshot& s) {
     AnswerTable table{"extremes",
-                      "Who stands out",
+                      "Who stands out (tip of the bed: the highest grain that has another one beside it)",
                       {{"what", Dimension::number, ""},
                        {"id", Dimension::number, ""},
                        {"species", Dimension::number, ""},
@@ -141,6 +141,14 @@ AnswerTable walls_table(const Snapshot& s) {
     return table;
 }
 
+// The first clause of what the documentation says of a column, without what leads to other places in it.
+std::string in_short(std::string about) {
+    about.erase(std::min(about.size(), about.find(';')));
+    if (const std::size_t link = about.find(" (see ["); link != std::string::npos) about.erase(link);
+    std::erase(about, '`');
+    return about;
+}
+
 // What the run's observers made of it: energies, segregation, how the bed stands. What has no value is left
 // out.
 AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
@@ -148,19 +156,25 @@ AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
                       fmt::format("Measured at {:.6g} s", row.time),
                       {{"quantity", Dimension::number, "a column of measures.csv"},
                        {"value", Dimension::number, "in the column's unit, or SI"},
-                       {"about", Dimension::number, ""}},
+                       {"about", Dimension::number, ""},
+                       {"more", Dimension::number, ""}},
                       {}};
     // Where the centres are is in the table of the species, when the row comes is its title.
     const auto said_already = [](const std::string& name) {
         return name == "step" || name == "time_s" || name == "cycles" || name.starts_with("phase") ||
                name.find("centre_") != std::string::npos;
     };
-    std::map<std::string, std::string> labels;
-    for (const MeasureColumn& column : measure_columns(s.scene)) labels[column.name] = column.label;
+    std::map<std::string, std::string> labels, abouts;
+    for (const ObserverEntry& entry : all_observers())
+        for (const ColumnGroup& group : entry.columns(s.scene))
+            for (const MeasureColumn& column : group.columns) {
+                labels[column.name] = column.label;
+                abouts[column.name] = in_short(group.about);
+            }
     for (std::size_t k = 0; k < row.columns.size(); ++k) {
         const std::string& name = row.columns[k];
         if (!said_already(name) && std::isfinite(row.values[k]))
-            table.rows.push_back({name, row.values[k], labels[name]});
+            table.rows.push_back({name, row.values[k], labels[name], abouts[name]});
     }
     return table;
 }

@@ -494,8 +494,8 @@ TEST_F(InspectedMoment, AskedForWaysOverAPeriodTheMomentBeforeComesBackToo) {
     const auto list = [&](std::vector<std::string> words) {
         words.insert(words.end(), {"--limit", "100"});
         std::map<int, double> heights;
-        for (const auto& row : answer(words)["tables"]["grains"]["rows"])
-            heights[row[0].get<int>()] = row[4].get<double>();
+        const auto told = answer(words)["tables"];
+        for (const auto& row : told["grains"]["rows"]) heights[row[0].get<int>()] = row[4].get<double>();
         return heights;
     };
     const auto now = list({"--at", "0.11 s", "--where", "id >= 0"});

@@ -31,8 +31,9 @@ Dimension dimension_of(const AnswerTable& table, std::size_t row, std::size_t co
     return own == Dimension::number && row < table.row_dimensions.size() ? table.row_dimensions[row] : own;
 }
 
-// One unit for each dimension, in all tables of an answer. It fits the columns on the (geometric) mean, and
-// no number has more than four digits before the point in it.
+// One unit for each dimension, in all tables of an answer. It fits what lies half way, on a logarithmic
+// scale, between the largest number and the mean of the columns, and no number has more than four digits
+// before the point in it.
 class Units {
   public:
     explicit Units(const Answer& answer) {
@@ -40,7 +41,7 @@ class Units {
         for (const AnswerTable& table : answer.tables) see(table, all);
         for (const auto& [dimension, seen] : all) {
             if (seen.count == 0) continue;
-            double typical = std::exp(seen.logarithms / seen.count);
+            double typical = std::sqrt(seen.most * std::exp(seen.logarithms / seen.count));
             std::string unit = fitting_unit(typical, dimension);
             while (seen.most >= 1e4 * unit_size(unit, dimension) && typical < seen.most)
                 unit = fitting_unit(typical *= 10, dimension);
