@@ -48,6 +48,28 @@ TEST(PointForces, AWeakForceIsLongEnoughToBeSeen) {
     EXPECT_EQ(force_arrows(view, {{{0, 0, 0}, {0, 0, 0}, false}}, 1).size(), 0u);
 }
 
+// Around a grain of a fortieth of a pixel the ends of arrows lie on a circle, around a large one on its
+// surface.
+TEST(PointForces, ArrowsLeaveASmallGrainFreeToBeSeen) {
+    const View view = view_of(straight_on());
+    const Vec3 centre(0, 0, 0.05);
+    const auto ends = [&](double radius) {
+        std::vector<PointForce> forces;
+        for (const Vec3& out : {Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0, -0.6, 0.8)})
+            forces.push_back({centre + radius * out, -out, false, centre});
+        std::vector<double> distances;
+        for (const ForceArrow& arrow : force_arrows(view, forces, 2)) {
+            EXPECT_NEAR((arrow.tip - arrow.tail).norm(), longest_force_arrow(view), 1e-6);
+            distances.push_back((arrow.tip - view.project(centre)).norm());
+        }
+        return distances;
+    };
+    const double tiny = 0.025 / view.focal;
+    for (const double distance : ends(tiny)) EXPECT_NEAR(distance, 20, 1e-6);
+    for (const double distance : ends(0.02)) EXPECT_NEAR(distance, 0.02 * view.focal, 1e-6);
+    EXPECT_GT(0.02 * view.focal, 20);
+}
+
 int pixels_like(const Picture& picture, const Rectangle& port, const Colour& colour) {
     int count = 0;
     for (int y = port.y; y < port.y + port.height; ++y)

@@ -14,6 +14,17 @@ constexpr double shortest = 9;           // pens
 constexpr double thin = 1.6, thick = 3;  // pens, of shafts
 constexpr double along_sight = 0.25;     // of the length in space that is seen, below which it is a circle
 
+constexpr double room = 10;  // pens, from a grain's centre to the ends of arrows at the least
+
+// Pixels by which what points at a grain's surface is moved outwards.
+Pixel moved_outwards(const View& view, const PointForce& force, double pen) {
+    if (!force.centre) return Pixel(0, 0);
+    const Pixel out = view.project(force.at) - view.project(*force.centre);
+    const double reach = (force.at - *force.centre).norm() * view.pixels_per_metre(force.at);
+    if (reach >= room * pen || out.norm() < 0.1 * reach) return Pixel(0, 0);
+    return (room * pen / reach - 1) * out;
+}
+
 std::vector<Pixel> circle(const Pixel& middle, double radius) {
     constexpr int corners = 24;
     std::vector<Pixel> ring;
@@ -57,8 +68,9 @@ std::vector<ForceArrow> force_arrows(const View& view, const std::vector<PointFo
         const Vec3 way = pixels / view.pixels_per_metre(one.at) / force * one.force;
         const Vec3 tail = one.pulls ? one.at : Vec3(one.at - way);
         const Vec3 tip = tail + way;
-        arrows.push_back(
-            {view.project(tail), view.project(tip), share, one.force.dot(view.forward) < 0, pixels});
+        const Pixel aside = moved_outwards(view, one, pen);
+        arrows.push_back({view.project(tail) + aside, view.project(tip) + aside, share,
+                          one.force.dot(view.forward) < 0, pixels});
     }
     return arrows;
 }

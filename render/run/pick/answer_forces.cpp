@@ -47,7 +47,8 @@ AnswerForces forces_on_grain(const Snapshot& s, std::int64_t id) {
         if ((one.first != id && one.second != id) || !one.pushes()) continue;
         const bool is_first = one.first == id;
         const Vec3 force = is_first ? one.on_first() : one.on_second();
-        answer.forces.push_back({point_on(s, *grain, one, is_first), force, one.normal_force < 0});
+        answer.forces.push_back(
+            {point_on(s, *grain, one, is_first), force, one.normal_force < 0, s.frame.position[*grain]});
     }
     answer.words =
         answer.forces.empty() ? fmt::format("nothing touches {}", name) : words_about(name, answer.forces);
@@ -63,7 +64,8 @@ AnswerForces forces_on_wall(const Snapshot& s, const std::string& name) {
         const std::optional<std::size_t> grain = s.place_of(one->first);
         if (!grain) continue;
         answer.grains.push_back(one->first);
-        answer.forces.push_back({point_on(s, *grain, *one, true), one->on_second(), one->normal_force < 0});
+        answer.forces.push_back({point_on(s, *grain, *one, true), one->on_second(), one->normal_force < 0,
+                                 s.frame.position[*grain]});
     }
     std::sort(answer.grains.begin(), answer.grains.end());
     answer.grains.erase(std::unique(answer.grains.begin(), answer.grains.end()), answer.grains.end());
