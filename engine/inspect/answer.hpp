@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,11 +30,21 @@ struct AnswerTable {
     std::vector<AnswerColumn> columns;
     std::vector<std::vector<AnswerCell>> rows;  // a cell a column
     bool has_mean = false;                      // whether rows of several moments can be joined
+    // Where each row is a quantity of its own: theirs, of the columns of numbers.
+    std::vector<Dimension> row_dimensions{};
+};
+
+// Of which moment an answer is.
+struct AnswerMoment {
+    double time = 0;  // s; NaN when it is not known
+    std::int64_t step = 0;
+    std::string how;  // "kept moment 3 of 20", "brought back"
 };
 
 struct Answer {
     std::vector<AnswerTable> tables;
     std::vector<std::string> notes;  // sentences
+    std::optional<AnswerMoment> moment{};
 };
 
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/inspect/forces.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/measure/wall_faces.hpp"
 #include "engine/state/container_faces.hpp"
@@ -14,27 +15,6 @@ namespace grainreel {
 namespace {
 
 using Forces = std::vector<const ContactForce*>;
-
-std::vector<std::string> wall_names(const Snapshot& s) {
-    std::vector<std::string> names;
-    for (const Face& face : container_faces(s.scene.container, s.scene.drive)) names.push_back(face.name);
-    for (const Face& face : free_faces(s.scene.walls)) names.push_back(face.name);
-    return names;
-}
-
-// As contacts count the faces; "left_slant" is "left slant".
-std::int32_t wall_named(const Snapshot& s, std::string name) {
-    std::replace(name.begin(), name.end(), '_', ' ');
-    const std::vector<std::string> names = wall_names(s);
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        std::string known = names[k];
-        std::replace(known.begin(), known.end(), '_', ' ');
-        if (known == name) return -1 - static_cast<std::int32_t>(k);
-    }
-    throw UserError(names.empty() ? "the scene has no walls"
-                                  : fmt::format("'{}' is no wall of this scene; it has {}", name,
-                                                fmt::join(names, ", ")));
-}
 
 AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
     Vec3 force(0, 0, 0), moment(0, 0, 0);
@@ -55,13 +35,14 @@ AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
              {"force_x", Dimension::force, ""},
              {"force_y", Dimension::force, ""},
              {"force_z", Dimension::force, ""},
-             {"normal_force", Dimension::force, "sum"},
+             {"normal_force", Dimension::force, "sum of all normal forces"},
              {"moment_x", Dimension::moment, "about the container's origin"},
              {"moment_y", Dimension::moment, ""},
              {"moment_z", Dimension::moment, ""},
-             {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"}},
+             {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"},
+             {"force", Dimension::force, "magnitude of the force"}},
             {{static_cast<std::int64_t>(on_wall.size()), force.x(), force.y(), force.z(), normal, moment.x(),
-              moment.y(), moment.z(), share}},
+              moment.y(), moment.z(), share, force.norm()}},
             true};
 }
 
@@ -143,18 +124,37 @@ AnswerTable species_table(const Snapshot& s, const Forces& on_wall) {
 
 }  // namespace
 
-Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most) {
-    const std::int32_t wall = wall_named(s, name);
-    Forces on_wall;
+std::int32_t wall_number(const Snapshot& s, std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    std::vector<std::string> names;
+    for (const Face& face : faces_of(s.scene)) names.push_back(face.name);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        std::string known = names[k];
+        std::replace(known.begin(), known.end(), '_', ' ');
+        if (known == name) return -1 - static_cast<std::int32_t>(k);
+    }
+    throw UserError(names.empty() ? "the scene has no walls"
+                                  : fmt::format("'{}' is no wall of this scene; it has {}", name,
+                                                fmt::join(names, ", ")));
+}
+
+std::vector<const ContactForce*> pushes_on_wall(const Snapshot& s, std::int32_t wall) {
+    std::vector<const ContactForce*> on_wall;
     for (const ContactForce& one : s.forces->contacts)
         if (one.second == wall && one.pushes()) on_wall.push_back(&one);
+    return on_wall;
+}
+
+Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most) {
+    const std::int32_t wall = wall_number(s, name);
+    const Forces on_wall = pushes_on_wall(s, wall);
     Answer answer{{sum_table(s, on_wall)}, {}};
     if (on_wall.empty()) {
         answer.notes.emplace_back("no grain touches it");
         return answer;
     }
     answer.tables.push_back(species_table(s, on_wall));
-    answer.tables.push_back(height_table(s, wall_names(s)[static_cast<std::size_t>(-1 - wall)], on_wall));
+    answer.tables.push_back(height_table(s, name_of_body(s, wall), on_wall));
     answer.tables.push_back(touching_table(s, on_wall, most));
     return answer;
 }
@@ -166,25 +166,25 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
         if (a->overlap != b->overlap) return a->overlap > b->overlap;
         return a->first != b->first ? a->first < b->first : a->second < b->second;
     });
-    AnswerTable table{"overlaps",
-                      fmt::format("The largest overlaps of {} contacts", all.size()),
-                      {{"first", Dimension::number, "id"},
-                       {"species", Dimension::number, "of the first"},
-                       {"second", Dimension::number, "id; empty of a wall"},
-                       {"what", Dimension::number, "species or wall of the second"},
-                       {"overlap", Dimension::length, ""},
-                       {"overlap_share", Dimension::number, "of the first grain's diameter"},
-                       {"normal_force", Dimension::force, ""},
-                       {"height", Dimension::length, "of the contact above the floor"}},
-                      {}};
+    AnswerTable table{
+        "overlaps",
+        fmt::format("The largest overlaps of {} contacts", all.size()),
+        {{"first", Dimension::number, "id"},
+         {"species", Dimension::number, "of the first"},
+         {"second", Dimension::number, "id; empty of a wall"},
+         {"what", Dimension::number, "species or wall of the second"},
+         {"overlap", Dimension::length, ""},
+         {"overlap_share", Dimension::number, "of the smaller radius, as largest_overlap of measures.csv"},
+         {"normal_force", Dimension::force, ""},
+         {"height", Dimension::length, "of the contact above the floor"}},
+        {}};
     all.resize(std::min(all.size(), most));
     for (const ContactForce* one : all) {
-        AnswerCell second, share;
+        AnswerCell second;
         if (one->second >= 0) second = static_cast<std::int64_t>(one->second);
-        if (const auto place = s.place_of(one->first)) share = one->overlap / (2 * s.frame.radius[*place]);
         table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first), second,
-                              name_of_body(s, one->second), one->overlap, share, one->normal_force,
-                              (one->point - s.frame.floor().place).z()});
+                              name_of_body(s, one->second), one->overlap, one->overlap / one->smaller_radius,
+                              one->normal_force, (one->point - s.frame.floor().place).z()});
     }
     Answer answer{{std::move(table)}, {}};
     if (all.empty()) answer.notes.emplace_back("nothing touches");

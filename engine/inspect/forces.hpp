@@ -1,6 +1,9 @@
 // What pushes the grains of a snapshot that was brought back, so that its forces are known.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "engine/inspect/snapshot.hpp"
 
 namespace grainreel {
@@ -8,5 +11,11 @@ namespace grainreel {
 // Sums over a grain's contacts; `id` need not be there. N, and N m about its centre.
 Vec3 contact_force_on(const Snapshot& snapshot, std::int32_t id);
 Vec3 contact_torque_on(const Snapshot& snapshot, std::int32_t id);
+
+// "left slant" or "left_slant", as contacts count the faces: -1 - face. Throws UserError, which lists the
+// walls.
+std::int32_t wall_number(const Snapshot& snapshot, std::string name);
+// Its contacts that push or pull.
+std::vector<const ContactForce*> pushes_on_wall(const Snapshot& snapshot, std::int32_t wall);
 
 }  // namespace grainreel

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_image.hpp"
+#include "engine/inspect/columns/grain_columns.hpp"
 #include "engine/inspect/forces.hpp"
-#include "engine/inspect/grain_columns.hpp"
 #include "engine/inspect/questions.hpp"
+#include "engine/measure/segregation/neighbour_pairs.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 namespace {
@@ -16,14 +17,14 @@ AnswerTable columns_table(const Snapshot& s, std::size_t grain) {
                       {{}}};
     const auto& columns = grain_columns();
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        if (columns[k].needs_contacts && !s.contacts) continue;
+        if (!s.has(columns[k].needs)) continue;
         table.columns.push_back({columns[k].name, columns[k].dimension, columns[k].about});
         if (columns[k].is_species) {
             table.rows[0].emplace_back(name_of_body(s, s.frame.id[grain]));
         } else if (columns[k].name == "id") {
             table.rows[0].emplace_back(static_cast<std::int64_t>(s.frame.id[grain]));
         } else {
-            table.rows[0].emplace_back(values_of(s, static_cast<int>(k))[grain]);
+            table.rows[0].emplace_back(values_of(s, static_cast<int>(k), {grain}).front());
         }
     }
     return table;
@@ -59,6 +60,7 @@ AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
                       {{"partner", Dimension::number, "id; empty of a wall"},
                        {"what", Dimension::number, "species or wall"},
                        {"overlap", Dimension::length, ""},
+                       {"overlap_share", Dimension::number, "of the smaller radius"},
                        {"normal_force", Dimension::force, "below 0 where it attracts"},
                        {"tangential_force", Dimension::force, "magnitude"},
                        {"slides", Dimension::number, "whether friction is all used up"},
@@ -74,8 +76,8 @@ AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
             number = static_cast<std::int64_t>(partner);
             if (const auto place = s.place_of(partner)) height = s.height(*place);
         }
-        table.rows.push_back({number, name_of_body(s, partner), one.overlap, one.normal_force,
-                              one.tangential.norm(), one.slides() ? "yes" : "no",
+        table.rows.push_back({number, name_of_body(s, partner), one.overlap, one.overlap / one.smaller_radius,
+                              one.normal_force, one.tangential.norm(), one.slides() ? "yes" : "no",
                               (is_first ? one.torque_on_first : one.torque_on_second).norm(), height});
     }
     return table;
@@ -113,21 +115,17 @@ AnswerTable torque_table(const Snapshot& s, std::size_t grain) {
             {{sum.x(), sum.y(), sum.z(), sum.norm()}}};
 }
 
-// Grains whose surfaces are closer to its own than a tenth of its diameter.
 AnswerTable neighbours_table(const Snapshot& s, std::size_t grain) {
     AnswerTable table{"neighbours",
-                      "Grains closer than a tenth of its diameter",
+                      "Grains closer than a quarter of the smallest species' diameter",
                       {{"species", Dimension::number, ""}, {"grains", Dimension::number, ""}},
                       {}};
-    const double depth = s.scene.container.periodic_depth ? s.scene.container.depth : 0;
+    const double gap = gap_of_neighbours(s.scene), period = period_of_depth(s.scene.container);
+    const Place own{s.frame.position[grain], s.frame.radius[grain]};
     std::vector<std::int64_t> count(s.scene.species.size(), 0);
-    for (std::size_t i = 0; i < s.frame.size(); ++i) {
-        Vec3 way = s.frame.position[i] - s.frame.position[grain];
-        way.x() = nearest_image(way.x(), depth);
-        const double reach = 1.2 * s.frame.radius[grain] + s.frame.radius[i];
-        if (i != grain && way.squaredNorm() < reach * reach)
+    for (std::size_t i = 0; i < s.frame.size(); ++i)
+        if (i != grain && are_neighbours(own, {s.frame.position[i], s.frame.radius[i]}, gap, period))
             ++count[static_cast<std::size_t>(s.frame.species[i])];
-    }
     for (std::size_t k = 0; k < count.size(); ++k) table.rows.push_back({s.scene.species[k].name, count[k]});
     return table;
 }

@@ -8,10 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/columns/grain_columns.hpp"
+#include "engine/inspect/forces.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/inspect/statistics.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 namespace {
@@ -83,7 +85,7 @@ std::optional<std::size_t> tip_of_bed(const Snapshot& s) {
 
 AnswerTable extremes_table(const Snapshot& s) {
     AnswerTable table{"extremes",
-                      "Who stands out",
+                      "Who stands out (tip of the bed: the highest grain that has another one beside it)",
                       {{"what", Dimension::number, ""},
                        {"id", Dimension::number, ""},
                        {"species", Dimension::number, ""},
@@ -111,6 +113,42 @@ AnswerTable extremes_table(const Snapshot& s) {
     return table;
 }
 
+// Forces of a moment that was brought back; else the names alone.
+AnswerTable walls_table(const Snapshot& s) {
+    AnswerTable table{"walls",
+                      "Walls, and the force of the grains on them",
+                      {{"wall", Dimension::number, "as --wall has it"},
+                       {"contacts", Dimension::number, ""},
+                       {"force_x", Dimension::force, ""},
+                       {"force_y", Dimension::force, ""},
+                       {"force_z", Dimension::force, ""},
+                       {"normal_force", Dimension::force, "sum"}},
+                      {}};
+    const std::size_t count = faces_of(s.scene).size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto wall = static_cast<std::int32_t>(-1 - static_cast<std::int64_t>(k));
+        if (!s.forces) {
+            table.rows.push_back({name_of_body(s, wall), {}, {}, {}, {}, {}});
+            continue;
+        }
+        Vec3 force(0, 0, 0);
+        double normal = 0;
+        const std::vector<const ContactForce*> pushes = pushes_on_wall(s, wall);
+        for (const ContactForce* one : pushes) force += one->on_second(), normal += one->normal_force;
+        table.rows.push_back({name_of_body(s, wall), static_cast<std::int64_t>(pushes.size()), force.x(),
+                              force.y(), force.z(), normal});
+    }
+    return table;
+}
+
+// The first clause of what the documentation says of a column, without what leads to other places in it.
+std::string in_short(std::string about) {
+    about.erase(std::min(about.size(), about.find(';')));
+    if (const std::size_t link = about.find(" (see ["); link != std::string::npos) about.erase(link);
+    std::erase(about, '`');
+    return about;
+}
+
 // What the run's observers made of it: energies, segregation, how the bed stands. What has no value is left
 // out.
 AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
@@ -118,19 +156,25 @@ AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
                       fmt::format("Measured at {:.6g} s", row.time),
                       {{"quantity", Dimension::number, "a column of measures.csv"},
                        {"value", Dimension::number, "in the column's unit, or SI"},
-                       {"about", Dimension::number, ""}},
+                       {"about", Dimension::number, ""},
+                       {"more", Dimension::number, ""}},
                       {}};
     // Where the centres are is in the table of the species, when the row comes is its title.
     const auto said_already = [](const std::string& name) {
         return name == "step" || name == "time_s" || name == "cycles" || name.starts_with("phase") ||
                name.find("centre_") != std::string::npos;
     };
-    std::map<std::string, std::string> labels;
-    for (const MeasureColumn& column : measure_columns(s.scene)) labels[column.name] = column.label;
+    std::map<std::string, std::string> labels, abouts;
+    for (const ObserverEntry& entry : all_observers())
+        for (const ColumnGroup& group : entry.columns(s.scene))
+            for (const MeasureColumn& column : group.columns) {
+                labels[column.name] = column.label;
+                abouts[column.name] = in_short(group.about);
+            }
     for (std::size_t k = 0; k < row.columns.size(); ++k) {
         const std::string& name = row.columns[k];
         if (!said_already(name) && std::isfinite(row.values[k]))
-            table.rows.push_back({name, row.values[k], labels[name]});
+            table.rows.push_back({name, row.values[k], labels[name], abouts[name]});
     }
     return table;
 }
@@ -150,6 +194,7 @@ bool outside(const Snapshot& s, std::size_t i) {
 
 Answer overview_of(const Snapshot& s) {
     Answer answer{{moment_table(s), species_table(s), extremes_table(s)}, {}};
+    if (AnswerTable walls = walls_table(s); !walls.rows.empty()) answer.tables.push_back(std::move(walls));
     if (s.measured) answer.tables.push_back(measured_table(s, *s.measured));
     std::size_t out = 0, odd = 0;
     for (std::size_t i = 0; i < s.frame.size(); ++i) {

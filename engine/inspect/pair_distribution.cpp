@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "engine/base/error.hpp"
@@ -13,7 +12,7 @@
 namespace grainreel {
 namespace {
 
-constexpr double reach = 4;            // mean diameters
+constexpr double farthest = 4;         // mean diameters
 constexpr std::size_t bin_count = 80;  // up to there
 
 struct Box {
@@ -38,62 +37,89 @@ double room_about(const Vec3& at, const Box& box, double period) {
     return room;
 }
 
-// Grains in cells as wide as the reach.
+// Centres in cells, the grains of a cell one after the other. A cell is a part of the reach wide: with small
+// cells fewer of the centres that are looked at are too far away.
 class Neighbourhood {
   public:
-    Neighbourhood(const Snapshot& s, const Box& box, double width, double period)
-        : frame_(s.frame), low_(box.low), width_(width), period_(period) {
-        columns_ = std::max(1, static_cast<int>(period / width));
-        for (std::size_t i = 0; i < frame_.size(); ++i) cells_[cell_of(frame_.position[i])].push_back(i);
+    Neighbourhood(const Snapshot& s, const Box& box, double reach, double period)
+        : low_(box.low), reach_(reach), period_(period) {
+        const Vec3 size = box.high - box.low;
+        constexpr double most_cells = 1 << 20;
+        double width = reach / kParts;
+        while ((size / width).array().ceil().max(1).prod() > most_cells) width *= 2;
+        for (int a = 0; a < 3; ++a) {
+            count_[a] = std::max(1, static_cast<int>(size[a] / width));
+            width_[a] = size[a] / count_[a];
+            spread_[a] = static_cast<int>(std::ceil(reach / width_[a]));
+        }
+        sort(s.frame.position);
     }
 
-    // look(distance) for each grain that is nearer to grain i than the width.
+    std::size_t size() const { return at_.size(); }
+    // In the order of the cells.
+    const Vec3& place(std::size_t k) const { return at_[k]; }
+
+    // look(k, distance) for each centre that is nearer to centre i than the reach, and comes after it.
     template <class Look>
-    void around(std::size_t i, const Look& look) const {
-        const Cell here = cell_of(frame_.position[i]);
-        for (const int x : along_depth(here[0]))
-            for (int y = here[1] - 1; y <= here[1] + 1; ++y)
-                for (int z = here[2] - 1; z <= here[2] + 1; ++z) {
-                    const auto found = cells_.find({x, y, z});
-                    if (found == cells_.end()) continue;
-                    for (const std::size_t k : found->second) {
-                        Vec3 apart = frame_.position[k] - frame_.position[i];
-                        apart.x() = nearest_image(apart.x(), period_);
-                        if (k != i && apart.norm() < width_) look(apart.norm());
-                    }
+    void after(std::size_t i, const Look& look) const {
+        const std::array<int, 3> here = cell_of(at_[i]);
+        const bool round = period_ > 0;
+        const bool whole = round && 2 * spread_[0] + 1 >= count_[0];
+        const int x_from = whole ? 0 : here[0] - spread_[0],
+                  x_to = whole ? count_[0] - 1 : here[0] + spread_[0];
+        for (int x = x_from; x <= x_to; ++x) {
+            if (!round && (x < 0 || x >= count_[0])) continue;
+            const int column = round ? (x + count_[0]) % count_[0] : x;
+            for (int y = std::max(0, here[1] - spread_[1]);
+                 y <= std::min(count_[1] - 1, here[1] + spread_[1]); ++y) {
+                // Cells along z follow each other.
+                const std::size_t from = start_[cell({column, y, std::max(0, here[2] - spread_[2])})];
+                const std::size_t to =
+                    start_[cell({column, y, std::min(count_[2] - 1, here[2] + spread_[2])}) + 1];
+                for (std::size_t k = std::max(from, i + 1); k < to; ++k) {
+                    Vec3 apart = at_[k] - at_[i];
+                    if (round) apart.x() = nearest_image(apart.x(), period_);
+                    const double square = apart.squaredNorm();
+                    if (square < reach_ * reach_) look(k, std::sqrt(square));
                 }
+            }
+        }
     }
 
   private:
-    using Cell = std::array<int, 3>;
+    static constexpr int kParts = 3;  // cells, about, along the reach
 
-    Cell cell_of(const Vec3& at) const {
-        const Vec3 place = (at - low_) / width_;
-        Cell cell{};
-        for (int k = 0; k < 3; ++k) cell[k] = static_cast<int>(std::floor(place[k]));
-        if (period_ > 0) {
-            const double wide = period_ / columns_;
-            cell[0] = static_cast<int>(std::floor((at.x() - low_.x()) / wide));
-            cell[0] = ((cell[0] % columns_) + columns_) % columns_;
+    void sort(const std::vector<Vec3>& places) {
+        std::vector<std::size_t> own;
+        start_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2] + 1, 0);
+        for (const Vec3& at : places) {
+            own.push_back(cell(cell_of(at)));
+            ++start_[own.back() + 1];
+        }
+        for (std::size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
+        std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+        at_.resize(places.size());
+        for (std::size_t i = 0; i < places.size(); ++i) at_[next[own[i]]++] = places[i];
+    }
+    std::array<int, 3> cell_of(const Vec3& at) const {
+        std::array<int, 3> cell{};
+        for (int a = 0; a < 3; ++a) {
+            double from = at[a] - low_[a];
+            if (a == 0 && period_ > 0) from = nearest_image(at[a], period_) - low_[a];
+            cell[a] = std::clamp(static_cast<int>(from / width_[a]), 0, count_[a] - 1);
         }
         return cell;
     }
-
-    // Each column once, also where there are fewer than three round the period.
-    std::vector<int> along_depth(int x) const {
-        if (period_ == 0) return {x - 1, x, x + 1};
-        std::vector<int> columns;
-        for (int k = x - 1; k <= x + 1; ++k) columns.push_back((k + columns_) % columns_);
-        std::sort(columns.begin(), columns.end());
-        columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-        return columns;
+    std::size_t cell(const std::array<int, 3>& at) const {
+        return (static_cast<std::size_t>(at[0]) * count_[1] + at[1]) * count_[2] + at[2];
     }
 
-    const Frame& frame_;
-    Vec3 low_;
-    double width_, period_;
-    int columns_ = 1;  // of cells round a periodic depth
-    std::map<Cell, std::vector<std::size_t>> cells_;
+    const Vec3 low_;
+    const double reach_, period_;            // m
+    std::array<int, 3> count_{}, spread_{};  // cells along an axis, and on either side within the reach
+    Vec3 width_;                             // m
+    std::vector<std::size_t> start_;         // of each cell in at_, and one past the last
+    std::vector<Vec3> at_;                   // m
 };
 
 }  // namespace
@@ -106,24 +132,25 @@ Answer pair_distribution_answer(const Snapshot& s) {
         return sum / static_cast<double>(s.frame.size());
     }();
     const double period = period_of_depth(s.scene.container);
-    const double most = reach * diameter, width = most / static_cast<double>(bin_count);
+    const double most = farthest * diameter, width = most / static_cast<double>(bin_count);
     const Box box = box_of(s, period);
     const double volume = (box.high - box.low).prod();
     if (!(volume > 0))
         throw UserError("the grains lie in one plane; the distribution needs a bed of some depth");
     const double density = static_cast<double>(s.frame.size()) / volume;
     const Neighbourhood near(s, box, most, period);
-    std::vector<double> pairs(bin_count, 0), centres(bin_count, 0);
-    for (std::size_t i = 0; i < s.frame.size(); ++i) {
-        const double room = room_about(s.frame.position[i], box, period);
-        const auto whole = static_cast<std::size_t>(std::clamp(room / width, 0.0, double(bin_count)));
-        if (whole == 0) continue;
-        for (std::size_t k = 0; k < whole; ++k) ++centres[k];
-        near.around(i, [&](double distance) {
-            const auto k = static_cast<std::size_t>(distance / width);
-            if (k < whole) ++pairs[k];
-        });
+    std::vector<double> pairs(bin_count + 1, 0), centres(bin_count, 0);
+    std::vector<std::size_t> whole(near.size());  // bins of each centre that lie in the box all round
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        const double room = room_about(near.place(i), box, period);
+        whole[i] = static_cast<std::size_t>(std::clamp(room / width, 0.0, double(bin_count)));
+        for (std::size_t k = 0; k < whole[i]; ++k) ++centres[k];
     }
+    for (std::size_t i = 0; i < near.size(); ++i)
+        near.after(i, [&](std::size_t other, double distance) {
+            const auto k = static_cast<std::size_t>(distance / width);
+            pairs[k] += (k < whole[i]) + (k < whole[other]);
+        });
     AnswerTable table{"pair_distribution",
                       "Radial distribution of the centres, against a uniform bed in the box about all grains",
                       {{"r_from", Dimension::length, "", AnswerColumn::kKey},

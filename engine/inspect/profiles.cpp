@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/nearest_name.hpp"
-#include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/columns/grain_columns.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/inspect/statistics.hpp"
 
@@ -38,13 +38,7 @@ void check_grains(const Snapshot& s) {
 }
 
 std::vector<double> along_axis(const Snapshot& s, const std::string& along) {
-    if (along != "r") return values_of(s, column_called(s, along));
-    std::vector<double> radius;
-    for (const Vec3& place : s.frame.position) {
-        const Vec3 from = place - s.frame.container().place;
-        radius.push_back(std::hypot(from.x(), from.y()));
-    }
-    return radius;
+    return values_of(s, column_called(s, along));
 }
 
 struct Bin {

@@ -9,6 +9,20 @@
 
 namespace grainreel {
 
+bool Snapshot::has(Needs what) const {
+    switch (what) {
+        case Needs::contacts:
+            return contacts;
+        case Needs::forces:
+            return forces.has_value();
+        case Needs::period:
+            return !frame.displacement.empty() || frame.size() == 0;
+        case Needs::nothing:
+            break;
+    }
+    return true;
+}
+
 double Snapshot::density(std::size_t i) const {
     return scene.species.at(static_cast<std::size_t>(frame.species[i])).density;
 }

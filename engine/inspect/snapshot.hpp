@@ -26,6 +26,10 @@ struct MeasuredRow {
     std::vector<double> values;  // NaN: none
 };
 
+// What a question may take that a snapshot may lack: contacts; what only a moment that was brought back has;
+// ways over the last period of the drive (Frame::displacement).
+enum class Needs { nothing, contacts, forces, period };
+
 struct Snapshot {
     const Scene& scene;
     Frame frame;                             // its grains; touches where they are known
@@ -34,6 +38,7 @@ struct Snapshot {
     std::optional<SnapshotForces> forces{};  // of a moment that was brought back
     std::optional<MeasuredRow> measured{};   // at the moment, or at the row nearest to it
 
+    bool has(Needs what) const;
     double density(std::size_t i) const;  // kg/m3, of grain i of the frame
     double mass(std::size_t i) const;     // kg
     double height(std::size_t i) const;   // m, of its centre above the floor where that is now

@@ -1,6 +1,8 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
-#include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/columns/grain_columns.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/inspect/statistics.hpp"
 
@@ -30,9 +32,11 @@ AnswerTable counts_table(const Snapshot& s, const std::vector<std::size_t>& foun
     return table;
 }
 
-AnswerTable statistics_table(const Snapshot& s, const std::vector<std::size_t>& found) {
+// What is costly only where it is asked for.
+AnswerTable statistics_table(const Snapshot& s, const std::vector<std::size_t>& found,
+                             const std::vector<int>& asked) {
     AnswerTable table{"statistics",
-                      "Of these grains, in SI units",
+                      "Of these grains",
                       {{"column", Dimension::number, ""},
                        {"mean", Dimension::number, ""},
                        {"deviation", Dimension::number, "standard deviation of the sample"},
@@ -41,14 +45,13 @@ AnswerTable statistics_table(const Snapshot& s, const std::vector<std::size_t>& 
                       {}};
     const auto& columns = grain_columns();
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        if (columns[k].is_species || columns[k].name == "id") continue;
-        if (columns[k].needs_contacts && !s.contacts) continue;
-        const std::vector<double> all = values_of(s, static_cast<int>(k));
-        std::vector<double> own;
-        for (const std::size_t i : found) own.push_back(all[i]);
-        const Statistics of = statistics_of(own);
+        const int number = static_cast<int>(k);
+        if (columns[k].is_species || columns[k].name == "id" || !s.has(columns[k].needs)) continue;
+        if (columns[k].costly && std::find(asked.begin(), asked.end(), number) == asked.end()) continue;
+        const Statistics of = statistics_of(values_of(s, number, found));
         if (of.count == 0) continue;
         table.rows.push_back({columns[k].name, of.mean, of.deviation, of.least, of.most});
+        table.row_dimensions.push_back(columns[k].dimension);
     }
     return table;
 }
@@ -77,10 +80,11 @@ AnswerTable list_table(const Snapshot& s, const std::vector<std::size_t>& found,
 }  // namespace
 
 Answer where_answer(const Snapshot& s, const std::string& condition, std::size_t most) {
-    const std::vector<std::size_t> found = grains_where(s, condition);
+    const Expression wanted(condition, GrainVocabulary(s));
+    const std::vector<std::size_t> found = grains_where(s, wanted);
     Answer answer{{counts_table(s, found)}, {}};
     if (found.empty()) return answer;
-    answer.tables.push_back(statistics_table(s, found));
+    answer.tables.push_back(statistics_table(s, found, wanted.columns()));
     if (most > 0) answer.tables.push_back(list_table(s, found, most));
     return answer;
 }

@@ -17,6 +17,8 @@ struct ContactForce {
     Vec3 torque_on_second;       // N m; zero for a wall
     double friction;             // coefficient of this pair
     Vec3 point;                  // m
+    double smaller_radius;       // m, of the two; of a wall that of the grain
+    double stored_energy;        // J, that unloading would give back
 
     Vec3 on_second() const { return normal_force * normal + tangential; }  // N
     Vec3 on_first() const { return -on_second(); }

@@ -100,7 +100,8 @@ std::vector<ContactForce> Simulation::contact_forces() const {
             pair ? m.plan.between(species(c.first), species(c.second)) : m.plan.wall[species(c.first)];
         forces.push_back({m.grains.id[c.first], pair ? m.grains.id[c.second] : c.second, c.normal, c.overlap,
                           c.normal_force, c.tangential, c.torque_on_first,
-                          pair ? c.torque_on_second : Vec3::Zero(), law.friction, c.point});
+                          pair ? c.torque_on_second : Vec3::Zero(), law.friction, c.point, c.smaller_radius,
+                          c.stored_energy});
     });
     std::sort(forces.begin(), forces.end(), [](const ContactForce& a, const ContactForce& b) {
         return a.first != b.first ? a.first < b.first : a.second < b.second;

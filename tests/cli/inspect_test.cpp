@@ -6,14 +6,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/inspect/columns/grain_columns.hpp"
 #include "engine/inspect/expression.hpp"
-#include "engine/inspect/grain_columns.hpp"
 #include "engine/inspect/mean_answer.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "tests/cli/program.hpp"
@@ -339,7 +340,7 @@ TEST_F(InspectedMoment, TheForcesOnAGrainAddUpToItsAcceleration) {
 }
 
 TEST_F(InspectedMoment, AWallTellsWhoTouchesIt) {
-    const auto told = answer({"--wall", "floor", "--limit", "1000"})["tables"];
+    const auto told = answer({"--at", "0.1 s", "--wall", "floor", "--limit", "1000"})["tables"];
     const auto& sum = told["wall"]["rows"][0];
     double normal = 0;
     for (const auto& one : told["touching"]["rows"]) normal += one[4].get<double>();
@@ -448,6 +449,89 @@ TEST_F(InspectedMoment, AFileThatIsNoStateIsToldInOneLine) {
     EXPECT_THAT(refused("run/final.csv", {"--wall", "floor"}), HasSubstr("has no checkpoints"));
     std::filesystem::resize_file(folder / "run/checkpoint.grs", 3000);
     EXPECT_THAT(refused("run/checkpoint.grs"), HasSubstr("checkpoint"));
+}
+
+// 0.12 s is no multiple of the interval at which moments are kept.
+TEST_F(InspectedMoment, WithoutAMomentItIsTheEndOfTheRun) {
+    const Ended run =
+        run_program({"movie", "fifty.toml", "--out", "sparse", "--duration", "0.12 s", "--no-film", "--set",
+                     "start.settle_limit=0.02 s", "--set", "output.trajectory_interval=0.05 s"},
+                    {.folder = folder.path()});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto told = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"inspect", "sparse", "--json"});
+        const Ended ended = run_program(words, {.folder = folder.path()});
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return nlohmann::json::parse(ended.out);
+    };
+    for (const char* question : {"speed > 0 m/s", "contacts > 0"}) {
+        const auto last = told({"--where", question})["moment"];
+        EXPECT_NEAR(last["time"].get<double>(), 0.12, 1e-4);
+        EXPECT_EQ(last["how"], "the run's last moment, brought back");
+    }
+    const auto kept = told({"--no-replay"});
+    EXPECT_NEAR(kept["moment"]["time"].get<double>(), 0.1, 1e-4);
+    EXPECT_THAT(kept["notes"].dump(), HasSubstr(" s was not kept"));
+    const Ended text = run_program({"inspect", "sparse", "--at", "0.05 s"}, {.folder = folder.path()});
+    EXPECT_THAT(text.out, testing::MatchesRegex("At 0.05.* s \\(step [0-9]+\\): kept as number 2 of 3\n.*"));
+}
+
+TEST_F(InspectedMoment, OverlapsHaveOneConvention) {
+    const auto largest = answer({"--largest-overlap"})["tables"]["overlaps"]["rows"][0][5].get<double>();
+    double measured = 0, of_grains = 0;
+    const auto overview = answer({})["tables"], where = answer({"--where", "largest_overlap > 0"})["tables"];
+    for (const auto& row : overview["measured"]["rows"])
+        if (row[0] == "largest_overlap") measured = row[1].get<double>();
+    for (const auto& row : where["statistics"]["rows"])
+        if (row[0] == "largest_overlap") of_grains = row[4].get<double>();
+    EXPECT_GT(largest, 0);
+    EXPECT_DOUBLE_EQ(largest, measured);
+    EXPECT_DOUBLE_EQ(largest, of_grains);
+}
+
+// A period of 20 Hz earlier the container is where it is now.
+TEST_F(InspectedMoment, AskedForWaysOverAPeriodTheMomentBeforeComesBackToo) {
+    const auto list = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--limit", "100"});
+        std::map<int, double> heights;
+        const auto told = answer(words)["tables"];
+        for (const auto& row : told["grains"]["rows"]) heights[row[0].get<int>()] = row[4].get<double>();
+        return heights;
+    };
+    const auto now = list({"--at", "0.11 s", "--where", "id >= 0"});
+    const auto before = list({"--at", "0.06 s", "--where", "id >= 0"});
+    std::vector<double> rises;
+    for (const auto& [id, height] : now) rises.push_back(height - before.at(id));
+    std::sort(rises.begin(), rises.end());
+    const double limit = 0.5 * (rises[24] + rises[25]);  // of 50 grains
+    const auto risen = list({"--at", "0.11 s", "--where", fmt::format("period_rise > {:.17g} m", limit)});
+    EXPECT_EQ(risen.size(), 25u);
+    for (const auto& [id, height] : now) EXPECT_EQ(risen.count(id), height - before.at(id) > limit) << id;
+    EXPECT_THAT(refusal({"--at", "0.01 s", "--where", "period_rise > 0 mm"}),
+                HasSubstr("and the run does not reach back so far"));
+    EXPECT_THAT(refusal({"--at", "0.1 s", "--no-replay", "--where", "fx > 0 N"}),
+                HasSubstr("'fx' is known only of a moment that is brought back"));
+}
+
+// Each dimension has one unit in all tables of an answer.
+TEST_F(InspectedMoment, LengthsHaveOneUnit) {
+    const auto touching = answer({"--wall", "floor", "--at", "0.1 s"})["tables"]["touching"]["rows"];
+    const std::string id = std::to_string(touching[0][0].get<int>());
+    const std::string text = inspect({"--grain", id, "--at", "0.1 s"}).out;
+    for (const char* name : {"x", "y", "z", "height", "radius", "diameter", "moved", "wall_gap"})
+        EXPECT_THAT(text, testing::ContainsRegex(fmt::format("\n  {} +-?[0-9.e-]+ mm ", name)));
+    EXPECT_THAT(text, HasSubstr("overlap (mm)"));
+    const std::string where = inspect({"--where", "id >= 0", "--at", "0.0731 s"}).out;
+    for (const char* name : {"height (mm)", "diameter (mm)", "moved (mm)", "mass (mg)"})
+        EXPECT_THAT(where, HasSubstr(fmt::format("\n  {} ", name)));
+}
+
+// The words beside the grains and the arrows make the difference between two pictures.
+TEST_F(InspectedMoment, AWallHasItsPictureToo) {
+    EXPECT_EQ(inspect({"--wall", "floor", "--at", "0.05 s", "--png", "floor.png"}).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "floor.png"));
+    EXPECT_EQ(inspect({"--grain", "3", "--no-replay", "--png", "kept.png"}).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "kept.png"));
 }
 
 TEST_F(InspectedMoment, ThePictureIsDrawnOnce) {

@@ -21,6 +21,10 @@ cp "$work/gif/movie.gif" "$here/wedge.gif"
 run render "$work/wedge" --at 5 --size 1120x630 --set film.colour.by=rise --set film.arrows.grid=12 \
     --out "$here/convection.png"
 
+# The forces on a grain.
+rm -f "$here/inspect.png"
+"$grainreel" inspect "$work/wedge" --at 4.21s --grain 234 --size 1120x630 --png "$here/inspect.png" --quiet > /dev/null
+
 # Three drives side by side.
 for g in 0.9 2 4; do run movie "$wedge" --duration 2s --no-film --set drive.g_level=$g --out "$work/g$g"; done
 run compare "$work/g0.9" "$work/g2" "$work/g4" --size 960x540 --format png --out "$work/compare"

@@ -2,64 +2,11 @@
 
 #include <limits>
 
-#include "engine/base/nearest_image.hpp"
-#include "engine/step/grid/cells.hpp"
+#include "engine/measure/segregation/neighbour_pairs.hpp"
 
 namespace grainreel {
 
 namespace {
-
-// In the order of the cells, which find partners fast only there.
-struct Ordered {
-    LargeArray<Place> place;
-    std::vector<std::int32_t> species;
-};
-
-Ordered put_in_order(Cells& cells, const LargeArray<Place>& place, const std::vector<std::int32_t>& species,
-                     double gap, double period) {
-    LargeArray<Place> wrapped = place;
-    if (period > 0) {
-        for (Place& p : wrapped) p.position.x() = nearest_image(p.position.x(), period);
-    }
-    cells.order(wrapped, gap, period);
-    Ordered grains;
-    for (const std::int32_t old : cells.in_order()) {
-        grains.place.push_back(wrapped[old]);
-        grains.species.push_back(species[old]);
-    }
-    cells.lay(grains.place, gap);
-    return grains;
-}
-
-bool are_neighbours(const Place& a, const Place& b, double gap, double period) {
-    Vec3 apart = a.position - b.position;
-    apart.x() = nearest_image(apart.x(), period);
-    const double reach = a.radius + b.radius + gap;
-    return apart.squaredNorm() < reach * reach;
-}
-
-struct Pairs {
-    double unlike = 0, all = 0;
-};
-
-Pairs count_neighbours(const Cells& cells, const Ordered& grains, double gap, double period) {
-    Pairs pairs;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(grains.place.size()); ++i) {
-        const Place& own = grains.place[i];
-        for (const Cells::Level& level : cells.levels()) {
-            level.grid.near(
-                own.position, own.radius + gap + level.largest, level.leads,
-                [&](const std::int32_t* first, const std::int32_t* last) {
-                    for (; first < last; ++first) {
-                        if (*first <= i || !are_neighbours(own, grains.place[*first], gap, period)) continue;
-                        pairs.all += 1;
-                        pairs.unlike += grains.species[*first] != grains.species[i];
-                    }
-                });
-        }
-    }
-    return pairs;
-}
 
 // Moments of the radii of some grains; the weights of all pairs follow from them.
 struct Radii {
@@ -98,12 +45,14 @@ double unlike_neighbours(const LargeArray<Place>& place, const std::vector<std::
                          double period) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (place.size() < 2) return none;
-    Cells cells;
-    const Ordered grains = put_in_order(cells, place, species, gap, period);
-    const Pairs pairs = count_neighbours(cells, grains, gap, period);
+    double unlike = 0, all = 0;
+    NeighbourPairs(place, gap, period).each([&](std::int32_t a, std::int32_t b) {
+        all += 1;
+        unlike += species[static_cast<std::size_t>(a)] != species[static_cast<std::size_t>(b)];
+    });
     const double chance = unlike_by_chance(place, species);
-    if (pairs.all == 0 || chance == 0) return none;
-    return pairs.unlike / pairs.all / chance;
+    if (all == 0 || chance == 0) return none;
+    return unlike / all / chance;
 }
 
 }  // namespace grainreel

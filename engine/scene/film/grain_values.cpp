@@ -22,6 +22,12 @@ std::vector<std::string> usual_units(Dimension dimension) {
             return {"J", "mJ", "µJ", "nJ"};
         case Dimension::force:
             return {"kN", "N", "mN", "µN"};
+        case Dimension::mass:
+            return {"kg", "g", "mg", "µg"};
+        case Dimension::moment:
+            return {"N.m", "mN.m", "µN.m", "nN.m"};
+        case Dimension::pressure:
+            return {"MPa", "kPa", "Pa"};
         case Dimension::number:
             return {""};
         default:

@@ -57,6 +57,18 @@ void check_options(const Verb& verb, const CLI::App& parser, int argc, const cha
     }
 }
 
+// Where one of many options can be had, its line does not name all others.
+class ShortFormatter final : public CLI::Formatter {
+  public:
+    std::string make_option_opts(const CLI::Option* option) const override {
+        constexpr std::size_t most_named = 3;
+        std::string text = CLI::Formatter::make_option_opts(option);
+        if (option->get_excludes().size() > most_named)
+            text.erase(std::min(text.size(), text.find(" Excludes:")));
+        return text;
+    }
+};
+
 void add_verb(CLI::App& app, Verb& verb) {
     CLI::App& parser = *app.add_subcommand(verb.name(), verb.about());
     verb.add_options(parser);
@@ -66,6 +78,7 @@ void add_verb(CLI::App& app, Verb& verb) {
 void add_all(CLI::App& app, const Verbs& verbs) {
     app.require_subcommand(1);
     app.set_version_flag("--version", version_text());
+    app.formatter(std::make_shared<ShortFormatter>());
     app.get_formatter()->column_width(28);
     app.footer(
         "Begin with:  grainreel movie scenes/wedge_segregation.toml\n"

@@ -9,7 +9,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/inspect/grain_columns.hpp"
+#include "engine/inspect/columns/grain_columns.hpp"
 #include "engine/inspect/mean_answer.hpp"
 #include "engine/inspect/questions.hpp"
 #include "render/cli/inspect/print_answer.hpp"
@@ -19,6 +19,7 @@
 #include "render/run/frames/asked_moment.hpp"
 #include "render/run/frames/recorded_run.hpp"
 #include "render/run/frames/saved_state.hpp"
+#include "render/run/pick/answer_forces.hpp"
 #include "render/run/pick/answer_picture.hpp"
 #include "render/run/pick/pixel_question.hpp"
 #include "render/run/stage_times.hpp"
@@ -30,25 +31,33 @@ namespace fs = std::filesystem;
 
 std::string about_columns() {
     std::string text =
-        "Quantities of a grain, for --where and --histogram (where units may be written, as in 2 cm):\n";
+        "Quantities of a grain, for --where and --histogram (numbers have units there, as in 2 cm). * brings "
+        "the "
+        "moment\nback, which may take a while:\n";
     for (const GrainColumn& column : grain_columns())
-        text += fmt::format("  {:<15}{}{}\n", column.name, column.about,
-                            column.needs_contacts ? " (where the run kept contacts)" : "");
+        text += fmt::format("  {:<20}{}{}{}\n", column.name, column.needs == Needs::nothing ? "  " : "* ",
+                            column.about,
+                            column.also.empty() ? "" : fmt::format("; also called {}", column.also));
     return text;
 }
 
 class Inspect final : public Verb {
   public:
     Inspect()
-        : Verb("inspect", "Ask a moment of a run: who is this grain, where are the big ones",
-               "Without a question: the moment on one screen. A moment that the run did not keep is brought "
-               "back "
-               "from its checkpoints,\nand so are the forces.\n\n" +
-                   about_columns() +
-                   "\nExample:  grainreel inspect output/gravel --at 1.2s --where \"species == big and "
-                   "height > 2 "
-                   "cm\"\n\nExit status: 0 done, 2 a mistake in the options, or a run that cannot be read.") {
-    }
+        : Verb(
+              "inspect", "Ask a moment of a run: who is this grain, where are the big ones",
+              "Without a question: the moment on one screen: the species, which grain stands out and which "
+              "is "
+              "the tip of\nthe bed, what pushes on which wall, and what the run measured, segregation among "
+              "it. A moment that the\nrun did not keep is brought back from its checkpoints, and so are the "
+              "forces.\n\n" +
+                  about_columns() +
+                  "\nExamples:\n"
+                  "  grainreel inspect output/gravel --at 1.2s\n"
+                  "  grainreel inspect output/gravel --at 1.2s --where \"species == big and height > 2 cm\"\n"
+                  "  grainreel inspect output/gravel --at 1.2s --wall \"left slant\"\n"
+                  "  grainreel inspect output/gravel --at 1.2s --grain 12 --png grain.png\n"
+                  "\nExit status: 0 done, 2 a mistake in the options, or a run that cannot be read.") {}
 
     void add_options(CLI::App& parser) override {
         parser
@@ -57,7 +66,8 @@ class Inspect final : public Verb {
                         "a final.csv")
             ->required()
             ->type_name("PATH");
-        CLI::Option* at = add_time(parser, "--at", moment_.at, "Moment [the last that the run kept]");
+        parser.option_defaults()->group("Moment");
+        CLI::Option* at = add_time(parser, "--at", moment_.at, "Moment [the run's last]");
         parser.add_option("--frame", moment_.frame, "Moment of this frame of the film, counted from 0")
             ->type_name("N")
             ->excludes(at);
@@ -77,14 +87,22 @@ class Inspect final : public Verb {
                 ->check(CLI::Range(0.05, 1e6));
         parser.add_flag("--no-replay", no_replay_,
                         "Give what was kept alone: the kept moment that is nearest");
+        parser.option_defaults()->group("Question (one of them; none: an overview)");
         add_questions(parser);
-        parser.add_option("--png", picture_, "Draw the moment too, with the grains of the answer ringed")
+        parser.option_defaults()->group("Picture");
+        add_time(parser, "--film-time", film_time_,
+                 "With --pixel or --png: where a camera that moves is then [that of --frame, else 0]");
+        parser
+            .add_option("--png", picture_,
+                        "Draw the moment too, with the answer ringed and all else pale; with --grain and "
+                        "--wall the forces on it as arrows")
             ->type_name("FILE")
             ->excludes(average);
         add_gl(parser, gl_);
         add_sets(parser, sets_,
                  "With --pixel or --png: another value for a key of [film], as for render; may be repeated");
         add_picture_keys(parser, sets_);
+        parser.option_defaults()->group("Answer");
         parser.add_option("--limit", limit_, "Longest list of grains [10]")
             ->type_name("N")
             ->check(CLI::Range(std::size_t{0}, std::size_t{100000000}));
@@ -115,10 +133,15 @@ class Inspect final : public Verb {
   private:
     void add_questions(CLI::App& parser) {
         std::vector<CLI::Option*> questions = {
-            parser.add_option("--grain", grain_, "This grain: place, velocity, contacts, what pushes it")
+            parser
+                .add_option("--grain", grain_,
+                            "This grain: place, velocity, contacts, what pushes it, neighbours")
                 ->type_name("ID"),
             parser
-                .add_option("--wall", wall_, "This wall, as in floor: force and moment on it, who touches it")
+                .add_option("--wall", wall_,
+                            "This wall, as in floor or \"left slant\" (the overview lists them): force and "
+                            "moment on it, "
+                            "pressure by height, who touches it, how many of each species")
                 ->type_name("NAME"),
             parser.add_flag("--largest-overlap", largest_overlap_, "The contacts that overlap most"),
             parser.add_option("--where", where_, "Grains for which this holds: count, statistics, list")
@@ -140,18 +163,27 @@ class Inspect final : public Verb {
             for (std::size_t k = 0; k < i; ++k) questions[i]->excludes(questions[k]);
         parser.add_flag("--through", through_, "With --pixel: what lies behind it, too")
             ->needs(questions.back());
-        add_time(parser, "--film-time", film_time_,
-                 "With --pixel or --png: where a camera that moves is then [that of --frame, else 0]");
         parser.add_option("--bins", bins_, "With --histogram: how many [20]")
             ->type_name("N")
             ->check(CLI::Range(1, 10000));
     }
 
     Answer single_answer(MomentFinder& finder, const Record& record, Reporter& reporter) {
-        const Snapshot snapshot = snapshot_of(finder, record, reporter);
+        const ChosenMoment chosen = snapshot_of(finder, record, reporter);
+        const Snapshot& snapshot = chosen.snapshot;
         Answer answer = answer_of(finder, snapshot, reporter);
-        if (!picture_.empty()) draw_answer(snapshot, grains_in(answer), film_time(snapshot), picture_, gl_);
+        answer.moment = chosen.about;
+        if (!picture_.empty())
+            draw_answer(snapshot, marks_of(snapshot, answer), film_time(snapshot), picture_, gl_);
         return answer;
+    }
+
+    // A question about forces gets arrows.
+    AnswerMarks marks_of(const Snapshot& snapshot, const Answer& answer) const {
+        if (!grain_ && !wall_) return {grains_in(answer), {}, "", true};
+        const AnswerForces all =
+            grain_ ? forces_on_grain(snapshot, *grain_) : forces_on_wall(snapshot, *wall_);
+        return {all.grains, all.forces, all.words, !snapshot.forces};
     }
 
     std::unique_ptr<const Record> open_record() const {
@@ -182,41 +214,49 @@ class Inspect final : public Verb {
         return !where_ && !profile_ && !slice_ && !histogram_ && pixel_.empty() && !pairs_ && !compare_;
     }
 
-    // Whether a condition or a histogram needs contacts that the run did not keep.
-    bool names_contacts() const {
-        const std::string words = where_.value_or("") + histogram_.value_or("");
-        return words.find("contact") != std::string::npos;
+    // Whether a condition or a histogram takes that.
+    bool takes(Needs what) const {
+        const std::vector<Needs> all = needs_of(where_.value_or("") + " " + histogram_.value_or(""));
+        return std::find(all.begin(), all.end(), what) != all.end();
     }
 
-    Snapshot snapshot_of(MomentFinder& finder, const Record& record, Reporter& reporter) {
+    // Whether a kept moment lacks what is asked for.
+    bool is_to_be_brought_back(const MomentFinder& finder, const AskedMoment& asked,
+                               const Record& record) const {
+        if (!asked.kept || asks_for_forces()) return true;
+        if (grain_) return finder.can_bring_back(asked);
+        return (takes(Needs::contacts) && !record.supply().contacts) || takes(Needs::forces) ||
+               takes(Needs::period) || (asks_nothing() && finder.is_checkpoint(asked));
+    }
+
+    struct ChosenMoment {
+        Snapshot snapshot;
+        AnswerMoment about;
+    };
+
+    ChosenMoment snapshot_of(MomentFinder& finder, const Record& record, Reporter& reporter) {
         if (moment_.cycle) *moment_.cycle += phase_;
         const AskedMoment asked = finder.find(moment_);
-        const bool more = grain_ || asks_for_forces() || (names_contacts() && !record.supply().contacts) ||
-                          (asks_nothing() && finder.is_checkpoint(asked));
+        const char* last = asked.last ? "the run's last moment, " : "";
         if (no_replay_ && asks_for_forces())
             throw UserError(
                 "--no-replay: forces on walls and overlaps are not kept, they are brought back; leave it "
                 "out");
-        const bool cannot = grain_ && asked.kept && !finder.can_bring_back(asked);
-        if (no_replay_ || (asked.kept && !more) || cannot) {
+        if (no_replay_ || !is_to_be_brought_back(finder, asked, record)) {
             if (!asked.kept)
                 missing_.push_back(
                     fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
-            tell(reporter, fmt::format("{}: {}kept moment {} of {}", record.folder().string(),
-                                       std::isfinite(asked.time)
-                                           ? fmt::format("{:.6g} s, ", record.moments()[asked.nearest].time)
-                                           : "",
-                                       asked.nearest + 1, record.moments().size()));
-            return finder.kept(asked.nearest);
+            const Frame& moment = record.moments()[asked.nearest];
+            return {finder.kept(asked.nearest),
+                    {moment.time, moment.step,
+                     fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
+                                 record.moments().size())}};
         }
-        Snapshot snapshot = finder.brought_back(asked, watcher_of(reporter));
-        tell(reporter, fmt::format("{}: {:.6g} s, brought back (step {})", record.folder().string(),
-                                   snapshot.frame.time, snapshot.frame.step));
-        return snapshot;
-    }
-
-    void tell(Reporter& reporter, const std::string& text) const {
-        if (!json_ && !csv_) reporter.info(text);
+        Snapshot snapshot = takes(Needs::period) ? finder.brought_back_with_ways(asked, watcher_of(reporter))
+                                                 : finder.brought_back(asked, watcher_of(reporter));
+        const Frame& frame = snapshot.frame;
+        AnswerMoment about{frame.time, frame.step, fmt::format("{}brought back", last)};
+        return {std::move(snapshot), std::move(about)};
     }
 
     // Shows progress once a replay has gone on for a second.
@@ -246,7 +286,10 @@ class Inspect final : public Verb {
         if (moments == 0)
             throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
                                         record.folder().string(), *average_, asked.time));
-        return mean.mean();
+        Answer answer = mean.mean();
+        answer.moment = {asked.time, asked.step,
+                         fmt::format("mean over {} moments of the {} periods before", moments, *average_)};
+        return answer;
     }
 
     Answer answer_of(MomentFinder& finder, const Snapshot& snapshot, Reporter& reporter) const {

@@ -1,6 +1,7 @@
 #include "render/draw/grains/shown_grains.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace grainreel {
 namespace {
@@ -29,6 +30,12 @@ ShownGrains::ShownGrains(const Scene& scene, const std::vector<std::size_t>& lef
     for (const std::size_t species : left_out) left_out_[species] = true;
 }
 
+ShownGrains ShownGrains::only(const Scene& scene, std::vector<std::int32_t> ids) {
+    ShownGrains shown(scene, {});
+    shown.only_ = std::move(ids);
+    return shown;
+}
+
 ShownGrains ShownGrains::beside_cut(const Scene& scene) {
     ShownGrains shown(scene, {});
     shown.cut_ = scene.film.look.cut;
@@ -40,6 +47,7 @@ const Frame& ShownGrains::of(const Frame& frame) {
     const std::vector<HalfSpace> halves = kept_by_cut(cut_, frame);
     const auto is_kept = [&](std::size_t i) {
         if (!left_out_.empty() && left_out_[static_cast<std::size_t>(frame.species[i])]) return false;
+        if (!only_.empty() && !std::binary_search(only_.begin(), only_.end(), frame.id[i])) return false;
         return std::all_of(halves.begin(), halves.end(), [&](const HalfSpace& half) {
             return half.normal.dot(frame.position[i]) - half.distance > -frame.radius[i];
         });

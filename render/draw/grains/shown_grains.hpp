@@ -22,6 +22,8 @@ class ShownGrains {
     // left_out: species, indices into scene.species. Their grains are as if they were not there: they are not
     // lit, cast nothing and are not counted in fields.
     ShownGrains(const Scene& scene, const std::vector<std::size_t>& left_out);
+    // Leaves out all but these; ids rise.
+    static ShownGrains only(const Scene& scene, std::vector<std::int32_t> ids);
     // Leaves out the grains that the film's cut takes away whole.
     static ShownGrains beside_cut(const Scene& scene);
 
@@ -31,10 +33,11 @@ class ShownGrains {
     std::size_t place(std::size_t grain) const { return any() ? kept_[grain] : grain; }
 
   private:
-    bool any() const { return !left_out_.empty() || cut_.present; }
+    bool any() const { return !left_out_.empty() || !only_.empty() || cut_.present; }
 
-    std::vector<bool> left_out_;  // by species; empty: none
-    FilmCut cut_;                 // that leaves grains out
+    std::vector<bool> left_out_;      // by species; empty: none
+    std::vector<std::int32_t> only_;  // ids; empty: all
+    FilmCut cut_;                     // that leaves grains out
     std::vector<std::size_t> kept_;
     Frame shown_;
 };

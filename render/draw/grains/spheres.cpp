@@ -1,5 +1,7 @@
 #include "render/draw/grains/spheres.hpp"
 
+#include <algorithm>
+
 #include "render/draw/grains/shown_grains.hpp"
 #include "render/draw/picture/styles.hpp"
 
@@ -72,8 +74,11 @@ void SpherePainter::mark_rotation(const View& view, const Frame& frame) {
 void SpherePainter::mark_painted(const Frame& frame) {
     if (painted_.empty()) return;
     spheres_.painted.clear();
-    for (const std::int32_t species : frame.species)
-        spheres_.painted.push_back(painted_[static_cast<std::size_t>(species)]);
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        spheres_.painted.push_back(
+            not_painted_.empty()
+                ? painted_[static_cast<std::size_t>(frame.species[i])]
+                : !std::binary_search(not_painted_.begin(), not_painted_.end(), frame.id[i]));
 }
 
 void SpherePainter::find_visible() {

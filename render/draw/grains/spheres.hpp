@@ -18,6 +18,9 @@ class SpherePainter {
     // nothing else stands before them; otherwise paint all grains that are taken.
     SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts);
 
+    // Of ghosts: paint all grains but these, whatever their species. ids rise.
+    void paint_all_but(const std::vector<std::int32_t>& ids) { not_painted_ = ids; }
+
     // See Renderer.
     void start_from(const Frame& frame) { grain_colours_.start_from(frame); }
 
@@ -41,7 +44,8 @@ class SpherePainter {
     GrainColours grain_colours_;
     GluedSpheres glued_;
     Team& team_;
-    std::vector<std::uint8_t> painted_;  // by species; empty: all of them
+    std::vector<std::uint8_t> painted_;      // by species; empty: all of them
+    std::vector<std::int32_t> not_painted_;  // ids; empty: by species
     SphereLayer layer_;
     Spheres spheres_;
     FilmLook look_;

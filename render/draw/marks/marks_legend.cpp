@@ -90,11 +90,15 @@ class MarksLegend {
     double height_ = 0;
 };
 
+constexpr std::size_t most_named = 12;  // grains
+
 std::string words_of_rings(const FilmShows& look) {
     std::string ringed;
     if (!look.highlighted.empty())
-        ringed = fmt::format("{} {}", look.highlighted.size() > 1 ? "grains" : "grain",
-                             fmt::join(look.highlighted, ", "));
+        ringed = look.highlighted.size() > most_named
+                     ? fmt::format("{} grains", look.highlighted.size())
+                     : fmt::format("{} {}", look.highlighted.size() > 1 ? "grains" : "grain",
+                                   fmt::join(look.highlighted, ", "));
     if (look.highlight_if.wanted()) ringed += (ringed.empty() ? "" : ", ") + look.highlight_if.text;
     return ringed;
 }

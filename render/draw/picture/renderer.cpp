@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "engine/base/error.hpp"
 #include "render/draw/camera/camera_path.hpp"
@@ -110,6 +111,7 @@ struct Renderer::Impl {
     bool started = false;  // the film: where grains were then is known
     ContainerShapes shapes;
     View eye;
+    std::vector<PointForce> point_forces;
     Picture words;    // beside the port, from picture to picture
     Picture picture;  // of draw() without a place to draw into
 
@@ -122,6 +124,7 @@ struct Renderer::Impl {
     const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
     const Layer* draw_before();
     void start_from(const Frame& frame);
+    void point_out(PointedOut what);
     // Without grains that the cut takes away, which leave no marks. A copy is made only if there are any.
     const Frame& to_be_marked(const Frame& frame) {
         return has_marks(scene.film.shows) ? beside_cut.of(frame) : frame;
@@ -151,6 +154,16 @@ void Renderer::Impl::start_from(const Frame& frame) {
     marks.start_from(start);
     if (ghost_painter) ghost_painter->start_from(start);
     started = true;
+}
+
+// All but these grains are ghosts.
+void Renderer::Impl::point_out(PointedOut what) {
+    point_forces = std::move(what.forces);
+    if (what.grains.empty()) return;
+    context->make_current();
+    if (!ghost_painter) ghost_painter.emplace(scene, port.width, port.height, team, true);
+    ghost_painter->paint_all_but(what.grains);
+    solid = ShownGrains::only(scene, std::move(what.grains));
 }
 
 // Where it has been drawn before, most of the words are there.
@@ -204,6 +217,8 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     const SpherePainter& of_all = ghost_painter ? *ghost_painter : sphere_painter;
     const auto seen = [&](std::size_t i) { return marked ? 1 : of_all.seen_share(beside_cut.place(i)); };
     marks.draw(eye, marked ? *marked : to_be_marked(all), seen, shapes.over);
+    draw_point_forces(eye.moved_by(true_frame.container().place - frame.container().place), point_forces,
+                      palette, std::max(1.0, scene.film.height / 540.0), shapes.over);
     const Layer* marked_alone = draw_before();
     compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
              walls_behind, grains, ghosts, before.layer(), marked_alone},
@@ -274,6 +289,10 @@ const View& Renderer::view() const {
 
 void Renderer::start_from(const Frame& frame) {
     impl_->start_from(frame);
+}
+
+void Renderer::point_out(PointedOut what) {
+    impl_->point_out(std::move(what));
 }
 
 void Renderer::remember(const Frame& frame) {

@@ -1,12 +1,15 @@
 // From a frame to a picture: grains, walls and the words around them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/camera/view.hpp"
+#include "render/draw/marks/point_forces.hpp"
 #include "render/draw/picture/picture.hpp"
 #include "render/draw/words/layout.hpp"
 #include "render/gl/provider.hpp"
@@ -18,6 +21,12 @@ namespace grainreel {
 struct DrawTimes {
     double upload = 0, spheres = 0, shading = 0, occlusion = 0, shadow = 0, walls = 0, overlay = 0,
            readback = 0;
+};
+
+// What a picture of one moment points out.
+struct PointedOut {
+    std::vector<std::int32_t> grains;  // ids, rising; all others are seen through. None: as without
+    std::vector<PointForce> forces;    // each an arrow
 };
 
 class Renderer {
@@ -39,6 +48,8 @@ class Renderer {
     const View& view() const;  // of the last picture
     // The film's first frame, from which start heights are counted; without a call, the first one drawn.
     void start_from(const Frame& frame);
+    // Of all pictures from now on.
+    void point_out(PointedOut what);
     // A frame before the next one drawn, which leaves trails but no picture.
     void remember(const Frame& frame);
 

@@ -8,8 +8,10 @@
 #include "engine/base/error.hpp"
 #include "engine/base/nearest_image.hpp"
 #include "engine/replay/checkpoint_ring.hpp"
+#include "engine/state/container_faces.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/run/moments/displacement.hpp"
 #include "render/run/run_files.hpp"
 
 namespace grainreel {
@@ -67,7 +69,17 @@ AskedMoment MomentFinder::find(const MomentRequest& request) {
         if (!record_.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
         return named(clock.time(clock.step_at(*request.cycle)), "--cycle");
     }
-    return {moments.back().step, moments.back().time, moments.size() - 1, moments.size() - 1};
+    return last();
+}
+
+// The end of a run is in its last checkpoint, and need not be among the kept moments.
+AskedMoment MomentFinder::last() const {
+    const std::vector<Frame>& moments = record_.moments();
+    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    const std::size_t back = moments.size() - 1;
+    if (!kept.empty() && kept.back().step > moments[back].step)
+        return {kept.back().step, record_.clock().time(kept.back().step), std::nullopt, back, true};
+    return {moments[back].step, moments[back].time, back, back, true};
 }
 
 // Of the film that the run made: its kept moments, one a picture, and where a caption holds a picture, as
@@ -142,6 +154,27 @@ Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatch
     Snapshot snapshot = snapshot_of(run, record_);
     run.advance(moment.step + 1);
     snapshot.forces->acceleration = accelerations(scene, snapshot.frame, run.frame(), record_.clock().step);
+    return snapshot;
+}
+
+Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const ReplayWatcher& watcher) {
+    const Scene& scene = record_.scene();
+    if (!scene.drive.present)
+        throw UserError("the run has no drive, so that there are no ways over a period of it");
+    const Clock& clock = record_.clock();
+    const int periods = record_.periods();
+    const AskedMoment before{clock.step_at(clock.cycles(moment.step) - periods),
+                             clock.time(moment.step) - periods / scene.drive.highest_frequency(),
+                             {},
+                             0};
+    if (before.step < record_.moments().front().step || !can_bring_back(before))
+        throw UserError(fmt::format(
+            "ways over a period need the moment {} before {:.6g} s, and the run does not reach back so far",
+            periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time));
+    const Frame then =
+        replayed(record_.folder(), record_.checkpoints(), before.step, scene.run.threads, watcher).frame();
+    Snapshot snapshot = brought_back(moment, watcher);
+    set_displacement(snapshot.frame, then, periods, period_of_depth(scene.container));
     return snapshot;
 }
 

@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-// Which one is meant; none of the three: the last that was kept.
+// Which one is meant; none of the three: the last that there is, kept or in a checkpoint.
 struct MomentRequest {
     std::optional<double> at{};           // s
     std::optional<double> cycle{};        // periods of the drive
@@ -25,6 +25,7 @@ struct AskedMoment {
     double time = 0;                  // s
     std::optional<std::size_t> kept;  // its place in the run's moments, where it was kept
     std::size_t nearest = 0;          // the kept moment that is nearest
+    bool last = false;                // the run has none after it
 };
 
 class MomentFinder {
@@ -37,6 +38,9 @@ class MomentFinder {
     Snapshot kept(std::size_t index) const;
     // From the checkpoints, with its forces. Throws UserError where none of them leads there.
     Snapshot brought_back(const AskedMoment& moment, const ReplayWatcher& watcher);
+    // The same with ways over the last period of the drive (Frame::displacement): per period, as the film
+    // counts them. Throws UserError too where the run has no drive, or does not reach back so far.
+    Snapshot brought_back_with_ways(const AskedMoment& moment, const ReplayWatcher& watcher);
     // kMomentsAPeriod moments for each of so many periods of the drive, the last of them at the moment;
     // brought back, or, where `replay` says not to, all that were kept meanwhile. Throws UserError without a
     // drive, and where the run does not reach back so far.
@@ -52,6 +56,7 @@ class MomentFinder {
     void check_can_bring_back(const AskedMoment& moment) const;
     std::int64_t step_of_frame(std::int64_t frame);
     double last_time() const;
+    AskedMoment last() const;
 
     const Record& record_;
 };

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "engine/inspect/answer.hpp"
 #include "engine/inspect/snapshot.hpp"
+#include "render/draw/marks/point_forces.hpp"
 #include "render/gl/provider.hpp"
 
 namespace grainreel {
@@ -13,10 +15,18 @@ namespace grainreel {
 // Ids that an answer names: of its tables' columns "id", and of contacts "first" and "second".
 std::vector<std::int32_t> grains_in(const Answer& answer);
 
-// As the scene's film would show the moment, with rings around these grains, the other ones seen through, and
-// lines where something pushes them, as wide as it does, where forces are known. What the film takes from
-// earlier moments and from measures is left out. Throws UserError where the file is there already.
-void draw_answer(const Snapshot& snapshot, const std::vector<std::int32_t>& ids, double film_time,
+// What the picture points out.
+struct AnswerMarks {
+    std::vector<std::int32_t> grains;  // ids, rising: ringed, and all others are pale and seen through
+    std::vector<PointForce> forces;    // arrows
+    std::string words;                 // beside the grains; empty: those of the film
+    bool lines = true;  // lines from these grains to those that they touch, where contacts are known
+};
+
+// As the scene's film would show the moment, with that in it. What the film takes from earlier moments and
+// from measures is left out; a cut or a hidden species gives way where it would take away a grain of the
+// answer. Throws UserError where the file is there already.
+void draw_answer(const Snapshot& snapshot, const AnswerMarks& marks, double film_time,
                  const std::filesystem::path& file, gl::Provider provider);
 
 // The same mistakes, before anything is asked.
