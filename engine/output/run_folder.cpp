@@ -41,7 +41,7 @@ bool is_empty_folder(const fs::path& path) {
 
 // All that a run may leave in its folder, beside frames/ and movie.work/ (what a film needs while it is
 // made); the .part are of files cut off while being written.
-constexpr std::array<std::string_view, 31> files_of_runs{".lock",
+constexpr std::array<std::string_view, 33> files_of_runs{".lock",
                                                          "run.json",
                                                          ".run.json.part",
                                                          "scene.toml",
@@ -68,6 +68,8 @@ constexpr std::array<std::string_view, 31> files_of_runs{".lock",
                                                          "log.txt",
                                                          "fields.nc",
                                                          "film_moments.nc",
+                                                         "key_moments.nc",
+                                                         "key_contacts.nc",
                                                          "film_times.csv",
                                                          ".film_times.csv.part",
                                                          "report.html",

@@ -176,11 +176,14 @@ std::string bed_about(const BedFrames& bed, const Scene& scene) {
             " Of {} grains it shows the {} that lay nearest to the middle of the depth when they were "
             "first seen.",
             bed.all_grains, bed.grains);
-    if (!bed.contacts)
-        text += " The run kept no contacts (output.contacts), so contact numbers are not known.";
-    else
-        text +=
-            " Contact numbers are known at the moments of contacts.nc, and not at those of the film alone.";
+    if (bed.counted == 0)
+        text += " The run kept no contact numbers.";
+    else if (bed.counted < bed.moments.size())
+        text += fmt::format(" Contact numbers are known at {} of them.", bed.counted);
+    if (!bed.forces.moments.empty())
+        text += fmt::format(
+            " Of {} moments the page has the pairs that push each other, with their normal forces to 2.3 %.",
+            bed.forces.moments.size());
     if (scene.container.wall_grains) text += " Grains that are glued to walls are not shown.";
     return html_text(text);
 }

@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_table_bytes = 2'000'000;  // of measures.csv, packed
 
+constexpr std::size_t most_chosen_keys = 40, most_chosen_pairs = 500'000, pairs_a_grain = 3;
+
 // As an element that no browser runs or shows.
 std::string blob(const std::string& id, const std::vector<std::uint8_t>& bytes) {
     if (bytes.empty()) return "";
@@ -34,6 +36,20 @@ std::vector<std::uint8_t> packed_table(const fs::path& file) {
     std::vector<std::uint8_t> packed = zlib_packed(read_bytes(file));
     if (packed.size() > most_table_bytes) packed.clear();
     return packed;
+}
+
+// Those of the run, and of one that kept contacts at all moments some more.
+std::vector<std::size_t> key_moments_of(const AllMoments& all) {
+    std::vector<std::size_t> known, keys;
+    for (std::size_t k = 0; k < all.moments().size(); ++k)
+        if (all.has_touches(k)) known.push_back(k);
+    const std::size_t most =
+        std::min(most_chosen_keys,
+                 most_chosen_pairs / pairs_a_grain / std::max<std::size_t>(1, all.first_whole().size()));
+    for (std::size_t k = 0; k < known.size(); ++k)
+        if (all.is_key(known[k]) || k * most / known.size() != (k + 1) * most / known.size())
+            keys.push_back(known[k]);
+    return keys;
 }
 
 }  // namespace
@@ -63,17 +79,16 @@ std::size_t RunPart::taken() const {
 }
 
 void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
-    if (AllMoments::has_more(run_.run->folder())) {
-        try {
-            const AllMoments all(*run_.run);
-            const auto known = [&all](std::size_t index) { return all.is_of_trajectory(index); };
-            bed_ = bed_frames(all, run_.contacts, most_bytes, progress, known);
-            return;
-        } catch (const UserError&) {
-            // Damaged, or of another run: the trajectory does without it.
-        }
+    try {
+        const AllMoments all(*run_.run, run_.contacts);
+        BedContacts contacts;
+        contacts.touches = [&all](std::size_t index) { return all.touches(index); };
+        contacts.keys = key_moments_of(all);
+        bed_ = bed_frames(all, most_bytes, progress, contacts);
+    } catch (const UserError&) {
+        // A frame beside the trajectory is damaged: the trajectory does without it.
+        bed_ = bed_frames(*run_.run, most_bytes, progress);
     }
-    bed_ = bed_frames(*run_.run, run_.contacts, most_bytes, progress);
 }
 
 std::string RunPart::title() const {
@@ -141,7 +156,7 @@ std::string RunPart::facts() const {
 }
 
 std::string RunPart::bed_blob() const {
-    return blob("bed-bytes" + n_, bed_.packed);
+    return blob("bed-bytes" + n_, bed_.packed) + blob("forces-bytes" + n_, bed_.forces.packed);
 }
 
 std::string RunPart::late_blobs() const {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "engine/output/contacts_file.hpp"
+#include "engine/output/trajectory.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -93,8 +95,8 @@ nlohmann::json facts_of(const std::string& page) {
     return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
-// Without film_moments.nc the bed has the trajectory's moments alone, five of them; a damaged one is as good
-// as none.
+// Without the files beside it the bed has the trajectory's moments alone, five of them; damaged ones are as
+// good as none.
 TEST_F(ReportProgram, TheBedHasTheMomentOfEachFrameOfTheFilm) {
     run({});
     const auto facts = facts_of(text_of(here / "run/report.html"));
@@ -104,9 +106,31 @@ TEST_F(ReportProgram, TheBedHasTheMomentOfEachFrameOfTheFilm) {
     for (const double time : shown) EXPECT_THAT(times, testing::Contains(testing::DoubleNear(time, 1e-12)));
     EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
     EXPECT_EQ(std::adjacent_find(times.begin(), times.end()), times.end());
-    write_text(here / "run/film_moments.nc", text_of(here / "run/film_moments.nc").substr(0, 3000));
+    for (const char* file : {"run/film_moments.nc", "run/key_moments.nc"})
+        write_text(here / file, text_of(here / file).substr(0, 3000));
     ASSERT_EQ(program({"report", "run"}).status, 0);
     EXPECT_EQ(facts_of(text_of(here / "run/report.html"))["bed"]["times"].size(), 5u);
+}
+
+// The start, the end, 16 moments in the two periods before it (of four that the run has), and 11 in between.
+TEST_F(ReportProgram, ForcesOfKeyMomentsAreKept) {
+    run({"--set", "film.caption=[{from=\"0.03 s\", to=\"0.06 s\", text=\"See\"}]"});
+    const auto bed = facts_of(text_of(here / "run/report.html"))["bed"];
+    const auto times = bed["times"].get<std::vector<double>>();
+    std::vector<double> keys;
+    for (const std::size_t moment : bed["forces"]["moments"]) keys.push_back(times.at(moment));
+    EXPECT_EQ(keys.size(), TrajectoryReader(here / "run/key_moments.nc").frames());
+    for (const double time : {0.0, 0.03, 0.1, 0.15, 0.2})
+        EXPECT_THAT(keys, testing::Contains(testing::DoubleNear(time, 1e-4))) << time;
+    const ContactsReader contacts(here / "run/key_contacts.nc");
+    for (std::size_t k = 0; k < keys.size(); ++k)
+        EXPECT_EQ(bed["forces"]["pairs"][k].get<std::size_t>(), contacts.touches(k).size());
+    EXPECT_TRUE(bed["contacts"]);
+    // A run without a page keeps none, and its page says nothing of them.
+    ASSERT_EQ(program({"movie", "fifty.toml", "--out", "other", "--no-report"}).status, 0);
+    EXPECT_FALSE(fs::exists(here / "other/key_moments.nc"));
+    ASSERT_EQ(program({"report", "other"}).status, 0);
+    EXPECT_TRUE(facts_of(text_of(here / "other/report.html"))["bed"]["forces"].is_null());
 }
 
 // Charts of both, in what they differ, and elements of their own.
