@@ -41,7 +41,7 @@ bool is_empty_folder(const fs::path& path) {
 
 // All that a run may leave in its folder, beside frames/ and movie.work/ (what a film needs while it is
 // made); the .part are of files cut off while being written.
-constexpr std::array<std::string_view, 33> files_of_runs{".lock",
+constexpr std::array<std::string_view, 35> files_of_runs{".lock",
                                                          "run.json",
                                                          ".run.json.part",
                                                          "scene.toml",
@@ -52,6 +52,8 @@ constexpr std::array<std::string_view, 33> files_of_runs{".lock",
                                                          "checkpoint.grs.part",
                                                          "movie.mp4",
                                                          "movie.mp4.part",
+                                                         "movie_720.mp4",
+                                                         "movie_720.mp4.part",
                                                          "movie.webm",
                                                          "movie.webm.part",
                                                          "movie.gif",

@@ -121,17 +121,31 @@ std::string drive_words(const Scene& scene) {
 
 }  // namespace
 
-std::string lead_html(const Scene& scene, const RunFacts& facts, bool live) {
+std::string lead_html(const Scene& scene) {
     std::string species;
     for (const Species& one : scene.species)
         species += fmt::format("{}{} {}", species.empty() ? "" : " and ", one.all(), one.name);
-    std::string html = fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
-                                   words_of(scene.container.shape), drive_words(scene));
-    if (facts.status != "complete" && !live)
-        html += fmt::format(
-            "<p><strong>The run’s status is “{}”: what the page shows may not be all.</strong></p>\n",
-            html_text(facts.status));
-    return html;
+    return fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
+                       words_of(scene.container.shape), drive_words(scene));
+}
+
+std::string end_html(const Scene& scene, const RunFacts& facts, double until) {
+    if (facts.status == "complete") return "";
+    const std::string at = fmt::format("{:.4g} of {:.4g} s", std::max(0.0, until), scene.run.duration);
+    std::string text;
+    if (facts.status == "failed")
+        text =
+            fmt::format("The run failed at {}: {}.", at, facts.error.empty() ? "see log.txt" : facts.error);
+    else if (facts.status == "interrupted")
+        text = fmt::format("The run was stopped at {}.", at);
+    else if (facts.status == "running")
+        text = fmt::format("The run goes on; it was at {} when this page was made.", at);
+    else if (facts.status == "broken off")
+        text = fmt::format("The run was broken off at {}: it was killed, or its machine went off.", at);
+    else
+        text = fmt::format("The run’s status is “{}”; it came to {}.", facts.status, at);
+    return fmt::format("<p class=\"ended\"><strong>{}</strong> This page has what it kept until then.</p>\n",
+                       html_text(text));
 }
 
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,

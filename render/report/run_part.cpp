@@ -58,7 +58,7 @@ RunPart::RunPart(const PageRun& run, std::string name, std::string n, std::size_
     : run_(run), name_(std::move(name)), n_(std::move(n)), most_film_(most_film) {}
 
 void RunPart::read(const PageProgress& progress) {
-    const fs::path& folder = run_.run->folder();
+    const fs::path& folder = run_.folder;
     record_ = run_facts(folder);
     table_ = read_measures(folder / "measures.csv");
     if (table_) measures_ = page_measures(scene(), *table_);
@@ -66,7 +66,7 @@ void RunPart::read(const PageProgress& progress) {
     poster_ = page_poster(folder);
     times_ = film_times_of();
     fields_ = page_fields(scene(), folder);
-    lead_ = lead_html(scene(), record_);
+    lead_ = lead_html(scene()) + end_html(scene(), record_, kept_span().to);
     late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
     whole_table_ = !late_blobs_.empty();
     late_blobs_ += blob("fields-bytes" + n_, fields_.packed);
@@ -79,6 +79,7 @@ std::size_t RunPart::taken() const {
 }
 
 void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
+    if (!run_.run) return;
     try {
         const AllMoments all(*run_.run, run_.contacts);
         BedContacts contacts;
@@ -97,15 +98,20 @@ std::string RunPart::title() const {
 
 FilmTimes RunPart::film_times_of() const {
     if (film_.bytes.empty() || !record_.film_frames) return {};
-    if (auto kept = kept_film_times(run_.run->folder(), *record_.film_frames)) return *kept;
-    double first = run_.run->span().from;
-    if (table_ && measures_.time < measures_.columns.size() && table_->rows() > 0)
-        first = std::min(first, table_->values(measures_.time, 0, 1).front());
-    return film_times(scene(), *record_.film_frames, first, record_.status == "complete");
+    if (auto kept = kept_film_times(run_.folder, *record_.film_frames)) return *kept;
+    return film_times(scene(), *record_.film_frames, kept_span().from, record_.status == "complete");
+}
+
+Span RunPart::kept_span() const {
+    Span span = run_.run ? run_.run->span() : Span{0, 0};
+    if (!table_ || measures_.time >= measures_.columns.size() || table_->rows() == 0) return span;
+    const std::vector<double> times = table_->values(measures_.time, 0, table_->rows());
+    if (!run_.run) return {times.front(), times.back()};
+    return {std::min(span.from, times.front()), std::max(span.to, times.back())};
 }
 
 Span RunPart::span() const {
-    Span span = run_.run->span();
+    Span span = run_.run ? run_.run->span() : kept_span();
     if (!times_.times.empty()) {
         span.from = std::min(span.from, times_.times.front());
         span.to = std::max(span.to, times_.times.back());
@@ -118,6 +124,7 @@ std::string RunPart::film(bool beside) const {
 }
 
 std::string RunPart::bed() const {
+    if (!run_.run) return "<p>The run kept no moment of its grains, so there is no bed to turn.</p>\n";
     return filled(page_files().bed, {{"about", bed_about(bed_, scene())}, {"n", n_}});
 }
 
@@ -147,7 +154,7 @@ std::string RunPart::charts_about() const {
 }
 
 std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) const {
-    return chapters_html(scene(), record_, run_.planned, run_.run->folder(),
+    return chapters_html(scene(), record_, run_.planned, run_.folder,
                          on_page_of_its_own ? page.filename().string() : "", n_);
 }
 
@@ -164,7 +171,8 @@ std::string RunPart::late_blobs() const {
 }
 
 std::vector<std::string> RunPart::news() const {
-    std::vector<std::string> news = run_.run->news();
+    std::vector<std::string> news;
+    if (run_.run) news = run_.run->news();
     for (const std::string& note : {film_.note, times_.why_not})
         if (!note.empty()) news.push_back(note);
     if (bed_.moments.size() < bed_.all_moments)

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <csignal>
 
 #include "engine/output/contacts_file.hpp"
 #include "engine/output/trajectory.hpp"
@@ -64,7 +65,7 @@ TEST_F(ReportProgram, EachRunLeavesItsPage) {
     const std::string first = text_of(here / "run/report.html");
     EXPECT_THAT(first, HasSubstr("id=\"film-bytes\""));
     EXPECT_THAT(first, HasSubstr("id=\"bed-bytes\""));
-    EXPECT_THAT(first, Not(HasSubstr("what the page shows may not be all")));  // the run is complete by then
+    EXPECT_THAT(first, Not(HasSubstr("what it kept until then")));  // the run is complete by then
     const auto record = nlohmann::json::parse(text_of(here / "run/run.json"));
     EXPECT_EQ(record["written"]["page"], "report.html");
     EXPECT_EQ(record["status"], "complete");
@@ -174,6 +175,51 @@ TEST_F(ReportProgram, DoesWithoutFilmAndMeasures) {
     EXPECT_THAT(page, HasSubstr("status is “unknown”"));
 }
 
+TEST_F(ReportProgram, ARunWithoutMomentsHasAPageWithoutABed) {
+    run({"--set", "output.trajectory=false"});
+    const std::string page = text_of(here / "run/report.html");
+    EXPECT_THAT(page, HasSubstr("kept no moment of its grains"));
+    EXPECT_THAT(page, Not(HasSubstr("id=\"bed-bytes\"")));
+    EXPECT_THAT(page, HasSubstr("id=\"film-bytes\""));
+    EXPECT_TRUE(facts_of(page)["bed"].is_null());
+    EXPECT_EQ(facts_of(page)["end"], 0.2);
+}
+
+// A step that is far too large: the grains fly apart.
+TEST_F(ReportProgram, AFailedRunHasAPageThatSaysSo) {
+    write_small_scene(here.path());
+    std::string text = text_of(here / "fifty.toml");
+    text.replace(text.find("overlap = 0.05"), 14, "step = \"1.2e-3 s\"");
+    write_text(here / "fifty.toml", text);
+    const Ended ended = program({"movie", "fifty.toml", "--out", "run"});
+    ASSERT_EQ(ended.status, 1) << ended.err;
+    const std::string page = text_of(here / "run/report.html");
+    EXPECT_THAT(page, HasSubstr("The run failed at "));
+    EXPECT_THAT(page, HasSubstr("take a smaller run.step"));
+    EXPECT_THAT(page, HasSubstr("This page has what it kept until then."));
+}
+
+TEST_F(ReportProgram, APageSaysHowFarTheRunCame) {
+    write_small_scene(here.path());
+    for (const int signal : {SIGINT, SIGKILL}) {
+        Program run({"movie", "fifty.toml", "--out", "run", "--duration", "600 s", "--no-film", "--force"},
+                    {here.path(), {}});
+        ASSERT_TRUE(wait_until(run, [&] {
+            std::error_code none;
+            return fs::exists(here / "run/key_moments.nc") &&
+                   fs::file_size(here / "run/trajectory.nc", none) > 30'000;
+        }));
+        run.send(signal);
+        EXPECT_EQ(run.wait().status, 128 + signal);
+        ASSERT_EQ(program({"report", "run"}).status, 0);
+        const std::string page = text_of(here / "run/report.html");
+        EXPECT_THAT(page,
+                    HasSubstr(signal == SIGINT ? "The run was stopped at " : "The run was broken off at "));
+        EXPECT_THAT(page, HasSubstr("of 600 s"));
+        EXPECT_FALSE(facts_of(page)["bed"].is_null());
+    }
+}
+
 TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
     const auto expect_mistake = [&](const std::vector<std::string>& words, const std::string& said) {
         const Ended ended = program(words);
@@ -188,8 +234,8 @@ TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
     expect_mistake({"report", "run", "--out", "page.txt"}, "a page's name ends in .html");
     expect_mistake({"report", "run", "--out", "empty"}, "is a folder");
     expect_mistake({"report", "run", "--out", "none/page.html"}, "there is no such folder");
-    fs::remove(here / "run/trajectory.nc");
-    expect_mistake({"report", "run"}, "has no trajectory.nc");
+    write_text(here / "run/trajectory.nc", "no trajectory");
+    expect_mistake({"report", "run"}, "trajectory.nc");
     EXPECT_FALSE(fs::exists(here / "run/report.html"));
 }
 

@@ -201,7 +201,7 @@ std::string facts_json(const PageFacts& facts) {
     Json json = {{"name", facts.name},
                  {"begin", facts.span.from},
                  {"end", facts.span.to},
-                 {"bed", bed_json(facts.scene, facts.bed)}};
+                 {"bed", facts.bed.moments.empty() ? Json() : bed_json(facts.scene, facts.bed)}};
     json["frequency"] = frequency_json(facts.scene.drive);
     json["film"] = facts.film.bytes.empty() ? Json()
                                             : Json{{"type", facts.film.type},
