@@ -49,7 +49,8 @@ struct Frame {
     std::vector<Vec3> displacement;  // over the last period of the drive; empty before one has passed, and
                                      // unless the film asks for it
 
-    std::vector<Touch> touches;  // empty unless the film asks for them
+    std::vector<Touch> touches;                // empty unless the film asks for them
+    std::vector<std::int32_t> contact_number;  // of contacts that carry force; empty where unknown
 
     // Rows of measures.csv so far: the first `measure_rows` of a table that goes on growing. Null unless the
     // film asks for it.

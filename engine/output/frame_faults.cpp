@@ -46,6 +46,8 @@ std::optional<std::string> grain_fault(const Frame& f, std::size_t i, std::size_
         return says(fmt::format("the spin {} rad/s", vector_text(f.spin[i])));
     if (!f.orientation.empty() && !within(f.orientation[i].norm() - 1, float_room))
         return says("an orientation that is no unit quaternion");
+    if (!f.contact_number.empty() && f.contact_number[i] < 0)
+        return says(fmt::format("{} contacts", f.contact_number[i]));
     return std::nullopt;
 }
 

@@ -32,6 +32,7 @@ struct TrajectoryInfo {
     bool traffic = false;      // grains come and go: each keeps its place, and `present` says who is there
     std::vector<std::string> planes;  // names of the bodies beyond container and floor
     bool orientation = false;
+    bool contact_numbers = false;
     bool checksums = true;          // false in a file of an earlier version: there damage may look like data
     Vec3 cell_origin{0, 0, 0};      // m
     Vec3 periodic_length{0, 0, 0};  // m, 0 where nothing is periodic
@@ -42,7 +43,8 @@ class TrajectoryWriter {
     // Throws RunError when the file cannot be written.
     TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info);
     // Goes on with a file that was written with this info, behind its first `frames`; what comes after them
-    // is cut off. Throws UserError where the file lacks some of them.
+    // is cut off. Whether there are contact numbers the file decides. Throws UserError where the file lacks
+    // some of them.
     TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info, std::size_t frames);
     ~TrajectoryWriter();
 

@@ -60,6 +60,9 @@ inline constexpr TrajectoryVariable present_variable{"present", NC_INT, nullptr,
 // Only when asked for.
 inline constexpr TrajectoryVariable orientation_variable{"orientation", NC_FLOAT, "quaternion", ""};
 
+// Files of earlier versions have none.
+inline constexpr TrajectoryVariable contact_number_variable{"contact_number", NC_INT, nullptr, ""};
+
 inline constexpr const char *frame_checksum = "frame_checksum", *grain_checksum = "grain_checksum";
 
 // What both sums of a frame begin with: which frame it is, of which file.

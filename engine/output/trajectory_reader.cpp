@@ -61,6 +61,7 @@ struct TrajectoryReader::Impl {
         info.program_version = file.text_attribute(NC_GLOBAL, "programVersion");
         info.capacity = file.length("atom");
         info.orientation = file.has_variable(orientation_variable.name);
+        info.contact_numbers = file.has_variable(contact_number_variable.name);
         info.traffic = file.has_variable(present_variable.name);
         if (file.has_variable(body_variables.front().name)) read_planes();
         std::istringstream names(file.text_attribute(file.find_variable("type"), "species"));
@@ -214,6 +215,8 @@ void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, Frame
         for (const std::size_t i : here)  // w x y z
             frame.orientation.emplace_back(flat[4 * i + 3], flat[4 * i], flat[4 * i + 1], flat[4 * i + 2]);
     }
+    if (info.contact_numbers)
+        frame.contact_number = those_at(read<int>(contact_number_variable, index, places, 1, sum), here);
     if (info.traffic) read<int>(present_variable, index, places, 1, sum);
     check_sum(grain_checksum, index, sum);
     for (std::int32_t& type : frame.species) type = type < 1 ? -1 : type - 1;

@@ -76,6 +76,7 @@ void TrajectoryWriter::Impl::define() {
     if (!info.planes.empty()) define_bodies();
     for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, "atom");
     if (info.orientation) define_variable(orientation_variable, "atom");
+    if (info.contact_numbers) define_variable(contact_number_variable, "atom");
     if (info.traffic) define_variable(present_variable, "atom");
     file.attribute(variables["type"], "species", fmt::format("{}", fmt::join(info.species, "\n")));
     for (const char* sum : {frame_checksum, grain_checksum})
@@ -107,6 +108,7 @@ void TrajectoryWriter::Impl::find_variables() {
     if (!info.planes.empty())
         for (const TrajectoryVariable& variable : body_variables) find(variable.name);
     if (info.orientation) find(orientation_variable.name);
+    if (info.contact_numbers) find(contact_number_variable.name);
     if (info.traffic) find(present_variable.name);
     find(frame_checksum);
     find(grain_checksum);
@@ -212,6 +214,8 @@ void TrajectoryWriter::Impl::write_grains(const Frame& f) {
     variable = &orientation_variable;
     if (info.orientation)
         put(4, NC_FILL_FLOAT, [&](std::size_t i, int k) { return f.orientation[i].coeffs()[k]; });
+    variable = &contact_number_variable;
+    if (info.contact_numbers) put(1, 0, [&](std::size_t i, int) { return f.contact_number[i]; });
     variable = &present_variable;
     if (info.traffic) put(1, 0, [&](std::size_t i, int) { return present[i]; });
     write_sum(grain_checksum, sum);
@@ -229,10 +233,14 @@ void TrajectoryWriter::Impl::keep(const Frame& frame) {
         kept.velocity[at] = frame.velocity[i];
         kept.spin[at] = frame.spin[i];
         if (info.orientation) kept.orientation[at] = frame.orientation[i];
+        if (info.contact_numbers) kept.contact_number[at] = frame.contact_number[i];
         present[at] = 1;
     }
-    for (std::size_t k = 0; k < kept.size(); ++k)
-        if (present[k] == 0) kept.velocity[k] = kept.spin[k] = Vec3(0, 0, 0);
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        if (present[k] != 0) continue;
+        kept.velocity[k] = kept.spin[k] = Vec3(0, 0, 0);
+        if (info.contact_numbers) kept.contact_number[k] = 0;
+    }
 }
 
 void TrajectoryWriter::Impl::add_place(const Frame& frame, std::size_t i) {
@@ -246,6 +254,7 @@ void TrajectoryWriter::Impl::add_place(const Frame& frame, std::size_t i) {
     kept.radius.push_back(frame.radius[i]);
     kept.position.emplace_back(), kept.velocity.emplace_back(), kept.spin.emplace_back();
     if (info.orientation) kept.orientation.emplace_back();
+    if (info.contact_numbers) kept.contact_number.push_back(0);
     present.push_back(1);
 }
 
@@ -262,6 +271,7 @@ TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const Traj
 TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info,
                                    std::size_t frames)
     : impl_(std::make_unique<Impl>(path, info, NetcdfFile::append(path, frames))) {
+    impl_->info.contact_numbers = impl_->file.has_variable(contact_number_variable.name);
     impl_->find_variables();
     impl_->frames = frames;
     if (info.traffic) impl_->read_kept(path);
@@ -271,6 +281,7 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::write(const Frame& frame) {
     GRAINREEL_CHECK(!impl_->info.orientation || frame.orientation.size() == frame.size());
+    GRAINREEL_CHECK(!impl_->info.contact_numbers || frame.contact_number.size() == frame.size());
     GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.planes.size());
     if (frame.size() > impl_->info.capacity) {
         throw RunError(

@@ -121,17 +121,31 @@ std::string drive_words(const Scene& scene) {
 
 }  // namespace
 
-std::string lead_html(const Scene& scene, const RunFacts& facts, bool live) {
+std::string lead_html(const Scene& scene) {
     std::string species;
     for (const Species& one : scene.species)
         species += fmt::format("{}{} {}", species.empty() ? "" : " and ", one.all(), one.name);
-    std::string html = fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
-                                   words_of(scene.container.shape), drive_words(scene));
-    if (facts.status != "complete" && !live)
-        html += fmt::format(
-            "<p><strong>The run’s status is “{}”: what the page shows may not be all.</strong></p>\n",
-            html_text(facts.status));
-    return html;
+    return fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
+                       words_of(scene.container.shape), drive_words(scene));
+}
+
+std::string end_html(const Scene& scene, const RunFacts& facts, double until) {
+    if (facts.status == "complete") return "";
+    const std::string at = fmt::format("{:.4g} of {:.4g} s", std::max(0.0, until), scene.run.duration);
+    std::string text;
+    if (facts.status == "failed")
+        text =
+            fmt::format("The run failed at {}: {}.", at, facts.error.empty() ? "see log.txt" : facts.error);
+    else if (facts.status == "interrupted")
+        text = fmt::format("The run was stopped at {}.", at);
+    else if (facts.status == "running")
+        text = fmt::format("The run goes on; it was at {} when this page was made.", at);
+    else if (facts.status == "broken off")
+        text = fmt::format("The run was broken off at {}: it was killed, or its machine went off.", at);
+    else
+        text = fmt::format("The run’s status is “{}”; it came to {}.", facts.status, at);
+    return fmt::format("<p class=\"ended\"><strong>{}</strong> This page has what it kept until then.</p>\n",
+                       html_text(text));
 }
 
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
@@ -176,11 +190,14 @@ std::string bed_about(const BedFrames& bed, const Scene& scene) {
             " Of {} grains it shows the {} that lay nearest to the middle of the depth when they were "
             "first seen.",
             bed.all_grains, bed.grains);
-    if (!bed.contacts)
-        text += " The run kept no contacts (output.contacts), so contact numbers are not known.";
-    else
-        text +=
-            " Contact numbers are known at the moments of contacts.nc, and not at those of the film alone.";
+    if (bed.counted == 0)
+        text += " The run kept no contact numbers.";
+    else if (bed.counted < bed.moments.size())
+        text += fmt::format(" Contact numbers are known at {} of them.", bed.counted);
+    if (!bed.forces.moments.empty())
+        text += fmt::format(
+            " Of {} moments the page has the pairs that push each other, with their normal forces to 2.3 %.",
+            bed.forces.moments.size());
     if (scene.container.wall_grains) text += " Grains that are glued to walls are not shown.";
     return html_text(text);
 }

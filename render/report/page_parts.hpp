@@ -12,8 +12,11 @@
 
 namespace grainreel {
 
-// What the run is, in a sentence or two. live: how far it is stands elsewhere.
-std::string lead_html(const Scene& scene, const RunFacts& facts, bool live = false);
+// What the run is, in a sentence.
+std::string lead_html(const Scene& scene);
+
+// How a run ended that did not come to its end, and where (s); empty for one that did.
+std::string end_html(const Scene& scene, const RunFacts& facts, double until);
 
 // The film's element and what is to be said of it. poster: a JPEG, or nothing. why_not_tied: empty where the
 // film goes with charts and bed. n: what the ids of elements end in. beside: the page lies beside the film's

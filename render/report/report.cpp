@@ -50,11 +50,11 @@ class Page {
     // Folders' names; the whole paths where two have the same.
     static std::vector<std::string> names_of(const std::vector<PageRun>& runs) {
         std::vector<std::string> names;
-        for (const PageRun& run : runs) names.push_back(run.run->folder().filename().string());
+        for (const PageRun& run : runs) names.push_back(run.folder.filename().string());
         std::vector<std::string> sorted = names;
         std::sort(sorted.begin(), sorted.end());
         if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return names;
-        for (std::size_t k = 0; k < runs.size(); ++k) names[k] = runs[k].run->folder().string();
+        for (std::size_t k = 0; k < runs.size(); ++k) names[k] = runs[k].folder.string();
         return names;
     }
 

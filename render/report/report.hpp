@@ -31,8 +31,10 @@ constexpr std::size_t kMostPageBytes = 20'000'000;
 
 // A run for a page.
 struct PageRun {
-    std::shared_ptr<RecordedRun> run;
-    bool contacts = false;  // its frames come with touches (RecordedRun of a film that shows them)
+    std::filesystem::path folder;
+    Scene scene;                       // named after the folder
+    std::shared_ptr<RecordedRun> run;  // null of a run that kept no moment of its grains
+    bool contacts = false;             // its frames come with touches (RecordedRun of a film that shows them)
     std::optional<PlannedScene> planned;  // empty where the scene cannot be planned any more
 };
 

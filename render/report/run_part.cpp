@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_table_bytes = 2'000'000;  // of measures.csv, packed
 
+constexpr std::size_t most_chosen_keys = 40, most_chosen_pairs = 500'000, pairs_a_grain = 3;
+
 // As an element that no browser runs or shows.
 std::string blob(const std::string& id, const std::vector<std::uint8_t>& bytes) {
     if (bytes.empty()) return "";
@@ -36,13 +38,27 @@ std::vector<std::uint8_t> packed_table(const fs::path& file) {
     return packed;
 }
 
+// Those of the run, and of one that kept contacts at all moments some more.
+std::vector<std::size_t> key_moments_of(const AllMoments& all) {
+    std::vector<std::size_t> known, keys;
+    for (std::size_t k = 0; k < all.moments().size(); ++k)
+        if (all.has_touches(k)) known.push_back(k);
+    const std::size_t most =
+        std::min(most_chosen_keys,
+                 most_chosen_pairs / pairs_a_grain / std::max<std::size_t>(1, all.first_whole().size()));
+    for (std::size_t k = 0; k < known.size(); ++k)
+        if (all.is_key(known[k]) || k * most / known.size() != (k + 1) * most / known.size())
+            keys.push_back(known[k]);
+    return keys;
+}
+
 }  // namespace
 
 RunPart::RunPart(const PageRun& run, std::string name, std::string n, std::size_t most_film)
     : run_(run), name_(std::move(name)), n_(std::move(n)), most_film_(most_film) {}
 
 void RunPart::read(const PageProgress& progress) {
-    const fs::path& folder = run_.run->folder();
+    const fs::path& folder = run_.folder;
     record_ = run_facts(folder);
     table_ = read_measures(folder / "measures.csv");
     if (table_) measures_ = page_measures(scene(), *table_);
@@ -50,7 +66,7 @@ void RunPart::read(const PageProgress& progress) {
     poster_ = page_poster(folder);
     times_ = film_times_of();
     fields_ = page_fields(scene(), folder);
-    lead_ = lead_html(scene(), record_);
+    lead_ = lead_html(scene()) + end_html(scene(), record_, kept_span().to);
     late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
     whole_table_ = !late_blobs_.empty();
     late_blobs_ += blob("fields-bytes" + n_, fields_.packed);
@@ -63,17 +79,17 @@ std::size_t RunPart::taken() const {
 }
 
 void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
-    if (AllMoments::has_more(run_.run->folder())) {
-        try {
-            const AllMoments all(*run_.run);
-            const auto known = [&all](std::size_t index) { return all.is_of_trajectory(index); };
-            bed_ = bed_frames(all, run_.contacts, most_bytes, progress, known);
-            return;
-        } catch (const UserError&) {
-            // Damaged, or of another run: the trajectory does without it.
-        }
+    if (!run_.run) return;
+    try {
+        const AllMoments all(*run_.run, run_.contacts);
+        BedContacts contacts;
+        contacts.touches = [&all](std::size_t index) { return all.touches(index); };
+        contacts.keys = key_moments_of(all);
+        bed_ = bed_frames(all, most_bytes, progress, contacts);
+    } catch (const UserError&) {
+        // A frame beside the trajectory is damaged: the trajectory does without it.
+        bed_ = bed_frames(*run_.run, most_bytes, progress);
     }
-    bed_ = bed_frames(*run_.run, run_.contacts, most_bytes, progress);
 }
 
 std::string RunPart::title() const {
@@ -82,15 +98,20 @@ std::string RunPart::title() const {
 
 FilmTimes RunPart::film_times_of() const {
     if (film_.bytes.empty() || !record_.film_frames) return {};
-    if (auto kept = kept_film_times(run_.run->folder(), *record_.film_frames)) return *kept;
-    double first = run_.run->span().from;
-    if (table_ && measures_.time < measures_.columns.size() && table_->rows() > 0)
-        first = std::min(first, table_->values(measures_.time, 0, 1).front());
-    return film_times(scene(), *record_.film_frames, first, record_.status == "complete");
+    if (auto kept = kept_film_times(run_.folder, *record_.film_frames)) return *kept;
+    return film_times(scene(), *record_.film_frames, kept_span().from, record_.status == "complete");
+}
+
+Span RunPart::kept_span() const {
+    Span span = run_.run ? run_.run->span() : Span{0, 0};
+    if (!table_ || measures_.time >= measures_.columns.size() || table_->rows() == 0) return span;
+    const std::vector<double> times = table_->values(measures_.time, 0, table_->rows());
+    if (!run_.run) return {times.front(), times.back()};
+    return {std::min(span.from, times.front()), std::max(span.to, times.back())};
 }
 
 Span RunPart::span() const {
-    Span span = run_.run->span();
+    Span span = run_.run ? run_.run->span() : kept_span();
     if (!times_.times.empty()) {
         span.from = std::min(span.from, times_.times.front());
         span.to = std::max(span.to, times_.times.back());
@@ -103,6 +124,7 @@ std::string RunPart::film(bool beside) const {
 }
 
 std::string RunPart::bed() const {
+    if (!run_.run) return "<p>The run kept no moment of its grains, so there is no bed to turn.</p>\n";
     return filled(page_files().bed, {{"about", bed_about(bed_, scene())}, {"n", n_}});
 }
 
@@ -132,7 +154,7 @@ std::string RunPart::charts_about() const {
 }
 
 std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) const {
-    return chapters_html(scene(), record_, run_.planned, run_.run->folder(),
+    return chapters_html(scene(), record_, run_.planned, run_.folder,
                          on_page_of_its_own ? page.filename().string() : "", n_);
 }
 
@@ -141,7 +163,7 @@ std::string RunPart::facts() const {
 }
 
 std::string RunPart::bed_blob() const {
-    return blob("bed-bytes" + n_, bed_.packed);
+    return blob("bed-bytes" + n_, bed_.packed) + blob("forces-bytes" + n_, bed_.forces.packed);
 }
 
 std::string RunPart::late_blobs() const {
@@ -149,7 +171,8 @@ std::string RunPart::late_blobs() const {
 }
 
 std::vector<std::string> RunPart::news() const {
-    std::vector<std::string> news = run_.run->news();
+    std::vector<std::string> news;
+    if (run_.run) news = run_.run->news();
     for (const std::string& note : {film_.note, times_.why_not})
         if (!note.empty()) news.push_back(note);
     if (bed_.moments.size() < bed_.all_moments)

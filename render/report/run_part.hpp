@@ -28,8 +28,8 @@ class RunPart {
     // Grains, into so many packed bytes. Throws likewise.
     void read_bed(std::size_t most_bytes, const PageProgress& progress);
 
-    const Scene& scene() const { return run_.run->scene(); }
-    const std::filesystem::path& folder() const { return run_.run->folder(); }
+    const Scene& scene() const { return run_.scene; }
+    const std::filesystem::path& folder() const { return run_.folder; }
     const std::string& name() const { return name_; }
     std::string title() const;  // HTML
     Span span() const;          // of the trajectory and the film
@@ -49,6 +49,7 @@ class RunPart {
 
   private:
     FilmTimes film_times_of() const;
+    Span kept_span() const;  // of moments and measures
 
     const PageRun& run_;
     const std::string name_, n_;

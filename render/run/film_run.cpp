@@ -116,6 +116,7 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     film.folder = folder_->path();
     film.film = request_.film;
     film.frames = request_.frames;
+    film.page_copy = request_.page != nullptr;
     film.to_stdout = request_.to_stdout;
     film.raster_threads = threads_.raster;
     film.encoder_threads = threads_.encoder;
@@ -167,9 +168,10 @@ void FilmRun::write_record() {
     write_run_json(folder_->path() / "run.json", now);
 }
 
-// Of a run whose other files are closed. A run without its page has failed at nothing.
+// Of a run whose other files are closed, also of one that failed. A run without its page has failed at
+// nothing.
 void FilmRun::make_page() {
-    if (!request_.page || !begun_ || !has_folder_ || failure_.any() || listener_.in_a_hurry()) return;
+    if (!request_.page || !begun_ || !has_folder_ || listener_.in_a_hurry()) return;
     const Stopwatch making;
     const auto go_on = [&](double share) {
         Progress progress;

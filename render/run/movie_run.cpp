@@ -59,6 +59,7 @@ bool MovieRun::work() {
     describe();
     if (!run_.packed() && !pack()) return false;
     mark_begun();
+    if (request_.page) run_.keep_key_moments();
     run_.start(pictures_);
     pictures_planned_ = run_.shots();
     open_film(run_.scene());

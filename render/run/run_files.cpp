@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
+#include "render/run/moments/key_moments.hpp"
 #include "render/run/resume/kept_files.hpp"
 
 namespace grainreel {
@@ -24,6 +26,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
     info.traffic = plan.traffic;
     for (const FreeWall& wall : scene.walls) info.planes.push_back(wall.name);
     info.orientation = scene.keeps_orientations();
+    info.contact_numbers = true;
     info.cell_origin = extent_of(scene).low;
     if (scene.container.periodic_depth) info.periodic_length.x() = scene.container.depth;
     return info;
@@ -32,7 +35,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
 }  // namespace
 
 double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pictures) {
-    constexpr double most_bytes = 100e6, bytes_a_grain = 64;
+    constexpr double most_bytes = 100e6, bytes_a_grain = 68;
     if (!scene.output.trajectory) return 0;
     const double bytes = bytes_a_grain * static_cast<double>(pictures) * static_cast<double>(plan.capacity);
     return scene.output.film_moments.value_or(bytes <= most_bytes) ? bytes : 0;
@@ -42,6 +45,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
                    const Simulation& simulation, const std::string& program_version)
     : folder_(folder),
       info_(trajectory_info(scene, plan, program_version)),
+      program_version_(program_version),
       clock_(plan.clock),
       field_times_(plan.fields),
       measures_(folder / "measures.csv", simulation.measured()),
@@ -59,6 +63,7 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
                    const Simulation& simulation, const std::string& program_version)
     : folder_(folder),
       info_(trajectory_info(scene, plan, program_version)),
+      program_version_(program_version),
       clock_(plan.clock),
       field_times_(plan.fields),
       measures_(folder / "measures.csv", simulation.measured(), simulation.step()),
@@ -104,10 +109,34 @@ void RunFiles::keep_film_moments() {
     film_moments_.emplace(folder_ / kFilmMoments, info_);
 }
 
-void RunFiles::add_frame(const Frame& frame, const Simulation& simulation) {
+void RunFiles::keep_key_moments() {
+    key_moments_.emplace(folder_ / kKeyMoments, info_);
+    key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_);
+}
+
+void RunFiles::keep_key_moments_from(std::int64_t step) {
+    if (!is_there(folder_ / kKeyMoments) || !is_there(folder_ / kKeyContacts)) return;
+    const std::vector<std::int64_t> steps = steps_in_trajectory(folder_ / kKeyMoments);
+    const auto frames =
+        static_cast<std::size_t>(std::lower_bound(steps.begin(), steps.end(), step) - steps.begin());
+    try {
+        key_moments_.emplace(folder_ / kKeyMoments, info_, frames);
+        key_contacts_.emplace(folder_ / kKeyContacts, frames);
+    } catch (const UserError&) {
+        key_moments_.reset();  // damaged; the run does without
+    }
+}
+
+void RunFiles::add_key_moment(const Frame& frame, const Contacts& contacts) {
+    const std::int64_t index = key_moments_->frames();
+    key_moments_->write(frame);
+    key_contacts_->write(index, contacts);
+}
+
+void RunFiles::add_frame(const Frame& frame, const Contacts& contacts) {
     const std::int64_t index = trajectory_->frames();
     trajectory_->write(frame);
-    if (contacts_) contacts_->write(index, simulation.contacts());
+    if (contacts_) contacts_->write(index, contacts);
 }
 
 void RunFiles::add_fields(const Simulation& simulation) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/output/contacts_file.hpp"
@@ -36,14 +37,21 @@ class RunFiles {
     RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version);
 
-    // The frame, and the contacts of the same moment when the scene asks for them.
-    void add_frame(const Frame& frame, const Simulation& simulation);
+    using Contacts = std::vector<Simulation::ContactRecord>;
+    // The frame, which has contact numbers, and the contacts of the same moment when the scene asks for them.
+    void add_frame(const Frame& frame, const Contacts& contacts);
     // From now on: moments of the film's pictures, in a file of their own.
     void keep_film_moments();
     // Behind the first `frames` of them.
     void keep_film_moments(std::size_t frames);
     bool keeps_film_moments() const { return film_moments_.has_value(); }
     void add_film_moment(const Frame& frame) { film_moments_->write(frame); }
+    // From now on: key moments with their contacts.
+    void keep_key_moments();
+    // Behind those before a step, where the run has kept some.
+    void keep_key_moments_from(std::int64_t step);
+    bool keeps_key_moments() const { return key_moments_.has_value(); }
+    void add_key_moment(const Frame& frame, const Contacts& contacts);
     void add_measures(const Measures& measures);
     // What observers give on grids, at the end of a record.
     bool has_fields() const { return fields_.has_value(); }
@@ -67,9 +75,10 @@ class RunFiles {
     void take_over_rows(const Simulation& simulation);
 
     std::filesystem::path folder_;
-    TrajectoryInfo info_;  // of the trajectory, and of the film's moments
-    std::optional<TrajectoryWriter> trajectory_, film_moments_;
-    std::optional<ContactsWriter> contacts_;
+    TrajectoryInfo info_;  // of the trajectory, of the film's moments, and of key moments
+    std::string program_version_;
+    std::optional<TrajectoryWriter> trajectory_, film_moments_, key_moments_;
+    std::optional<ContactsWriter> contacts_, key_contacts_;
     Clock clock_;
     FieldTimes field_times_;
     std::optional<FieldsWriter> fields_;

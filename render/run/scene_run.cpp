@@ -9,6 +9,7 @@
 #include "engine/scene/text/writer.hpp"
 #include "engine/start/grain_table.hpp"
 #include "engine/vector/instructions.hpp"
+#include "render/run/moments/key_moments.hpp"
 
 namespace grainreel {
 
@@ -22,6 +23,19 @@ bool give_second_name(const std::filesystem::path& file, const std::filesystem::
     std::filesystem::create_hard_link(file, part, error);
     if (!error) std::filesystem::rename(part, name, error);
     return !error;
+}
+
+// Into the frame, from all contacts that carry force.
+void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
+    frame.contact_number.assign(frame.size(), 0);
+    const auto count = [&](std::int32_t id) {
+        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+        if (id >= 0) ++frame.contact_number[static_cast<std::size_t>(at - frame.id.begin())];
+    };
+    for (const Simulation::ContactRecord& contact : contacts) {
+        count(contact.first);
+        count(contact.second);
+    }
 }
 
 }  // namespace
@@ -122,6 +136,7 @@ void SceneRun::start(const Pictures& pictures) {
     agenda_.emplace(shots, Rhythm(plan_.trajectory_every, plan_.trajectory_periods),
                     Rhythm(plan_.measures_every, plan_.measures_periods), simulation_.step(), plan_.steps,
                     kept_.steps(), plan_.clock, files_->has_fields() ? &plan_.fields : nullptr);
+    if (files_->keeps_key_moments()) agenda_->want_keys(key_steps(scene_, plan_, first_step_));
     if (simulation_.step() > first_step_) agenda_->goes_on();
     // As far as one knows: what a bed of several periods leaves out is found later.
     shots_ = std::count_if(shots.begin(), shots.end(), [&](const Shot& shot) {
@@ -136,9 +151,11 @@ void SceneRun::open_files(const std::vector<Shot>& shots) {
     if (!goes_on_) {
         files_.emplace(folder, scene_, plan_, simulation_, program_version_);
         if (film_moments_bytes(scene_, plan_, std::ssize(shots)) > 0) files_->keep_film_moments();
+        if (keys_wanted_ && plan_.trajectory_every > 0) files_->keep_key_moments();
         return;
     }
     files_.emplace(RunFiles::GoesOn(), folder, scene_, plan_, simulation_, program_version_);
+    files_->keep_key_moments_from(simulation_.step());
     std::error_code ignored;
     if (shots.empty() || !std::filesystem::exists(folder / kFilmMoments, ignored)) return;
     files_->keep_film_moments(pictures_kept_);
@@ -222,15 +239,19 @@ FramePtr SceneRun::serve(const Stop& stop) {
         const auto timer = times_.during("writing");
         files_->add_fields(simulation_);
     }
-    if (!stop.trajectory && !stop.moment && stop.segments.empty()) return nullptr;
+    if (!stop.trajectory && !stop.key && !stop.moment && stop.segments.empty()) return nullptr;
     const auto frame = std::make_shared<Frame>(simulation_.frame());
-    if (stop.trajectory) {
+    const bool pictured = files_->keeps_film_moments() && !stop.segments.empty();
+    if (stop.trajectory || stop.key || pictured) {
         const auto timer = times_.during("writing");
-        files_->add_frame(*frame, simulation_);
+        const RunFiles::Contacts contacts = simulation_.contacts();
+        count_contacts(*frame, contacts);
+        if (stop.trajectory) files_->add_frame(*frame, contacts);
+        if (stop.key) files_->add_key_moment(*frame, contacts);
     }
     if (stop.moment) kept_.keep(*frame);
     if (stop.segments.empty()) return frame;
-    if (files_->keeps_film_moments()) {
+    if (pictured) {
         const auto timer = times_.during("writing");
         files_->add_film_moment(*frame);
     }
@@ -297,6 +318,7 @@ std::string SceneRun::files_text() const {
     if (plan_.trajectory_every > 0)
         text += fmt::format("trajectory.nc ({} frames), ", files_->trajectory_frames());
     if (files_->keeps_film_moments()) text += "film_moments.nc, ";
+    if (files_->keeps_key_moments()) text += "key_moments.nc, key_contacts.nc, ";
     if (files_->has_contacts()) text += "contacts.nc, ";
     if (files_->has_fields()) text += fmt::format("fields.nc ({} records), ", files_->field_records());
     if (const auto rows = files_->outflow_rows()) text += fmt::format("outflow.csv ({} grains), ", *rows);

@@ -42,6 +42,8 @@ class SceneRun final : public FrameSource {
     // False when the watcher stopped it.
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
+    // Before start(): key moments are kept with their contacts. A run that goes on does what it did.
+    void keep_key_moments() { keys_wanted_ = true; }
 
     const Scene& scene() const override { return scene_; }
     Supply supply() const override { return {true, true, true, scene_.keeps_orientations()}; }
@@ -100,6 +102,7 @@ class SceneRun final : public FrameSource {
     PackingResult packing_;
     bool packed_ = false;
     std::int64_t first_step_ = 0, shots_ = 0;
+    bool keys_wanted_ = false;
     bool goes_on_ = false;           // in the folder of an earlier run, which it is
     std::size_t pictures_kept_ = 0;  // of that
     std::optional<EarlierPictures> earlier_;

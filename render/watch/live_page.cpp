@@ -13,7 +13,6 @@ std::string live_page(const Scene& scene, const std::filesystem::path& folder,
                       const std::optional<PlannedScene>& planned) {
     const RunFacts record = run_facts(folder);
     const PageFiles& files = page_files();
-    const bool told_by_itself = true;  // how the run stands: live.js tells
     const std::string picture =
         "<img id=\"live-picture\" class=\"poster\" alt=\"The film's newest picture: grains in their "
         "container, with "
@@ -29,7 +28,7 @@ std::string live_page(const Scene& scene, const std::filesystem::path& folder,
     return filled(files.page, {{"title", html_text(scene.title.empty() ? scene.name : scene.title)},
                                {"body_class", ""},
                                {"style", std::string(files.style)},
-                               {"lead", lead_html(scene, record, told_by_itself)},
+                               {"lead", lead_html(scene)},
                                {"live", std::string(files.live)},
                                {"body", body},
                                {"words", chapters_html(scene, record, planned, folder, "report.html")},

@@ -136,8 +136,7 @@ void LiveRun::read_bed_again() {
         const std::vector<Frame>& moments = run.moments();
         trajectory_time_ = time;
         if (moments.back().step == bed_step_) return;
-        const bool contacts = false;  // the newest may not be whole yet
-        const BedFrames bed = bed_frames_of(run, contacts, shown_of(moments.size()));
+        const BedFrames bed = bed_frames_of(run, shown_of(moments.size()));
         bed_step_ = moments.back().step;
         bed_time_ = moments.back().time;
         auto bytes = shared(with_length(bed_facts_json(run.scene(), bed), bed.packed));

@@ -1,5 +1,6 @@
 """Chromium without a screen, driven through Selenium, and what tests ask of it."""
 import base64
+import os
 import pathlib
 import time
 
@@ -7,6 +8,8 @@ from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 
+KEPT = pathlib.Path(__file__).parent / "kept"
+MOST_MEAN, MOST_BLOCKS = 6, 0.03  # by which pictures of the same page may differ, see Browser.difference
 SECONDS_UNTIL_READY = 60  # software graphics on a busy machine; a page that hangs fails
 
 
@@ -96,6 +99,27 @@ class Browser:
                 }
                 done([sum / (a.data.length / 4), many / (a.data.length / 4)]);
             });""", texts)
+
+    def looks_as_kept(self, name, folder, settled="return true", middle=None):
+        """What the window shows, wide and narrow, against the pictures in kept/, which GRAINREEL_KEEP=1 makes anew. Fonts and
+        the film's buttons differ a little from machine to machine. settled: what to wait for. folder: for what is seen.
+        middle: of the window, a selector; without it the page's beginning is looked at."""
+        for width in (1280, 390):
+            self.resize(width, 1000)
+            self.run("document.activeElement.blur(); scrollTo({top: 0, behavior: 'instant'})")
+            if middle:
+                self.place_of(middle)
+            self.wait(settled, "the page to settle")
+            self.driver.execute_async_script("const done = arguments[0]; setTimeout(() => requestAnimationFrame(() =>"
+                                             "requestAnimationFrame(() => done())), 500)")
+            kept, now = KEPT / f"{name}_{width}.webp", self.view()
+            (folder / f"view_{name}_{width}.webp").write_bytes(now)
+            if os.environ.get("GRAINREEL_KEEP"):
+                kept.write_bytes(now)
+            mean, blocks = self.difference(kept.read_bytes(), now)
+            assert mean <= MOST_MEAN and blocks <= MOST_BLOCKS, (name, width, mean, blocks)
+            print(f"  {width} pixels wide: blocks differ by {mean:.2f} of 255, {100 * blocks:.2f} % of them much")
+        self.resize(1280, 1000)
 
     def place_of(self, selector):
         """left, top, width, height of the first such element in the window, scrolled to its middle."""

@@ -16,9 +16,8 @@ import sys
 import netCDF4
 import numpy
 
-from browser import Browser
+from browser import KEPT, MOST_BLOCKS, MOST_MEAN, Browser
 
-KEPT = pathlib.Path(__file__).parent / "kept"
 TITLE = "Fifty <b>grains</b> & \"</script><script>document.title='no'</script>"
 SCENE = """title = '''%s'''
 [[species]]
@@ -86,6 +85,12 @@ def text_is_no_markup(browser, run):
     assert "Half <i>time</i>" in browser.run("return document.querySelector('ol').textContent")
 
 
+def all_begins_at_one_moment(browser, run):
+    """The film's first frame, not the poster, which is of another moment."""
+    browser.wait("const f = grainreelReport.film; return f.frame === 0 && !f.video.seeking && f.video.currentTime > 0", "the film's first frame")
+    assert browser.run("const r = grainreelReport; return [r.runTime.now, r.film.film.times[0], r.bed.frames.times[r.bed.viewer.frame]]") == [0, 0, 0]
+
+
 def film_plays(browser, run):
     browser.run("document.getElementById('film').play()")
     browser.wait("return document.getElementById('film').currentTime > 0.3", "the film to play")
@@ -143,8 +148,8 @@ def places_are_those_of_the_trajectory(browser, run):
     places, times = trajectory["coordinates"][:], trajectory["time"][:]
     speeds = numpy.linalg.norm(trajectory["velocities"][:], axis=2)
     frames = numpy.array(browser.run("return grainreelReport.bed.frames.times"))
-    film = netCDF4.Dataset(run / "film_moments.nc")["time"][:]
-    assert len(frames) == len({round(time, 9) for time in [*times, *film]}), "the film's moments and the trajectory's"
+    film, keys = (netCDF4.Dataset(run / f"{name}_moments.nc")["time"][:] for name in ("film", "key"))
+    assert len(frames) == len({round(time, 9) for time in [*times, *film, *keys]}), "the trajectory's, the film's, and key moments"
     low, high = (numpy.array(browser.run(f"return grainreelReport.bed.frames.{end}")) for end in ("low", "high"))
     stated = (high - low) / (2 * 65535) * (1 + 1e-6)
     fastest = speeds.max()
@@ -173,6 +178,7 @@ def contact_numbers_are_those_of_the_run(browser, run):
     told = browser.run("const f = grainreelReport.bed.frames;"
                        "return [...f.ids.keys()].map((g) => [f.ids[g], f.contactsAt(arguments[0], g)]);", moment)
     assert told == [[grain, ids.count(grain)] for grain, _ in told]
+    assert not browser.run("const f = grainreelReport.bed.frames; return f.times.some((_, k) => f.contactsAt(k, 0) === null)")
 
 
 def a_click_finds_the_grain(browser, run):
@@ -231,10 +237,86 @@ def first_on_ray(camera, across, down, aspect, places, radii):
     return int(depth.argmin())
 
 
+def has_forces(browser, time):
+    return browser.run("const b = grainreelReport.bed; return b.forces.at.has(b.frames.indexAt(arguments[0]))", float(time))
+
+
+def forces_are_those_of_the_run(browser, run):
+    """At each key moment: the pairs of key_contacts.nc and their forces to 2.3 %; who pushes a grain; the sums."""
+    moments, contacts = (netCDF4.Dataset(run / name) for name in ("key_moments.nc", "key_contacts.nc"))
+    for file in (moments, contacts):
+        file.set_auto_mask(False)
+    times = moments["time"][:]
+    assert len(times) > 20 and times[0] == 0 and close(times[-1], 1, 1e-3), times
+    for k in range(16):  # two periods of 50 ms before the end
+        assert abs(times - (0.9 + 0.1 * k / 16)).min() < 1e-4, (k, times)
+    frames, first, second, normal = (contacts[name][:] for name in ("frame", "first", "second", "normal"))
+    for key in range(len(times)):
+        browser.run("grainreelReport.runTime.set(arguments[0], 'test')", float(times[key]))
+        shown = browser.run("const b = grainreelReport.bed, p = b.forces.at.get(b.viewer.frame);"
+                            "const id = (g) => g < 1000 ? b.frames.ids[g] : -1 - (0xffffff - g);"
+                            "return [...p.force].map((f, i) => [id(p.first[i]), id(p.second[i]), f])")
+        rows = frames == key
+        kept = {(int(a), int(b)): float(f) for a, b, f in zip(first[rows], second[rows], normal[rows])}
+        told = {(a, b): f for a, b, f in shown}
+        assert set(told) == set(kept), key
+        assert all(close(told[pair] / kept[pair], 1, 0.0235) for pair in kept if kept[pair] > 1.1e-5 * normal.max())
+    grain = int(first[rows][0])
+    browser.run("grainreelReport.bed.choose(grainreelReport.bed.frames.ids.indexOf(arguments[0]))", grain)
+    said = browser.run("return document.getElementById('grain-says').textContent").split("Pushed by: ")[1]
+    pushers = sorted(((f, a if b == grain else b) for (a, b), f in kept.items() if grain in (a, b)), reverse=True)
+    assert said.count(" N") == len(pushers), (said, pushers)
+    assert said.startswith(f"{'a wall' if pushers[0][1] < 0 else pushers[0][1]} with "), (said, pushers)
+    browser.run("grainreelReport.bed.choose(-1)")
+
+
+def chains_are_shown_at_key_moments_alone(browser, run):
+    picture = "const v = grainreelReport.bed.viewer; v.draw(); return v.canvas.toDataURL();"
+    browser.run("document.getElementById('forces-back').click()")
+    browser.run("document.getElementById('forces-on').click()")
+    say = "return document.getElementById('forces-say').textContent"
+    assert browser.run(say) == "The forces of this moment are known.", browser.run(say)
+    without = browser.run(picture)
+    browser.run("document.getElementById('chains').click()")
+    chains = browser.run("return grainreelReport.bed.viewer.chains.length")
+    assert chains > 5 and browser.run(picture) != without
+    assert "join grains that push each other" in browser.run(say)
+    browser.run("const s = document.getElementById('species-0'); s.value = 0; s.dispatchEvent(new Event('change'))")
+    assert browser.run("return grainreelReport.bed.viewer.chains.length") < chains, "none to hidden grains"
+    browser.run("const s = document.getElementById('species-0'); s.value = 255; s.dispatchEvent(new Event('change'))")
+    time = browser.run("const b = grainreelReport.bed; return b.frames.times.find((t, k) => !b.forces.at.has(k))")
+    browser.run("grainreelReport.runTime.set(arguments[0], 'test')", time)
+    assert browser.run("return grainreelReport.bed.viewer.chains.length") == 0
+    assert "At this one they are not" in browser.run(say)
+    browser.run("document.getElementById('chains').click(); document.getElementById('chains').click()")
+    assert browser.run("return grainreelReport.bed.viewer.chains.length") > 0, "it goes to the nearest key moment"
+    browser.run("document.getElementById('chains').click()")
+
+
+def a_picture_takes_three_calls_and_little_traffic(browser, run):
+    """With chains and the way of a grain."""
+    browser.run("document.getElementById('chains').click(); grainreelReport.bed.choose(3)")
+    calls, bytes_sent = browser.run("""
+        const viewer = grainreelReport.bed.viewer, gl = viewer.gl, count = {calls: 0, bytes: 0}, own = {};
+        for (const name of ['drawArrays', 'drawArraysInstanced', 'bufferData', 'bufferSubData', 'texImage2D']) {
+            own[name] = gl[name];
+            gl[name] = (...words) => {
+                if (name.startsWith('draw')) ++count.calls;
+                else count.bytes += words.find((word) => ArrayBuffer.isView(word)).byteLength;
+                return own[name].call(gl, ...words);
+            };
+        }
+        viewer.draw();
+        for (const name in own) delete gl[name];
+        return [count.calls, count.bytes];""")
+    assert calls <= 3 and 0 < bytes_sent <= 200_000, (calls, bytes_sent)
+    browser.run("document.getElementById('chains').click(); grainreelReport.bed.choose(-1)")
+
+
 def near_neighbours_are_told(browser, run):
     trajectory = netCDF4.Dataset(run / "trajectory.nc")
     trajectory.set_auto_mask(False)
-    frame = 10
+    frame = next(k for k in range(10, 81) if not has_forces(browser, trajectory["time"][k]))
     browser.run("grainreelReport.runTime.set(arguments[0], 'test')", float(trajectory["time"][frame]))
     places, radii, ids = trajectory["coordinates"][frame], trajectory["radius"][frame], trajectory["id"][frame]
     for grain in (0, 17, 45):
@@ -252,9 +334,10 @@ def near_neighbours_are_told(browser, run):
 def controls_change_the_picture(browser, run):
     """Colours, a hidden species, a slice: each gives another picture, and taking it back the first again."""
     picture = ("const v = grainreelReport.bed.viewer; v.draw(); return v.canvas.toDataURL();")
+    browser.run("grainreelReport.runTime.set(0, 'test')")  # a moment with forces
     first = browser.run(picture)
     assert browser.run(picture) == first
-    for selector, value in [("#colour-by", "1"), ("#colour-by", "4"), ("#species-0", "0"), ("#species-1", "128"),
+    for selector, value in [("#colour-by", "1"), ("#colour-by", "4"), ("#colour-by", "5"), ("#species-0", "0"), ("#species-1", "128"),
                             ("#slice", "x")]:
         change = ("const s = document.querySelector(arguments[0]), old = s.value; s.value = arguments[1];"
                   "s.dispatchEvent(new Event('change')); return old;")
@@ -296,29 +379,23 @@ def fields_are_those_of_the_run(browser, run):
     assert "mean from" in browser.run("return document.getElementById('field-says').textContent")
 
 
+FILM_SETTLED = "const f = grainreelReport.film; return !f.video.seeking && f.wanted === null"
+
+
 def looks_as_before(browser, run):
-    """What the window shows against the pictures in kept/, which GRAINREEL_KEEP=1 makes anew. Fonts and the film's
-    buttons differ a little from machine to machine; a bed that is not there must not pass."""
-    most_mean, most_blocks = 6, 0.03
-    browser.run("grainreelReport.runTime.set(0.4, 'test'); document.activeElement.blur()")
-    for width in (1280, 390):
-        browser.resize(width, 1000)
-        browser.run("scrollTo(0, 0)")
-        browser.wait("const f = grainreelReport.film; return !f.video.seeking && f.wanted === null", "the film to seek")
-        browser.driver.execute_async_script("const done = arguments[0]; setTimeout(() => requestAnimationFrame(() =>"
-                                            "requestAnimationFrame(() => done())), 500)")
-        kept, now = KEPT / f"report_{width}.webp", browser.view()
-        (run.parent / f"view_{width}.webp").write_bytes(now)
-        if os.environ.get("GRAINREEL_KEEP"):
-            kept.write_bytes(now)
-        mean, blocks = browser.difference(kept.read_bytes(), now)
-        assert mean <= most_mean and blocks <= most_blocks, (width, mean, blocks)
-        print(f"  {width} pixels wide: blocks differ by {mean:.2f} of 255, {100 * blocks:.2f} % of them much")
-    browser.resize(1280, 1000)
+    """A bed that is not there must not pass."""
+    browser.run("grainreelReport.runTime.set(0.4, 'test')")
+    browser.looks_as_kept("report", run.parent, FILM_SETTLED)
     browser.run("document.getElementById('bed').style.visibility = 'hidden'")
     _, blocks = browser.difference((KEPT / "report_1280.webp").read_bytes(), browser.view())
     browser.run("document.getElementById('bed').style.visibility = ''")
-    assert blocks > most_blocks, blocks
+    assert blocks > MOST_BLOCKS, blocks
+
+
+def chains_look_as_before(browser, run):
+    browser.run("grainreelReport.runTime.set(0, 'test'); document.getElementById('chains').click()")
+    browser.looks_as_kept("chains", run.parent, FILM_SETTLED, "#forces-say")
+    browser.run("document.getElementById('chains').click()")
 
 
 def everything_is_labelled(browser, run):
@@ -359,9 +436,11 @@ def words_fit(browser, run):
         browser.picture(run.parent / f"report_{width}.png")
 
 
-TESTS = [text_is_no_markup, film_frames_are_half_slow_motion, film_plays, chart_moves_film_and_bed,
+TESTS = [text_is_no_markup, all_begins_at_one_moment, film_frames_are_half_slow_motion, film_plays, chart_moves_film_and_bed,
          buttons_and_story_move_all, places_are_those_of_the_trajectory, contact_numbers_are_those_of_the_run,
-         a_click_finds_the_grain, near_neighbours_are_told, controls_change_the_picture, fields_are_those_of_the_run, looks_as_before, everything_is_labelled, the_story_goes_along,
+         a_click_finds_the_grain, forces_are_those_of_the_run, chains_are_shown_at_key_moments_alone,
+         a_picture_takes_three_calls_and_little_traffic, near_neighbours_are_told, controls_change_the_picture,
+         fields_are_those_of_the_run, looks_as_before, chains_look_as_before, everything_is_labelled, the_story_goes_along,
          large_print_is_large_and_fits, words_fit]
 
 

@@ -102,7 +102,13 @@ def what_differs_is_told(browser):
     assert not any(key.startswith(("species.", "container.", "film.", "output.")) for key in keys), keys
 
 
-TESTS = [both_are_there, charts_have_a_line_each, a_chart_moves_all, films_play_together, a_bed_turns_the_other,
+def looks_as_before(browser):
+    browser.run("grainreelReport.runTime.set(0.4, 'test')")
+    settled = "return grainreelReport.films.every((f) => !f.video.seeking && f.wanted === null)"
+    browser.looks_as_kept("side_by_side", FOLDER, settled)
+
+
+TESTS = [looks_as_before, both_are_there, charts_have_a_line_each, a_chart_moves_all, films_play_together, a_bed_turns_the_other,
          colours_mean_the_same, what_differs_is_told]
 
 

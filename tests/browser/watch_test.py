@@ -11,6 +11,8 @@ import signal
 import subprocess
 import sys
 
+import netCDF4
+
 from browser import Browser
 from report_test import SCENE, no_barriers
 
@@ -56,6 +58,42 @@ def a_chosen_grain_stays_chosen(browser):
     assert said.startswith(f"Grain {browser.run('return grainreelReport.bed.frames.ids[7]')}, "), said
 
 
+def looks_as_before(program, folder, axe):
+    """A run that is over, shown live: nothing moves."""
+    subprocess.run([program, "movie", "fifty.toml", "--out", "whole", "--threads", "1", "--no-report"], cwd=folder, check=True,
+                   stderr=subprocess.DEVNULL)
+    watch = subprocess.Popen([program, "watch", "whole", "--port", "0"], cwd=folder, stderr=subprocess.PIPE, text=True)
+    try:
+        address = next(found[0] for line in watch.stderr if (found := re.search(r"http://127\.0\.0\.1:\d+/", line)))
+        with Browser() as browser:
+            browser.driver.get(address)
+            everything_comes(browser)
+            contact_numbers_are_those_of_the_run(browser, folder / "whole")
+            browser.looks_as_kept("live", folder)
+        with Browser(dark=True) as browser:
+            browser.driver.get(address)
+            everything_comes(browser)
+            browser.picture(folder / "live_dark.png")
+            if axe:
+                no_barriers(browser, axe)
+    finally:
+        watch.kill()
+        watch.wait()
+
+
+def contact_numbers_are_those_of_the_run(browser, run):
+    """Of the newest moment, against the last frame of contacts.nc."""
+    contacts = netCDF4.Dataset(run / "contacts.nc")
+    contacts.set_auto_mask(False)
+    last = len(netCDF4.Dataset(run / "trajectory.nc")["time"]) - 1
+    rows = (contacts["frame"][:] == last) & (contacts["normal"][:] > 0)
+    ids = list(contacts["first"][:][rows]) + list(contacts["second"][:][rows])
+    told = browser.run("const f = grainreelReport.bed.frames, last = f.times.length - 1;"
+                       "return [...f.ids.keys()].map((g) => [f.ids[g], f.contactsAt(last, g)])")
+    assert len(told) == 50 and told == [[grain, ids.count(grain)] for grain, _ in told], told
+    assert browser.run("return [...document.querySelectorAll('#colour-by option')].some((o) => o.text === 'contact number')")
+
+
 def main():
     program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     axe = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
@@ -78,6 +116,8 @@ def main():
     finally:
         run.kill()
         run.wait()
+    looks_as_before(program, folder, axe)
+    print("passed: looks_as_before")
 
 
 if __name__ == "__main__":

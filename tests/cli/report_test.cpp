@@ -7,7 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <csignal>
 
+#include "engine/output/contacts_file.hpp"
+#include "engine/output/trajectory.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -62,7 +65,7 @@ TEST_F(ReportProgram, EachRunLeavesItsPage) {
     const std::string first = text_of(here / "run/report.html");
     EXPECT_THAT(first, HasSubstr("id=\"film-bytes\""));
     EXPECT_THAT(first, HasSubstr("id=\"bed-bytes\""));
-    EXPECT_THAT(first, Not(HasSubstr("what the page shows may not be all")));  // the run is complete by then
+    EXPECT_THAT(first, Not(HasSubstr("what it kept until then")));  // the run is complete by then
     const auto record = nlohmann::json::parse(text_of(here / "run/run.json"));
     EXPECT_EQ(record["written"]["page"], "report.html");
     EXPECT_EQ(record["status"], "complete");
@@ -93,8 +96,8 @@ nlohmann::json facts_of(const std::string& page) {
     return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
-// Without film_moments.nc the bed has the trajectory's moments alone, five of them; a damaged one is as good
-// as none.
+// Without the files beside it the bed has the trajectory's moments alone, five of them; damaged ones are as
+// good as none.
 TEST_F(ReportProgram, TheBedHasTheMomentOfEachFrameOfTheFilm) {
     run({});
     const auto facts = facts_of(text_of(here / "run/report.html"));
@@ -104,9 +107,31 @@ TEST_F(ReportProgram, TheBedHasTheMomentOfEachFrameOfTheFilm) {
     for (const double time : shown) EXPECT_THAT(times, testing::Contains(testing::DoubleNear(time, 1e-12)));
     EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
     EXPECT_EQ(std::adjacent_find(times.begin(), times.end()), times.end());
-    write_text(here / "run/film_moments.nc", text_of(here / "run/film_moments.nc").substr(0, 3000));
+    for (const char* file : {"run/film_moments.nc", "run/key_moments.nc"})
+        write_text(here / file, text_of(here / file).substr(0, 3000));
     ASSERT_EQ(program({"report", "run"}).status, 0);
     EXPECT_EQ(facts_of(text_of(here / "run/report.html"))["bed"]["times"].size(), 5u);
+}
+
+// The start, the end, 16 moments in the two periods before it (of four that the run has), and 11 in between.
+TEST_F(ReportProgram, ForcesOfKeyMomentsAreKept) {
+    run({"--set", "film.caption=[{from=\"0.03 s\", to=\"0.06 s\", text=\"See\"}]"});
+    const auto bed = facts_of(text_of(here / "run/report.html"))["bed"];
+    const auto times = bed["times"].get<std::vector<double>>();
+    std::vector<double> keys;
+    for (const std::size_t moment : bed["forces"]["moments"]) keys.push_back(times.at(moment));
+    EXPECT_EQ(keys.size(), TrajectoryReader(here / "run/key_moments.nc").frames());
+    for (const double time : {0.0, 0.03, 0.1, 0.15, 0.2})
+        EXPECT_THAT(keys, testing::Contains(testing::DoubleNear(time, 1e-4))) << time;
+    const ContactsReader contacts(here / "run/key_contacts.nc");
+    for (std::size_t k = 0; k < keys.size(); ++k)
+        EXPECT_EQ(bed["forces"]["pairs"][k].get<std::size_t>(), contacts.touches(k).size());
+    EXPECT_TRUE(bed["contacts"]);
+    // A run without a page keeps none, and its page says nothing of them.
+    ASSERT_EQ(program({"movie", "fifty.toml", "--out", "other", "--no-report"}).status, 0);
+    EXPECT_FALSE(fs::exists(here / "other/key_moments.nc"));
+    ASSERT_EQ(program({"report", "other"}).status, 0);
+    EXPECT_TRUE(facts_of(text_of(here / "other/report.html"))["bed"]["forces"].is_null());
 }
 
 // Charts of both, in what they differ, and elements of their own.
@@ -150,6 +175,51 @@ TEST_F(ReportProgram, DoesWithoutFilmAndMeasures) {
     EXPECT_THAT(page, HasSubstr("status is “unknown”"));
 }
 
+TEST_F(ReportProgram, ARunWithoutMomentsHasAPageWithoutABed) {
+    run({"--set", "output.trajectory=false"});
+    const std::string page = text_of(here / "run/report.html");
+    EXPECT_THAT(page, HasSubstr("kept no moment of its grains"));
+    EXPECT_THAT(page, Not(HasSubstr("id=\"bed-bytes\"")));
+    EXPECT_THAT(page, HasSubstr("id=\"film-bytes\""));
+    EXPECT_TRUE(facts_of(page)["bed"].is_null());
+    EXPECT_EQ(facts_of(page)["end"], 0.2);
+}
+
+// A step that is far too large: the grains fly apart.
+TEST_F(ReportProgram, AFailedRunHasAPageThatSaysSo) {
+    write_small_scene(here.path());
+    std::string text = text_of(here / "fifty.toml");
+    text.replace(text.find("overlap = 0.05"), 14, "step = \"1.2e-3 s\"");
+    write_text(here / "fifty.toml", text);
+    const Ended ended = program({"movie", "fifty.toml", "--out", "run"});
+    ASSERT_EQ(ended.status, 1) << ended.err;
+    const std::string page = text_of(here / "run/report.html");
+    EXPECT_THAT(page, HasSubstr("The run failed at "));
+    EXPECT_THAT(page, HasSubstr("take a smaller run.step"));
+    EXPECT_THAT(page, HasSubstr("This page has what it kept until then."));
+}
+
+TEST_F(ReportProgram, APageSaysHowFarTheRunCame) {
+    write_small_scene(here.path());
+    for (const int signal : {SIGINT, SIGKILL}) {
+        Program run({"movie", "fifty.toml", "--out", "run", "--duration", "600 s", "--no-film", "--force"},
+                    {here.path(), {}});
+        ASSERT_TRUE(wait_until(run, [&] {
+            std::error_code none;
+            return fs::exists(here / "run/key_moments.nc") &&
+                   fs::file_size(here / "run/trajectory.nc", none) > 30'000;
+        }));
+        run.send(signal);
+        EXPECT_EQ(run.wait().status, 128 + signal);
+        ASSERT_EQ(program({"report", "run"}).status, 0);
+        const std::string page = text_of(here / "run/report.html");
+        EXPECT_THAT(page,
+                    HasSubstr(signal == SIGINT ? "The run was stopped at " : "The run was broken off at "));
+        EXPECT_THAT(page, HasSubstr("of 600 s"));
+        EXPECT_FALSE(facts_of(page)["bed"].is_null());
+    }
+}
+
 TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
     const auto expect_mistake = [&](const std::vector<std::string>& words, const std::string& said) {
         const Ended ended = program(words);
@@ -164,8 +234,8 @@ TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
     expect_mistake({"report", "run", "--out", "page.txt"}, "a page's name ends in .html");
     expect_mistake({"report", "run", "--out", "empty"}, "is a folder");
     expect_mistake({"report", "run", "--out", "none/page.html"}, "there is no such folder");
-    fs::remove(here / "run/trajectory.nc");
-    expect_mistake({"report", "run"}, "has no trajectory.nc");
+    write_text(here / "run/trajectory.nc", "no trajectory");
+    expect_mistake({"report", "run"}, "trajectory.nc");
     EXPECT_FALSE(fs::exists(here / "run/report.html"));
 }
 

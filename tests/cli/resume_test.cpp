@@ -66,7 +66,7 @@ class ResumedRun : public testing::Test {
         EXPECT_EQ(record(resumed)["status"], "complete");
         EXPECT_EQ(record(resumed)["engine"]["state_hash"], record(whole)["engine"]["state_hash"]);
         for (const char* file : {"trajectory.nc", "measures.csv", "contacts.nc", "fields.nc", "outflow.csv",
-                                 "film_moments.nc", "final.csv"}) {
+                                 "film_moments.nc", "key_moments.nc", "key_contacts.nc", "final.csv"}) {
             ASSERT_EQ(fs::exists(here / resumed / file), fs::exists(here / whole / file)) << file;
             EXPECT_EQ(text_of(here / resumed / file) == text_of(here / whole / file), true) << file;
         }

@@ -53,7 +53,8 @@ std::string engine_hash(const fs::path& run) {
 // The first thing in which the two runs differ; empty: none.
 std::string difference(const fs::path& whole, const fs::path& run) {
     if (engine_hash(whole) != engine_hash(run)) return "another end state";
-    for (const char* file : {"trajectory.nc", "measures.csv", "contacts.nc", "fields.nc", "film_moments.nc"})
+    for (const char* file : {"trajectory.nc", "measures.csv", "contacts.nc", "fields.nc", "film_moments.nc",
+                             "key_moments.nc", "key_contacts.nc"})
         if (test::text_of(whole / file) != test::text_of(run / file)) return fmt::format("{} differs", file);
     for (const auto& entry : fs::directory_iterator(whole / "frames"))
         if (test::text_of(entry.path()) != test::text_of(run / "frames" / entry.path().filename()))

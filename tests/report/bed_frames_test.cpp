@@ -112,7 +112,7 @@ constexpr std::size_t plenty = 100'000'000;  // bytes
 
 TEST(BedFrames, PlacesAreWithinTheStatedErrorForEveryGrainOfTenMoments) {
     const std::vector<Frame> frames = random_frames(10, 200);
-    const BedFrames bed = bed_frames(MadeRun(frames), false, plenty);
+    const BedFrames bed = bed_frames(MadeRun(frames), plenty);
     ASSERT_EQ(bed.moments.size(), 10u);
     const auto read = read_back(bed);
     const Vec3 most = bed.error() * (1 + 1e-9);
@@ -158,7 +158,7 @@ TEST(BedFrames, GrainsThatComeAndGoAreAbsentMeanwhile) {
     };
     take_out(frames[0], 1);
     take_out(frames[2], 0);
-    const BedFrames bed = bed_frames(MadeRun(frames), false, plenty);
+    const BedFrames bed = bed_frames(MadeRun(frames), plenty);
     ASSERT_EQ(bed.grains, 2u);
     const auto read = read_back(bed);
     EXPECT_TRUE(read[0].at(0).present && read[1].at(0).present && read[1].at(10).present &&
@@ -166,19 +166,57 @@ TEST(BedFrames, GrainsThatComeAndGoAreAbsentMeanwhile) {
     EXPECT_FALSE(read[0].at(10).present || read[2].at(0).present);
 }
 
+// Where frames have no contact numbers, as those of earlier versions.
 TEST(BedFrames, ContactsAreThoseThatPushWallsIncluded) {
-    std::vector<Frame> frames = random_frames(1, 3);
-    frames[0].touches = {{0, 10, 0.5}, {10, -1, 0.25}, {10, 20, 0.0}};
-    const auto read = read_back(bed_frames(MadeRun(frames), true, plenty));
+    const std::vector<Frame> frames = random_frames(2, 3);
+    BedContacts contacts;
+    contacts.touches = [](std::size_t index) -> std::optional<std::vector<Touch>> {
+        if (index == 1) return std::nullopt;
+        return std::vector<Touch>{{0, 10, 0.5}, {10, -1, 0.25}, {10, 20, 0.0}};
+    };
+    const BedFrames bed = bed_frames(MadeRun(frames), plenty, kNoPageProgress, contacts);
+    EXPECT_EQ(bed.counted, 1u);
+    const auto read = read_back(bed);
     EXPECT_EQ(read[0].at(0).contacts, 1);
     EXPECT_EQ(read[0].at(10).contacts, 2);
     EXPECT_EQ(read[0].at(20).contacts, 0);
+    EXPECT_EQ(read[1].at(10).contacts, 255);  // not known
+}
+
+TEST(BedFrames, ContactNumbersOfTheFramesAreTaken) {
+    std::vector<Frame> frames = random_frames(1, 3);
+    frames[0].contact_number = {7, 0, 300};
+    const BedFrames bed = bed_frames(MadeRun(frames), plenty);
+    EXPECT_EQ(bed.counted, 1u);
+    const auto read = read_back(bed);
+    EXPECT_EQ(read[0].at(0).contacts, 7);
+    EXPECT_EQ(read[0].at(10).contacts, 0);
+    EXPECT_EQ(read[0].at(20).contacts, 254);  // the most that a byte tells
+}
+
+TEST(BedFrames, KeyMomentsAreThereWithTheirPairsWhateverElseIsLeftOut) {
+    const std::vector<Frame> frames = random_frames(101, 300);
+    BedContacts contacts;
+    contacts.keys = {3, 50, 77};
+    contacts.touches = [](std::size_t index) -> std::optional<std::vector<Touch>> {
+        return std::vector<Touch>{{0, 10, 0.5 + static_cast<double>(index)}, {2990, -2, 0.25}, {0, 5, 1.0}};
+    };
+    const std::size_t all = bed_frames(MadeRun(frames), plenty).packed.size();
+    const BedFrames bed = bed_frames(MadeRun(frames), all / 8, kNoPageProgress, contacts);
+    EXPECT_LE(bed.bytes(), all / 8);
+    EXPECT_LT(bed.moments.size(), 20u);
+    ASSERT_EQ(bed.forces.moments.size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(bed.moments[bed.forces.moments[k].moment].time, frames[contacts.keys[k]].time);
+        EXPECT_EQ(bed.forces.moments[k].pairs, 2u);  // no grain has the id 5
+    }
+    EXPECT_EQ(bed.forces.highest, 77.5);
 }
 
 TEST(BedFrames, KeepsEvenlySpreadMomentsThatFitFirstAndLastAmongThem) {
     const std::vector<Frame> frames = random_frames(101, 300);
-    const std::size_t all = bed_frames(MadeRun(frames), false, plenty).packed.size();
-    const BedFrames bed = bed_frames(MadeRun(frames), false, all / 4);
+    const std::size_t all = bed_frames(MadeRun(frames), plenty).packed.size();
+    const BedFrames bed = bed_frames(MadeRun(frames), all / 4);
     EXPECT_LE(bed.packed.size(), all / 4);
     EXPECT_EQ(bed.all_moments, 101u);
     ASSERT_GT(bed.moments.size(), 15u);
@@ -187,7 +225,7 @@ TEST(BedFrames, KeepsEvenlySpreadMomentsThatFitFirstAndLastAmongThem) {
     const double mean = frames.back().time / static_cast<double>(bed.moments.size() - 1);
     for (std::size_t k = 1; k < bed.moments.size(); ++k)
         EXPECT_NEAR(bed.moments[k].time - bed.moments[k - 1].time, mean, period);
-    EXPECT_EQ(bed_frames(MadeRun(frames), false, 1).moments.size(), 1u);
+    EXPECT_EQ(bed_frames(MadeRun(frames), 1).moments.size(), 1u);
 }
 
 TEST(BedFrames, OfTooManyGrainsThoseNearestToTheMiddleAreKept) {
@@ -200,7 +238,7 @@ TEST(BedFrames, OfTooManyGrainsThoseNearestToTheMiddleAreKept) {
         frames[0].position.emplace_back((id % 2 ? 1 : -1) * (extra - id), 0, 0);  // the last are nearest
         frames[0].velocity.emplace_back(0, 0, 0);
     }
-    const BedFrames bed = bed_frames(MadeRun(frames), false, plenty);
+    const BedFrames bed = bed_frames(MadeRun(frames), plenty);
     EXPECT_EQ(bed.grains, kMostGrainsOnPage);
     EXPECT_EQ(bed.all_grains, static_cast<std::size_t>(extra));
     const auto read = read_back(bed);

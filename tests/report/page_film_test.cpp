@@ -72,6 +72,65 @@ TEST_F(PageFilmTest, AnotherFormatIsCopied) {
     EXPECT_EQ(frames, 6);
 }
 
+class PageCopyTest : public PageFilmTest {
+  protected:
+    void copy(FilmFormat format, int width, int height, bool finish = true) {
+        make_film(format, width, height);
+        scene.film.width = width;
+        scene.film.height = height;
+        PageCopy copy(scene, here.path(), 1);
+        for (int level = 40; level < 100; level += 10) copy.add(grey(width, height, level));
+        if (finish) copy.finish(here / (std::string("movie.") + codec_of(format).extension));
+    }
+    bool is_there(const char* file) const { return std::filesystem::exists(here / file); }
+};
+
+// The picture is that of the film, and the page takes it as it is.
+TEST_F(PageCopyTest, TheRunsCopyIsTaken) {
+    copy(FilmFormat::ffv1, 96, 800);
+    ASSERT_TRUE(is_there(kPageCopy));
+    EXPECT_FALSE(is_there("movie_720.mp4.part"));
+    FilmReader reader(here / kPageCopy);
+    EXPECT_EQ(reader.codec().height, 720);
+    EXPECT_EQ(reader.codec().width, 86);
+    int frames = 0;
+    while (const AVFrame* frame = reader.next()) {
+        const double luma = 16 + 219 * (40 + 10 * frames++) / 255.0;
+        EXPECT_NEAR(frame->data[0][frame->linesize[0] * 300 + 40], luma, 2);
+        EXPECT_NEAR(frame->data[1][frame->linesize[1] * 100 + 20], 128, 1);
+    }
+    EXPECT_EQ(frames, 6);
+    const PageFilm film = page_film(scene, here.path());
+    EXPECT_EQ(std::string(film.bytes.begin(), film.bytes.end()), test::text_of(here / kPageCopy));
+    EXPECT_THAT(film.note, HasSubstr("a copy of at most 720 lines"));
+}
+
+TEST_F(PageCopyTest, WhereTheFilmWillDoThereIsNone) {
+    copy(FilmFormat::mp4, 64, 48);
+    EXPECT_FALSE(is_there(kPageCopy));
+    EXPECT_FALSE(is_there("movie_720.mp4.part"));
+}
+
+TEST_F(PageCopyTest, NothingIsLeftOfOneThatWasNotFinished) {
+    const bool finish = false;
+    copy(FilmFormat::ffv1, 64, 48, finish);
+    EXPECT_FALSE(is_there(kPageCopy));
+    EXPECT_FALSE(is_there("movie_720.mp4.part"));
+}
+
+TEST_F(PageCopyTest, FilmsThatMayBeTooLargeNeedOne) {
+    Film film;
+    film.format = FilmFormat::mp4;
+    film.width = 1920;
+    film.height = 1080;
+    EXPECT_TRUE(may_need_copy(film, 270));  // the default film has 11.6 MB
+    EXPECT_FALSE(may_need_copy(film, 20));
+    film.format = FilmFormat::ffv1;
+    EXPECT_TRUE(may_need_copy(film, 1));
+    film.format = FilmFormat::png;
+    EXPECT_FALSE(may_need_copy(film, 270));
+}
+
 TEST_F(PageFilmTest, WithoutAFilmThereIsNone) {
     scene.film.format = FilmFormat::mp4;
     EXPECT_TRUE(page_film(scene, here.path()).bytes.empty());

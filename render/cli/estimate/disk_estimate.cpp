@@ -9,7 +9,8 @@
 namespace grainreel {
 namespace {
 
-constexpr double trajectory_bytes = 64;  // a grain and frame: id, type, radius, x in double, v, spin
+// A grain and frame: id, type, radius, x in double, v, spin, contact number.
+constexpr double trajectory_bytes = 68;
 constexpr double orientation_bytes = 16;
 constexpr double measures_bytes = 400;     // a row
 constexpr double checkpoint_bytes = 1300;  // a grain: lists and histories

@@ -1,7 +1,9 @@
 #include "render/cli/report/page_of_run.hpp"
 
 #include "engine/base/error.hpp"
+#include "engine/output/trajectory.hpp"
 #include "render/cli/check/print_plan.hpp"
+#include "render/run/frames/recorded_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -16,6 +18,16 @@ Assignments with_contacts() {
 bool is_there(const fs::path& path) {
     std::error_code ignored;
     return fs::exists(path, ignored);
+}
+
+// What is damaged counts as kept: whoever reads it says what is wrong.
+bool kept_moments(const fs::path& folder) {
+    if (!is_there(folder / "trajectory.nc")) return false;
+    try {
+        return TrajectoryReader(folder / "trajectory.nc").frames() > 0;
+    } catch (const UserError&) {
+        return true;
+    }
 }
 
 }  // namespace
@@ -35,18 +47,22 @@ std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const 
     std::vector<PageRun> all;
     for (const fs::path& run : runs) {
         PageRun& one = all.emplace_back();
-        one.contacts = is_there(run / "contacts.nc");
-        one.run = std::make_shared<RecordedRun>(run, one.contacts ? with_contacts() : Assignments());
-        if (!checked) one.run->leave_out_damaged();
-        one.planned = planned_scene(one.run->scene());
+        one.folder = folder_of_run(run);
+        if (kept_moments(one.folder)) {
+            one.contacts = is_there(one.folder / "contacts.nc");
+            one.run =
+                std::make_shared<RecordedRun>(one.folder, one.contacts ? with_contacts() : Assignments());
+            if (!checked) one.run->leave_out_damaged();
+        }
+        one.scene = one.run ? one.run->scene() : scene_of_run(one.folder, {});
+        one.planned = planned_scene(one.scene);
     }
-    return write_report(all, out.empty() ? all.front().run->folder() / kPageName : out, progress);
+    return write_report(all, out.empty() ? all.front().folder / kPageName : out, progress);
 }
 
 PageMaker page_of_ended_run() {
     return
         [](const fs::path& folder, const std::function<bool(double)>& go_on) -> std::optional<std::string> {
-            if (!is_there(folder / "trajectory.nc")) return std::nullopt;
             const bool checked = true;
             if (!make_page_of({folder}, folder / kPageName, checked, go_on)) return std::nullopt;
             return kPageName;

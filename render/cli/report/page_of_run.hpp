@@ -22,7 +22,7 @@ std::optional<ReportMade> make_page_of(const std::vector<std::filesystem::path>&
 // None where this version of the program would not run the scene.
 std::optional<PlannedScene> planned_scene(const Scene& scene);
 
-// Makes report.html in the folder of a run that has just ended; a run without a trajectory has none.
+// Makes report.html in the folder of a run that has just ended, however it ended.
 PageMaker page_of_ended_run();
 
 }  // namespace grainreel

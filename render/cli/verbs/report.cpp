@@ -23,7 +23,7 @@ class Report final : public Verb {
   public:
     Report()
         : Verb(
-              "report", "Make a page of a finished run: film, charts and the bed in three dimensions",
+              "report", "Make a page of a run: film, charts and the bed in three dimensions",
               "The page is one file. It needs no network and no server; any browser of today opens it. An "
               "earlier "
               "page is replaced, and nothing else in RUN is changed. The file that was made goes to stdout.\n"
@@ -32,10 +32,9 @@ class Report final : public Verb {
 
     void add_options(CLI::App& parser) override {
         parser
-            .add_option(
-                "RUN", runs_,
-                "Folder of a run, with its scene.toml and trajectory.nc; of several, which then stand\nside "
-                "by side on one time axis")
+            .add_option("RUN", runs_,
+                        "Folder of a run, however it ended; of several, which then stand\nside by side on "
+                        "one time axis")
             ->required()
             ->type_name("DIR ...");
         parser

@@ -62,14 +62,37 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
     if (!options.to_stdout) {
         film_file_ = film_file_name(scene.film.format);
         left_file_ = left_film_name(scene.film.format);
+        open_copy(scene, options);
     }
     if (scene.film.sheet[0] > 0) sheet_ = std::make_unique<ContactSheet>(scene.film);
+}
+
+// What an earlier film left goes in any case.
+void PictureFiles::open_copy(const Scene& scene, const FilmOptions& options) {
+    std::error_code ignored;
+    std::filesystem::remove(folder_ / kPageCopy, ignored);
+    if (!options.page_copy || !may_need_copy(scene.film, options.pictures)) return;
+    try {
+        copy_ = std::make_unique<PageCopy>(scene, folder_, options.encoder_threads);
+    } catch (const RunError&) {
+        // The page makes one, or says that it could not.
+    }
+}
+
+void PictureFiles::with_copy(const std::function<void(PageCopy&)>& act) {
+    if (!copy_) return;
+    try {
+        act(*copy_);
+    } catch (const RunError&) {
+        copy_.reset();
+    }
 }
 
 Picture PictureFiles::add(DrawnFrame drawn) {
     if (count_ == 0) first_time_ = drawn.frame->time;
     if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", frames()), drawn);
     if (film_) film_->add(drawn.picture);
+    with_copy([&](PageCopy& copy) { copy.add(drawn.picture); });
     ++count_;
     flashes_.add(drawn.picture);
     if (sheet_) sheet_->add(drawn.picture, drawn.frame->time);
@@ -113,6 +136,7 @@ void PictureFiles::finish() {
         write_png(folder_ / "sheet.png", sheet_->draw(last_.picture),
                   {{"Title", title_}, {"Scene", name_}, {"Software", "grainreel"}});
     if (film_) film_->finish();
+    with_copy([&](PageCopy& copy) { copy.finish(folder_ / film_file_); });
     complete_ = true;
 }
 
@@ -120,6 +144,7 @@ void PictureFiles::leave() {
     film_file_ = left_file_;
     left_encoder_ = encoder();
     film_.reset();
+    copy_.reset();
 }
 
 void PictureFiles::write(const std::filesystem::path& path, const DrawnFrame& drawn) const {

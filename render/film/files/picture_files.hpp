@@ -14,6 +14,7 @@
 #include "render/draw/picture/picture.hpp"
 #include "render/film/files/film_writer.hpp"
 #include "render/film/files/flash_watch.hpp"
+#include "render/film/files/page_copy.hpp"
 #include "render/film/files/png.hpp"
 #include "render/film/production/film_maker.hpp"
 
@@ -54,6 +55,9 @@ class PictureFiles {
     std::vector<std::string> notes() const;
 
   private:
+    void open_copy(const Scene& scene, const FilmOptions& options);
+    // Does something to the copy. One that fails goes, and the film goes on.
+    void with_copy(const std::function<void(PageCopy&)>& act);
     void consider_poster(const DrawnFrame& drawn);
     void write(const std::filesystem::path& path, const DrawnFrame& drawn) const;
     void write_poster(const DrawnFrame& drawn);
@@ -70,6 +74,7 @@ class PictureFiles {
     std::string flash_remedy_;
     DrawnFrame last_;  // kept because it is the poster when the next one comes too late
     std::unique_ptr<FilmWriter> film_;
+    std::unique_ptr<PageCopy> copy_;
     std::string film_file_, left_file_, left_encoder_;
     std::unique_ptr<ContactSheet> sheet_;
 };

@@ -21,6 +21,7 @@ struct FilmOptions {
     std::filesystem::path folder;  // movie.mp4 (or .webm, ...), poster.png, sheet.png and frames/ go here
     bool film = true;              // the film, in its scene's format, and the pictures that stand for it
     bool frames = false;           // frames/000000.png ...; always with the format png
+    bool page_copy = false;        // a small copy of the film too, where a page may need one
     bool to_stdout = false;        // the film goes to stdout in place of the folder: y4m only
     int raster_threads = 1;
     int encoder_threads = 1;

@@ -1,52 +1,92 @@
 #include "render/report/bed/all_moments.hpp"
 
+#include <algorithm>
+#include <limits>
+
+#include "engine/base/error.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "render/run/frames/same_run.hpp"
+#include "render/run/moments/key_moments.hpp"
 #include "render/run/run_files.hpp"
 
 namespace grainreel {
 
 namespace fs = std::filesystem;
 
-bool AllMoments::has_more(const fs::path& folder) {
+namespace {
+
+bool is_there(const fs::path& file) {
     std::error_code ignored;
-    return fs::exists(folder / kFilmMoments, ignored);
+    return fs::exists(file, ignored);
 }
 
-AllMoments::AllMoments(const RecordedRun& run) : run_(run), film_(run.folder() / kFilmMoments) {
-    const std::string name = (run.folder() / kFilmMoments).string();
-    const std::vector<Frame>& kept = run.moments();
-    if (film_.frames() > 0) check_grains(run.scene(), film_.info(), film_.read(0), name);
-    std::size_t next = 0;  // of the trajectory
+}  // namespace
+
+AllMoments::AllMoments(const RecordedRun& run, bool with_contacts)
+    : run_(run), with_contacts_(with_contacts), moments_(run.moments()) {
+    for (std::size_t k = 0; k < moments_.size(); ++k) places_.push_back({k, {}, {}});
+    const fs::path film = run.folder() / kFilmMoments, keys = run.folder() / kKeyMoments;
+    try {
+        if (is_there(film)) merge(film_.emplace(film), &Place::film, film.string());
+    } catch (const UserError&) {
+        film_.reset();
+    }
+    try {
+        if (!is_there(keys)) return;
+        key_contacts_.emplace(run.folder() / kKeyContacts);
+        merge(keys_.emplace(keys), &Place::key, keys.string());
+    } catch (const UserError&) {
+        keys_.reset();
+    }
+}
+
+// All of the file or nothing.
+void AllMoments::merge(const TrajectoryReader& file, std::optional<std::size_t> Place::*of,
+                       const std::string& name) {
+    std::vector<Frame> moments;
+    std::vector<Place> places;
+    std::size_t next = 0;  // of those that are there
     const auto take_until = [&](std::int64_t step) {
-        for (; next < kept.size() && kept[next].step <= step; ++next) {
-            moments_.push_back(kept[next]);
-            places_.push_back({false, next});
+        for (; next < moments_.size() && moments_[next].step <= step; ++next) {
+            moments.push_back(moments_[next]);
+            places.push_back(places_[next]);
         }
     };
-    for (std::size_t index = 0; index < film_.frames(); ++index) {
-        Frame moment = film_.read_moment(index);
+    if (file.frames() > 0) check_grains(run_.scene(), file.info(), file.read(0), name);
+    for (std::size_t index = 0; index < file.frames(); ++index) {
+        Frame moment = file.read_moment(index);
         take_until(moment.step);
-        if (!moments_.empty() && moments_.back().step >= moment.step) continue;  // it is there already
-        add_planes(run.scene().walls, moment.time, moment.bodies);
-        check_drive(run.scene(), run.clock(), moment, name);
-        moments_.push_back(std::move(moment));
-        places_.push_back({true, index});
+        if (moments.empty() || moments.back().step < moment.step) {
+            add_planes(run_.scene().walls, moment.time, moment.bodies);
+            check_drive(run_.scene(), run_.clock(), moment, name);
+            moments.push_back(std::move(moment));
+            places.emplace_back();
+        }
+        if (moments.back().step == moment.step) places.back().*of = index;
     }
-    take_until(kept.back().step);
+    take_until(std::numeric_limits<std::int64_t>::max());
+    moments_ = std::move(moments);
+    places_ = std::move(places);
 }
 
 Frame AllMoments::grains(std::size_t index) const {
     const Place& place = places_.at(index);
-    if (!place.of_film) return run_.grains(place.index);
-    Frame frame = film_.read(place.index);
+    if (place.trajectory) return run_.grains(*place.trajectory);
+    Frame frame = place.film ? film_->read(*place.film) : keys_->read(*place.key);
     add_planes(run_.scene().walls, frame.time, frame.bodies);
     return frame;
 }
 
-Frame AllMoments::frame(std::size_t index) const {
+bool AllMoments::has_touches(std::size_t index) const {
     const Place& place = places_.at(index);
-    return place.of_film ? grains(index) : run_.frame(place.index);
+    return place.key || (place.trajectory && with_contacts_);
+}
+
+std::optional<std::vector<Touch>> AllMoments::touches(std::size_t index) const {
+    const Place& place = places_.at(index);
+    if (place.key) return key_contacts_->touches(*place.key);
+    if (place.trajectory && with_contacts_) return run_.frame(*place.trajectory).touches;
+    return std::nullopt;
 }
 
 }  // namespace grainreel

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <map>
 
 #include "render/report/embed/zlib_pack.hpp"
@@ -11,8 +12,7 @@
 namespace grainreel {
 namespace {
 
-constexpr double steps = 65535;     // of 16 bits
-constexpr double speed_span = 1e5;  // highest over lowest speed that is told
+constexpr double steps = 65535;  // of 16 bits
 constexpr std::uint8_t most_contacts = 254, unknown_contacts = 255;
 constexpr double usual_packed = 7;  // bytes a grain and moment: what shaken beds take is 6.2 to 6.6
 
@@ -33,6 +33,14 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t wanted) {
     return chosen;
 }
 
+// Evenly spread, the first and the last among them.
+std::vector<std::size_t> those_of(const std::vector<std::size_t>& list, std::size_t wanted) {
+    std::vector<std::size_t> those;
+    if (wanted == 0) return those;
+    for (const std::size_t at : spread(list.size(), wanted)) those.push_back(list[at]);
+    return those;
+}
+
 // Numbers in the machine's order; x86 and ARM are little-endian, as the page wants it.
 template <class Number>
 void append(std::vector<std::uint8_t>& bytes, Number number) {
@@ -42,37 +50,49 @@ void append(std::vector<std::uint8_t>& bytes, Number number) {
     bytes.insert(bytes.end(), raw.begin(), raw.end());
 }
 
+// Both rise, and so does what comes out.
+std::vector<std::size_t> merged(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
+    std::vector<std::size_t> all;
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+    return all;
+}
+
 class BedWriter {
   public:
-    BedWriter(const FrameArchive& run, bool contacts, const PageProgress& progress,
-              const ContactsKnown& known)
-        : run_(run), contacts_(contacts), progress_(progress), known_(known) {}
+    BedWriter(const FrameArchive& run, const PageProgress& progress, const BedContacts& contacts)
+        : run_(run), progress_(progress), contacts_(contacts) {}
 
-    BedFrames write(const std::vector<std::size_t>& chosen) {
+    // keys: of these, those whose pairs are kept.
+    BedFrames write(const std::vector<std::size_t>& chosen, const std::vector<std::size_t>& keys) {
         survey(chosen);
         bytes_.clear();
         for (const Kept& grain : kept_) append(bytes_, grain.id);
         for (const Kept& grain : kept_) append(bytes_, static_cast<std::uint16_t>(grain.species));
         for (const Kept& grain : kept_) append(bytes_, static_cast<float>(grain.radius));
         before_.assign(3 * kept_.size(), 0);
-        double done = 0;
-        for (const std::size_t index : chosen) {
-            go_on_or_stop(progress_, ++done / static_cast<double>(chosen.size()));
-            add(read(index), !contacts_ || !known_ || known_(index));
+        PairForcesWriter forces;
+        for (std::size_t k = 0; k < chosen.size(); ++k) {
+            go_on_or_stop(progress_, static_cast<double>(k + 1) / static_cast<double>(chosen.size()));
+            const bool is_key = std::binary_search(keys.begin(), keys.end(), chosen[k]);
+            Frame frame = run_.grains(chosen[k]);
+            const auto touches = touches_of(chosen[k], is_key || frame.contact_number.empty());
+            add(frame, touches);
+            if (is_key && touches) forces.add(k, *touches, slot_);
         }
         bed_.packed = zlib_packed(bytes_);
+        bed_.forces = forces.written();
         return std::move(bed_);
     }
 
   private:
-    // With touches where the run has them.
-    Frame read(std::size_t index) const { return contacts_ ? run_.frame(index) : run_.grains(index); }
+    std::optional<std::vector<Touch>> touches_of(std::size_t index, bool wanted) const {
+        return wanted && contacts_.touches ? contacts_.touches(index) : std::nullopt;
+    }
 
     // Who is there, in which box, and how fast.
     void survey(const std::vector<std::size_t>& chosen) {
         bed_ = BedFrames();
         boxed_ = false;
-        bed_.contacts = contacts_;
         bed_.all_moments = run_.moments().size();
         std::map<std::int32_t, Kept> seen;
         for (const std::size_t index : chosen) {
@@ -85,7 +105,7 @@ class BedWriter {
                 take_into_box(frame.position[i]);
             }
         }
-        bed_.lowest_speed = bed_.highest_speed / speed_span;
+        bed_.lowest_speed = bed_.highest_speed / kByteSpan;
         bed_.all_grains = seen.size();
         choose(seen);
     }
@@ -110,22 +130,27 @@ class BedWriter {
         bed_.grains = kept_.size();
     }
 
-    void add(const Frame& frame, bool known) {
+    void add(const Frame& frame, const std::optional<std::vector<Touch>>& touches) {
         const std::size_t n = kept_.size(), begin = bytes_.size();
         bytes_.resize(begin + 9 * n, 0);
         std::uint8_t* const at = bytes_.data() + begin;
+        const bool told = !frame.contact_number.empty();
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const auto found = slot_.find(frame.id[i]);
             if (found == slot_.end()) continue;
             const std::size_t grain = found->second;
             for (int axis = 0; axis < 3; ++axis) add_place(at, axis, grain, frame.position[i][axis]);
             at[6 * n + grain] = speed_byte(frame.velocity[i].norm(), bed_.lowest_speed, bed_.highest_speed);
+            if (told) at[7 * n + grain] = contact_byte(frame.contact_number[i]);
             at[8 * n + grain] = 1;
         }
-        if (known)
-            count_contacts(frame.touches, at + 7 * n);
-        else
-            std::fill_n(at + 7 * n, n, unknown_contacts);
+        if (!told && touches) count_contacts(*touches, at + 7 * n);
+        if (!told && !touches) std::fill_n(at + 7 * n, n, unknown_contacts);
+        if (told || touches) ++bed_.counted;
+    }
+
+    static std::uint8_t contact_byte(std::int32_t number) {
+        return static_cast<std::uint8_t>(std::clamp<std::int32_t>(number, 0, most_contacts));
     }
 
     void add_place(std::uint8_t* at, int axis, std::size_t grain, double place) {
@@ -155,9 +180,8 @@ class BedWriter {
     }
 
     const FrameArchive& run_;
-    const bool contacts_;
     const PageProgress& progress_;
-    const ContactsKnown& known_;
+    const BedContacts& contacts_;
     bool boxed_ = false;
     BedFrames bed_;
     std::vector<Kept> kept_;  // by rising id
@@ -178,26 +202,32 @@ std::uint8_t speed_byte(double speed, double lowest, double highest) {
     return static_cast<std::uint8_t>(1 + std::lround(253 * std::clamp(share, 0.0, 1.0)));
 }
 
-BedFrames bed_frames_of(const FrameArchive& run, bool contacts, const std::vector<std::size_t>& chosen,
+BedFrames bed_frames_of(const FrameArchive& run, const std::vector<std::size_t>& chosen,
                         const PageProgress& progress) {
-    const ContactsKnown all;
-    return BedWriter(run, contacts, progress, all).write(chosen);
+    const BedContacts none;
+    return BedWriter(run, progress, none).write(chosen, {});
 }
 
-BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes,
-                     const PageProgress& progress, const ContactsKnown& known) {
+BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes, const PageProgress& progress,
+                     const BedContacts& contacts) {
     const std::size_t all = run.moments().size();
     const double a_moment =
         usual_packed * static_cast<double>(std::max<std::size_t>(1, most_grains_at_once(run)));
     auto wanted = static_cast<std::size_t>(
         std::clamp(static_cast<double>(most_bytes) / a_moment, 1.0, static_cast<double>(all)));
-    BedWriter writer(run, contacts, progress, known);
+    std::vector<std::size_t> keys = contacts.keys;
+    BedWriter writer(run, progress, contacts);
     while (true) {
-        BedFrames bed = writer.write(spread(all, wanted));
-        if (bed.packed.size() <= most_bytes || wanted == 1) return bed;
-        const double fits = static_cast<double>(most_bytes) / static_cast<double>(bed.packed.size());
-        wanted =
-            std::max<std::size_t>(1, static_cast<std::size_t>(0.97 * fits * static_cast<double>(wanted)));
+        BedFrames bed = writer.write(merged(spread(all, wanted), keys), keys);
+        if (bed.bytes() <= most_bytes || (wanted == 1 && keys.empty())) return bed;
+        const double fits = 0.97 * static_cast<double>(most_bytes) / static_cast<double>(bed.bytes());
+        const auto less = [&](std::size_t count) {
+            return static_cast<std::size_t>(fits * static_cast<double>(count));
+        };
+        wanted = std::max<std::size_t>(1, less(wanted));
+        // Key moments give way where they take more than half.
+        if (2 * keys.size() * static_cast<std::size_t>(a_moment) > most_bytes)
+            keys = those_of(keys, less(keys.size()));
     }
 }
 

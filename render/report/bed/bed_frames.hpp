@@ -10,9 +10,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "render/report/bed/pair_forces.hpp"
 #include "render/report/page_progress.hpp"
 #include "render/run/frames/frame_source.hpp"
 
@@ -25,25 +27,33 @@ struct BedFrames {
     std::size_t all_grains = 0, all_moments = 0;  // of the run
     Vec3 low{0, 0, 0}, high{0, 0, 0};             // m, the box that 16 bits span: of all centres
     double lowest_speed = 0, highest_speed = 0;   // m/s, what the speed's bytes 1 and 254 stand for
-    bool contacts = false;                        // whether contact numbers are known
+    std::size_t counted = 0;                      // moments whose contact numbers are known
+    PairForces forces;
 
     // m, along each axis: half a step of 16 bits, and what rounding of the box's numbers adds.
     Vec3 error() const { return (high - low) / (2 * 65535.0); }
+    std::size_t bytes() const { return packed.size() + forces.packed.size(); }
 };
 
-// Whether a moment's contacts are known, by its index; none: they are in each.
-using ContactsKnown = std::function<bool(std::size_t)>;
+// What a run knows of contacts beside its frames' contact numbers.
+struct BedContacts {
+    // Of a moment, by its index; nothing where they are not known.
+    std::function<std::optional<std::vector<Touch>>(std::size_t)> touches;
+    std::vector<std::size_t> keys;  // moments whose pairs the page is to have; by rising index
+};
 
 constexpr std::size_t kMostGrainsOnPage = 100000;
 
 // As many evenly spread moments of the run as fit into so many packed bytes, the first and the last among
-// them; at least one. Of more grains than kMostGrainsOnPage those that lie nearest to the plane x = 0 when
-// they are first seen. contacts: whether the run's frames have touches. Throws DamagedFrame.
-BedFrames bed_frames(const FrameArchive& run, bool contacts, std::size_t most_bytes,
-                     const PageProgress& progress = kNoPageProgress, const ContactsKnown& known = {});
+// them, and besides those of key moments; at least one. Of more grains than kMostGrainsOnPage those that lie
+// nearest to the plane x = 0 when they are first seen. Throws DamagedFrame.
+BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes,
+                     const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
 // Of these moments, by rising index into the run's.
-BedFrames bed_frames_of(const FrameArchive& run, bool contacts, const std::vector<std::size_t>& chosen,
+BedFrames bed_frames_of(const FrameArchive& run, const std::vector<std::size_t>& chosen,
                         const PageProgress& progress = kNoPageProgress);
+
+constexpr double kByteSpan = 1e5;  // highest over lowest speed, or force, that a byte tells
 
 // Of the speed's byte: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm.
 std::uint8_t speed_byte(double speed, double lowest, double highest);

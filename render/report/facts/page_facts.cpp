@@ -69,6 +69,16 @@ Json species_json(const Scene& scene) {
     return list;
 }
 
+Json forces_json(const PairForces& forces) {
+    if (forces.moments.empty()) return {};
+    Json moments = Json::array(), pairs = Json::array();
+    for (const PairForces::Moment& one : forces.moments) {
+        moments.push_back(one.moment);
+        pairs.push_back(one.pairs);
+    }
+    return {{"moments", moments}, {"pairs", pairs}, {"lowest", forces.lowest}, {"highest", forces.highest}};
+}
+
 Json bed_json(const Scene& scene, const BedFrames& bed) {
     const std::vector<Slab> slabs = slabs_of(scene);
     const Extent box = box_of(slabs, scene);
@@ -86,7 +96,8 @@ Json bed_json(const Scene& scene, const BedFrames& bed) {
             {"low", of_vector(bed.low)},
             {"high", of_vector(bed.high)},
             {"speed", {{"lowest", bed.lowest_speed}, {"highest", bed.highest_speed}}},
-            {"contacts", bed.contacts},
+            {"contacts", bed.counted > 0},
+            {"forces", forces_json(bed.forces)},
             {"period", scene.container.periodic_depth ? scene.container.depth : 0.0},
             {"bodies", bodies},
             {"slabs", slabs_json(slabs)},
@@ -190,7 +201,7 @@ std::string facts_json(const PageFacts& facts) {
     Json json = {{"name", facts.name},
                  {"begin", facts.span.from},
                  {"end", facts.span.to},
-                 {"bed", bed_json(facts.scene, facts.bed)}};
+                 {"bed", facts.bed.moments.empty() ? Json() : bed_json(facts.scene, facts.bed)}};
     json["frequency"] = frequency_json(facts.scene.drive);
     json["film"] = facts.film.bytes.empty() ? Json()
                                             : Json{{"type", facts.film.type},

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/output/folder_lock.hpp"
 #include "render/report/embed/read_bytes.hpp"
 
 namespace grainreel {
@@ -45,6 +46,8 @@ RunFacts run_facts(const std::filesystem::path& folder) {
     const auto text = [&](std::initializer_list<const char*> path) { return text_of(member(record, path)); };
     RunFacts facts;
     facts.status = text({"status"}).empty() ? "unknown" : text({"status"});
+    if (facts.status == "running" && !FolderLock::holder(folder)) facts.status = "broken off";
+    facts.error = text({"error"});
     facts.version = text({"program", "version"});
     facts.commit = text({"program", "commit"});
     facts.finished = text({"finished"}).empty() ? text({"started"}) : text({"finished"});

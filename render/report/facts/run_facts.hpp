@@ -11,7 +11,9 @@
 namespace grainreel {
 
 struct RunFacts {
-    std::string status;                                      // "complete"; "unknown" without the file
+    // "complete"; "broken off" where nobody works on a run that was not finished, "unknown" without run.json.
+    std::string status;
+    std::string error;                                       // of a run that failed
     std::vector<std::pair<std::string, std::string>> lines;  // name and text of its provenance
     std::string version, commit;                             // of the program that ran it
     std::string finished;                                    // UTC, ISO 8601; or when it started

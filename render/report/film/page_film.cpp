@@ -19,14 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int lines_of_copy = 720;
 constexpr int most_threads_of_copy = 8;
-constexpr int quality_of_copy = least_legible;  // its digits still read
 
-// What every browser of today plays; "" for the other formats.
+// "" of what not every browser of today plays.
 std::string type_of(FilmFormat format) {
-    if (format == FilmFormat::mp4) return "video/mp4";
-    return format == FilmFormat::webm ? "video/webm" : "";
+    if (!plays_in_browsers(format)) return "";
+    return format == FilmFormat::mp4 ? "video/mp4" : "video/webm";
 }
 
 // A folder that is gone when the page is made.
@@ -50,11 +48,10 @@ class ScratchFolder {
     fs::path path_;
 };
 
-// Even numbers, as H.264 wants them.
-std::string copy_filter(int height) {
+std::string copy_filter(const EncoderSettings& copy) {
     return fmt::format(
-        "scale=-2:{}:in_color_matrix=bt709:out_color_matrix=bt709:out_range=limited,format=yuv420p",
-        std::min(lines_of_copy, height) / 2 * 2);
+        "scale={}:{}:in_color_matrix=bt709:out_color_matrix=bt709:out_range=limited,format=yuv420p",
+        copy.width, copy.height);
 }
 
 std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film,
@@ -62,17 +59,12 @@ std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film,
     const ScratchFolder scratch;
     const int threads = std::clamp(usable_processors(), 1, most_threads_of_copy);
     FilmReader reader(film, threads);
-    FilterGraph graph(reader.codec(), copy_filter(reader.codec().height));
-    EncoderSettings settings;
-    settings.path = scratch.file("copy.mp4");
-    settings.rate = scene.film.rate;
-    settings.quality = quality_of_copy;
-    settings.threads = threads;
+    const EncoderSettings settings = settings_of_copy(scene, scratch.file("copy.mp4"), reader.codec().width,
+                                                      reader.codec().height, threads);
+    FilterGraph graph(reader.codec(), copy_filter(settings));
     std::unique_ptr<Encoder> copy;
     const auto take_pictures = [&] {
         while (const AvFramePtr picture = graph.pull()) {
-            settings.width = picture->width;
-            settings.height = picture->height;
             if (!copy) copy = std::make_unique<Encoder>(settings);
             copy->add(*picture);
         }
@@ -114,6 +106,13 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
     const std::string why = film.type.empty() ? fmt::format("browsers do not play {}", codec.words)
                                               : fmt::format("the film has {}", size_text(size));
     film.type = "video/mp4";
+    film.note = fmt::format(
+        "This is a copy of at most 720 lines, since {}; the film itself lies beside this page.", why);
+    const std::uintmax_t kept = fs::file_size(folder / kPageCopy, error);
+    if (!error && kept > 0 && kept <= most_bytes) {
+        film.bytes = read_bytes(folder / kPageCopy);
+        return film;
+    }
     const auto planned = static_cast<double>(std::max<std::int64_t>(1, frames.value_or(1)));
     std::int64_t copied = 0;
     const auto picture_taken = [&] {
@@ -128,9 +127,6 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
             why, problem.what());
         return film;
     }
-    film.note =
-        fmt::format("This is a copy of at most {} lines, since {}; the film itself lies beside this page.",
-                    lines_of_copy, why);
     if (film.bytes.size() <= most_bytes) return film;
     film.bytes.clear();
     film.note = fmt::format(

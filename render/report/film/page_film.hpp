@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
+#include "render/film/files/page_copy.hpp"
 #include "render/report/page_progress.hpp"
 
 namespace grainreel {
-
-constexpr std::size_t kMostFilmOnPage = 6'000'000;  // bytes
 
 struct PageFilm {
     std::vector<std::uint8_t> bytes;  // empty where the page has none
@@ -22,8 +21,9 @@ struct PageFilm {
 };
 
 // The run's own film where browsers play it and it is small enough; else a copy in H.264, of 720 lines at
-// most; none where that is too large too, or cannot be made. frames: of the film, where they are known; for
-// the progress of a copy. Writes nothing into the run's folder.
+// most, which the run has made or which is made here; none where that is too large too, or cannot be made.
+// frames: of the film, where they are known; for the progress of a copy. Writes nothing into the run's
+// folder.
 PageFilm page_film(const Scene& scene, const std::filesystem::path& folder,
                    std::optional<std::int64_t> frames = {}, const PageProgress& progress = kNoPageProgress,
                    std::size_t most_bytes = kMostFilmOnPage);

@@ -1,11 +1,12 @@
 // The bed beside its controls: what colours mean, who is shown, a slice, and the grain that was chosen.
 class BedPanel {
-    /** n: what the ids of its elements end in, where the page has several beds. */
-    constructor(facts, bytes, runTime, n = "") {
+    /** n: what the ids of its elements end in, where the page has several beds. forceBytes: of key moments, or nothing. */
+    constructor(facts, bytes, runTime, n = "", forceBytes = null) {
         this.n = n;
         this.frames = new BedFrames(facts, bytes);
         this.facts = facts;
         this.runTime = runTime;
+        this.forces = facts.forces && forceBytes ? new PairForces(facts.forces, forceBytes, facts.grains) : null;
         this.others = []; // beds beside this one
         this.canvas = this.part("bed");
         const camera = new Camera(facts.view, facts.box);
@@ -13,6 +14,7 @@ class BedPanel {
         this.shown = facts.species.map((species) => (species.hidden ? 0 : species.ghost ? 128 : 255));
         this.fillColours();
         this.fillSpecies();
+        this.bindForces();
         this.bindSlice();
         this.bindChoice();
         new Handling(this);
@@ -48,7 +50,63 @@ class BedPanel {
         const which = this.runTime.isLive ? "The newest moment" : `Moment ${this.viewer.frame + 1} of ${last + 1}`;
         this.part("bed-says").textContent = `${which}, ${shown.toFixed(3)} s of the run.`;
         this.tellChosen();
+        this.showForces();
         this.viewer.change();
+    }
+
+    // ---- Forces: at key moments ----
+
+    bindForces() {
+        this.chains = this.part("chains");
+        if (!this.forces) return;
+        this.part("forces").hidden = this.part("forces-say").hidden = false;
+        this.chains.addEventListener("change", () => {
+            if (this.chains.checked && !this.forces.at.has(this.viewer.frame)) this.goToForces(this.nearestKey());
+            this.showForces();
+            this.viewer.change();
+        });
+        for (const [name, by] of [["back", -1], ["on", 1]])
+            this.part(`forces-${name}`).addEventListener("click", () => this.goToForces(this.forces.next(this.viewer.frame, by)));
+    }
+
+    nearestKey() {
+        const {times} = this.frames, moments = this.forces.moments;
+        return moments[nearestIndex(moments.map((moment) => times[moment]), times[this.viewer.frame])];
+    }
+
+    goToForces(moment) {
+        if (moment !== null) this.runTime.set(this.frames.times[moment], "forces");
+    }
+
+    // Bands are as wide as the forces are large, and the widest is a good half of a small grain's radius wide.
+    showForces() {
+        const {forces, viewer, frames} = this;
+        if (!forces) return;
+        const sums = forces.sums(viewer.frame), [low, high] = forces.range;
+        const byte = (sum) => (sum > low ? Math.min(255, Math.round((255 * Math.log(sum / low)) / Math.log(high / low))) : 0);
+        viewer.setPressed(sums && Uint8Array.from(sums, byte));
+        const mostChains = 4500; // so that a moment sends at most 0.2 MB to the graphics card
+        const [x, y, z, distance] = viewer.slice;
+        const shows = (grain) => {
+            const [px, py, pz] = frames.place(viewer.frame, grain);
+            return this.shown[frames.species[grain]] > 0 && px * x + py * y + pz * z <= distance;
+        };
+        const chains = this.chains.checked ? chainsOf(forces, frames, viewer.frame, shows, mostChains) : [];
+        const strong = chains.length ? chains[Math.floor(0.98 * (chains.length - 1))][2] : 1;
+        const widest = 0.6 * frames.radii.reduce((a, b) => Math.min(a, b));
+        viewer.chains = chains.map(([from, to, force]) => [from, to, widest * Math.min(1, force / strong)]);
+        this.sayForces(sums, strong);
+    }
+
+    sayForces(known, strong) {
+        const {forces, frames} = this;
+        const words = !known
+            ? `Forces between grains are known at ${forces.moments.length} moments of the page, the nearest at ` +
+              `${frames.times[this.nearestKey()].toFixed(3)} s. At this one they are not.`
+            : this.viewer.chains.length
+              ? `Bands join grains that push each other. The widest stand for ${numberText(strong)} N and more.`
+              : "The forces of this moment are known.";
+        this.part("forces-say").textContent = words;
     }
 
     /** The camera has moved: beds beside this one are looked at from the same side, and as near. */
@@ -90,6 +148,8 @@ class BedPanel {
         ];
         if (facts.contacts)
             this.colourings.push({name: "contact number", by: 4, range: [0, 8], unit: "", ramp: "sequential"});
+        if (this.forces)
+            this.colourings.push({name: "force (logarithmic)", by: 5, range: [0, 1], ends: this.forces.range, unit: "N", ramp: "sequential"});
     }
 
     /** Colours as another bed has them, each on the scale that both need. */
@@ -106,13 +166,17 @@ class BedPanel {
         for (const panel of panels) {
             const {lowest, highest} = panel.frames.speed;
             const share = (speed) => Math.log(speed / lowest) / Math.log(highest / lowest);
+            const forces = panel.colourings.find((one) => one.by === 5), shared = common.find((one) => one.by === 5);
+            if (forces && shared) panel.forces.range = forces.ends = [shared.low, shared.high];
             for (const one of panel.colourings) {
+                if (one.by === 5) continue;
                 const from = common.find((other) => other.by === one.by);
                 if (!from || !one.range) continue;
                 if (one.ends) one.ends = [from.low, from.high];
                 one.range = one.ends ? one.ends.map(share) : [from.low, from.high];
             }
             panel.colour(panel.coloured);
+            panel.showForces();
         }
     }
 
@@ -188,6 +252,7 @@ class BedPanel {
     updateSpecies() {
         const colours = this.facts.species.flatMap((species, index) => [...bytesOfColour(species.colour), this.shown[index]]);
         this.viewer.setSpecies(new Uint8Array(colours));
+        if (this.chains) this.showForces();
         this.viewer.change();
     }
 
@@ -207,6 +272,7 @@ class BedPanel {
                 slider.setAttribute("aria-valuetext", `${numberText(1000 * distance)} mm`);
             }
             this.viewer.slice = [...normal, distance];
+            this.showForces();
             this.viewer.change();
         };
         select.addEventListener("change", update);
@@ -264,10 +330,17 @@ class BedPanel {
         const contacts = this.facts.contacts ? frames.contactsAt(frame, grain) : null;
         if (contacts !== null) parts.push(`${contacts} contacts`);
         parts.push(`way so far at least ${numberText(1000 * lengthOf(viewer.path))} mm`);
-        const near = frames.nearNeighbours(frame, grain).map((other) => frames.ids[other]), mostNamed = 12;
-        const named = near.slice(0, mostNamed).join(", ") + (near.length > mostNamed ? " and others" : "");
-        words.textContent = `${name}: ${parts.join(", ")}. Near neighbours: ${named || "none"}.`;
+        words.textContent = `${name}: ${parts.join(", ")}. ${this.neighbours(frame, grain)}`;
         if (this.follow.checked) viewer.camera.target = place;
+    }
+
+    // Who pushes it, at a key moment; elsewhere who is near.
+    neighbours(frame, grain) {
+        const mostNamed = 12, pushes = this.forces?.of(frame, grain);
+        const listed = (list) => list.slice(0, mostNamed).join(", ") + (list.length > mostNamed ? " and others" : "") || "none";
+        if (!pushes) return `Near neighbours: ${listed(this.frames.nearNeighbours(frame, grain).map((other) => this.frames.ids[other]))}.`;
+        const named = pushes.map(({other, force}) => `${other === null ? "a wall" : this.frames.ids[other]} with ${force.toPrecision(2)} N`);
+        return `Pushed by: ${listed(named)}.`;
     }
 }
 

@@ -13,6 +13,7 @@ class FilmPanel {
         const blob = new Blob([bytes], {type: film.type});
         this.video.src = URL.createObjectURL(blob);
         this.tied = film.times.length > 0;
+        this.showStart();
         this.video.addEventListener("play", () => this.begun(bar));
         this.video.addEventListener("pause", () => this.ended(bar));
         this.video.addEventListener("seeked", () => this.seekWanted());
@@ -24,6 +25,12 @@ class FilmPanel {
         runTime.listen((time, source) => {
             if (source !== this) this.seek(time);
         });
+    }
+
+    // Film, bed and charts begin at one moment: the first frame takes the place of the poster, which may be another.
+    showStart() {
+        this.wanted = 0;
+        this.video.addEventListener("loadeddata", () => this.seekWanted(), {once: true});
     }
 
     // By the bar or its own buttons. Films that show the same moments go along; others are sought.

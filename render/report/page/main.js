@@ -32,7 +32,8 @@ async function openBed(run, n) {
     const packed = run.bed ? bytesOf("bed-bytes" + n) : null;
     if (!packed) return null;
     try {
-        return new BedPanel(run.bed, await inflated(packed), runTime, n);
+        const forces = bytesOf("forces-bytes" + n);
+        return new BedPanel(run.bed, await inflated(packed), runTime, n, forces && (await inflated(forces)));
     } catch (problem) {
         say("bed-says" + n, `The bed in three dimensions is not shown: ${problem.message}. Film and charts do without it.`);
         return null;

@@ -7,8 +7,9 @@ layout(location = 0) in uvec3 place;      // of 65535, over the box
 layout(location = 1) in uvec2 state;      // speed, contact number; 255 twice: not there
 layout(location = 2) in uvec3 earlier;    // place in the moment before
 layout(location = 3) in float startHeight;
-layout(location = 4) in float radius;     // m
+layout(location = 4) in float fullRadius; // m
 layout(location = 5) in uint species;
+layout(location = 6) in uint pressed;     // sum of forces on it: 0 to 255 over the range that is shown
 uniform vec3 low, size;                   // m, of the box
 uniform mat4 view, projection;
 uniform int colourBy;
@@ -16,6 +17,8 @@ uniform vec2 range;
 uniform sampler2D speciesColours, ramp;   // alpha of a species: 1 shown, 0.5 ghost, 0 hidden
 uniform vec4 slice;                       // normal and distance (m) from the origin; nothing lies before it
 uniform int chosen;
+uniform float shrink;                     // of radii: force chains are seen between small grains
+uniform int forcesKnown;                  // at this moment
 out vec3 onQuad;                          // m, in the camera's axes
 flat out vec3 centre;
 flat out float sphere;
@@ -26,11 +29,13 @@ vec3 placeOf(uvec3 number) { return low + vec3(number) * size / 65535.0; }
 
 vec3 colourFor(vec4 ofSpecies, vec3 now) {
     if (colourBy == 0) return ofSpecies.rgb;
-    if (colourBy == 4 && state.y == 255u) return vec3(0.6); // not known at this moment
+    bool unknown = colourBy == 4 && state.y == 255u || colourBy == 5 && forcesKnown == 0;
+    if (unknown) return vec3(0.6); // at this moment
     float value = colourBy == 1 ? float(max(int(state.x) - 1, 0)) / 253.0
                 : colourBy == 2 ? startHeight
                 : colourBy == 3 ? (now.z - placeOf(earlier).z)
-                : float(state.y);
+                : colourBy == 4 ? float(state.y)
+                : float(pressed) / 255.0;
     return texture(ramp, vec2(clamp((value - range.x) / (range.y - range.x), 0.002, 0.998), 0.5)).rgb;
 }
 
@@ -38,6 +43,7 @@ void main() {
     vec4 ofSpecies = texelFetch(speciesColours, ivec2(int(species), 0), 0);
     vec3 now = placeOf(place);
     centre = (view * vec4(now, 1.0)).xyz;
+    float radius = shrink * fullRadius;
     sphere = radius;
     grain = gl_InstanceID;
     isGhost = ofSpecies.a < 0.75 ? 1 : 0;
@@ -114,3 +120,41 @@ precision mediump float;
 flat in vec3 paint;
 out vec4 pixel;
 void main() { pixel = vec4(paint, 1.0); }`;
+
+
+// A segment is a flat band that faces the eye: edges of walls and ways of grains so many pixels wide, force chains so many
+// metres.
+const segmentVertexShader = `#version 300 es
+precision highp float;
+layout(location = 0) in vec3 from;
+layout(location = 1) in vec3 to;
+layout(location = 2) in float width;      // m; below 0: pixels
+layout(location = 3) in vec3 colour;
+uniform mat4 view, projection;
+uniform float height;                     // of the canvas, pixels
+flat out vec3 paint;
+flat out float roundness;                 // 1 for a chain, which looks like a rod
+out float across;                         // -1 to 1
+void main() {
+    vec3 a = (view * vec4(from, 1.0)).xyz, b = (view * vec4(to, 1.0)).xyz;
+    vec3 here = gl_VertexID < 2 ? a : b;
+    vec3 aside = cross(b - a, here);
+    aside = length(aside) > 0.0 ? normalize(aside) : vec3(1, 0, 0);
+    float pixel = 2.0 * max(-here.z, 1e-6) / (projection[1][1] * height); // m
+    float wide = width < 0.0 ? -width * pixel : max(width, pixel);
+    paint = colour;
+    roundness = width < 0.0 ? 0.0 : 1.0;
+    across = (gl_VertexID & 1) == 0 ? 1.0 : -1.0;
+    gl_Position = projection * vec4(here + 0.5 * across * wide * aside, 1.0);
+}`;
+
+const segmentFragmentShader = `#version 300 es
+precision mediump float;
+flat in vec3 paint;
+flat in float roundness;
+in float across;
+out vec4 pixel;
+void main() {
+    float light = mix(1.0, 0.55 + 0.55 * sqrt(max(0.0, 1.0 - across * across)), roundness);
+    pixel = vec4(min(paint * light, 1.0), 1.0);
+}`;

@@ -1,5 +1,9 @@
-// The bed in three dimensions, by WebGL 2: a call for all grains, one for the faces of walls, one for lines. All
-// moments lie on the graphics card; to show another one sends nothing but the walls' corners.
+// The bed in three dimensions, by WebGL 2: a call for all grains, one for the faces of walls, one for segments: edges,
+// the way of a grain, force chains. All moments lie on the graphics card; to show another one sends the walls' corners,
+// segments, and at a key moment a byte a grain.
+const numbersASegment = 10; // from, to, width, colour
+const shrunk = 0.35; // radii where force chains are shown
+
 class Viewer {
     /** Throws an Error in words where the browser cannot. */
     constructor(canvas, frames, walls, camera) {
@@ -17,8 +21,12 @@ class Viewer {
         this.path = []; // of the chosen grain, m
         this.grains = makeProgram(this.gl, grainVertexShader, grainFragmentShader);
         this.wall = makeProgram(this.gl, wallVertexShader, wallFragmentShader);
+        this.segment = makeProgram(this.gl, segmentVertexShader, segmentFragmentShader);
+        this.chains = []; // [from, to, width in m]
+        this.pressed = null; // a byte a grain, or nothing where forces are not known
         this.loadGrains();
         this.loadWalls();
+        this.loadSegments();
         this.speciesTexture = this.gl.createTexture();
         this.rampTexture = this.gl.createTexture();
     }
@@ -52,10 +60,23 @@ class Viewer {
         perGrain(3, this.startHeights(), floats);
         perGrain(4, frames.radii, floats);
         perGrain(5, frames.species, (location) => gl.vertexAttribIPointer(location, 1, gl.UNSIGNED_SHORT, 0, 0));
-        for (const location of [0, 1, 2]) {
+        this.pressedBuffer = makeBuffer();
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.pressedBuffer);
+        gl.bufferData(gl.ARRAY_BUFFER, frames.grains, gl.DYNAMIC_DRAW);
+        gl.vertexAttribIPointer(6, 1, gl.UNSIGNED_BYTE, 0, 0);
+        for (const location of [0, 1, 2, 6]) {
             gl.enableVertexAttribArray(location);
             gl.vertexAttribDivisor(location, 1);
         }
+    }
+
+    /** bytes: of each grain, or nothing where forces are not known at this moment. */
+    setPressed(bytes) {
+        const gl = this.gl;
+        this.pressed = bytes;
+        if (!bytes) return;
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.pressedBuffer);
+        gl.bufferSubData(gl.ARRAY_BUFFER, 0, bytes);
     }
 
     /** m, where each grain is in the first moment that has it. */
@@ -78,6 +99,22 @@ class Viewer {
         for (const location of [0, 1]) {
             gl.enableVertexAttribArray(location);
             gl.vertexAttribPointer(location, 3, gl.FLOAT, false, 24, 12 * location);
+        }
+    }
+
+    // Instances of a band of four corners; each has numbersASegment floats.
+    loadSegments() {
+        const gl = this.gl;
+        this.segmentArray = gl.createVertexArray();
+        gl.bindVertexArray(this.segmentArray);
+        this.segmentBuffer = gl.createBuffer();
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.segmentBuffer);
+        let at = 0;
+        for (const [location, size] of [[0, 3], [1, 3], [2, 1], [3, 3]]) {
+            gl.enableVertexAttribArray(location);
+            gl.vertexAttribPointer(location, size, gl.FLOAT, false, 4 * numbersASegment, 4 * at);
+            gl.vertexAttribDivisor(location, 1);
+            at += size;
         }
     }
 
@@ -160,6 +197,8 @@ class Viewer {
         gl.uniform1i(program.at("chosen"), this.chosen);
         gl.uniform3fv(program.at("mark"), (this.colours ?? wallColours()).mark);
         gl.uniform1i(program.at("picking"), picking ? 1 : 0);
+        gl.uniform1f(program.at("shrink"), this.chains.length ? shrunk : 1);
+        gl.uniform1i(program.at("forcesKnown"), this.pressed ? 1 : 0);
         [this.speciesTexture, this.rampTexture].forEach((texture, unit) => {
             gl.activeTexture(gl.TEXTURE0 + unit);
             gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -174,26 +213,39 @@ class Viewer {
 
     drawWalls() {
         const gl = this.gl, program = this.wall, frames = this.frames;
-        const {data, faces, edges} = this.walls.vertices(
+        const {faces, edges} = this.walls.vertices(
             frames.times[this.frame], frames.bodies[this.frame], this.camera.eye(), this.colours);
-        const lines = [];
-        for (let i = 1; i < this.path.length; ++i)
-            if (this.path[i - 1] && this.path[i])
-                for (const point of [this.path[i - 1], this.path[i]]) lines.push(...point, ...this.colours.mark);
-        const all = new Float32Array(data.length + lines.length);
-        all.set(data);
-        all.set(lines, data.length);
+        const data = new Float32Array(faces.flat());
         gl.useProgram(program.program);
         gl.bindVertexArray(this.wallArray);
         gl.bindBuffer(gl.ARRAY_BUFFER, this.wallBuffer);
-        gl.bufferData(gl.ARRAY_BUFFER, all, gl.DYNAMIC_DRAW);
+        gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
         gl.uniformMatrix4fv(program.at("view"), false, this.camera.view());
         gl.uniformMatrix4fv(program.at("projection"), false, this.camera.projection());
         gl.enable(gl.POLYGON_OFFSET_FILL);
         gl.polygonOffset(1, 1);
-        gl.drawArrays(gl.TRIANGLES, 0, faces);
+        gl.drawArrays(gl.TRIANGLES, 0, faces.length);
         gl.disable(gl.POLYGON_OFFSET_FILL);
-        gl.drawArrays(gl.LINES, faces, edges + lines.length / 6);
+        this.drawSegments(edges);
+    }
+
+    // edges: [from, to, colour].
+    drawSegments(edges) {
+        const gl = this.gl, program = this.segment, mark = this.colours.mark;
+        const pen = Math.min(2, devicePixelRatio || 1); // pixels of the canvas
+        const numbers = [];
+        for (const [from, to, colour] of edges) numbers.push(...from, ...to, -1.2 * pen, ...colour);
+        for (let i = 1; i < this.path.length; ++i)
+            if (this.path[i - 1] && this.path[i]) numbers.push(...this.path[i - 1], ...this.path[i], -1.5 * pen, ...mark);
+        for (const [from, to, width] of this.chains) numbers.push(...from, ...to, width, ...this.colours.chain);
+        gl.useProgram(program.program);
+        gl.bindVertexArray(this.segmentArray);
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.segmentBuffer);
+        gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.DYNAMIC_DRAW);
+        gl.uniformMatrix4fv(program.at("view"), false, this.camera.view());
+        gl.uniformMatrix4fv(program.at("projection"), false, this.camera.projection());
+        gl.uniform1f(program.at("height"), this.canvas.height);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, numbers.length / numbersASegment);
     }
 
     /** The index of the grain at a pixel of the canvas, counted from its upper left in CSS pixels; -1 for none. */
@@ -286,5 +338,6 @@ function wallColours() {
         edge: mix(solid, ink, 0.6),
         glass: mix(background, ink, 0.45),
         mark: partsOf(colourOf("--mark")),
+        chain: partsOf(colourOf("--chain")),
     };
 }

@@ -13,7 +13,7 @@ class Walls {
         this.slabs = slabs.map((slab) => ({...slab, normal: outwardNormal(slab, middle)}));
     }
 
-    /** Corners of triangles and then of lines, each [x, y, z, red, green, blue]; how many of each. */
+    /** faces: corners of triangles, each [x, y, z, red, green, blue]; edges: [from, to, colour]. */
     vertices(time, places, eye, colours) {
         const faces = [], edges = [];
         for (const slab of this.slabs) {
@@ -26,7 +26,7 @@ class Walls {
             if (solid) addSolid(faces, slab, inner, outer, colours);
             addEdges(edges, inner, outer, solid ? colours.edge : colours.glass, slab.seams);
         }
-        return {data: new Float32Array([...faces, ...edges].flat()), faces: faces.length, edges: edges.length};
+        return {faces, edges};
     }
 }
 
@@ -59,7 +59,7 @@ function fan(faces, points, colour) {
 // seams: numbers of the inner sides that are shared with the next piece of a round wall, and get no line. A disc has
 // rims, and no lines between its corners.
 function addEdges(edges, inner, outer, colour, seams = []) {
-    const line = (from, to) => edges.push([...from, ...colour], [...to, ...colour]);
+    const line = (from, to) => edges.push([from, to, colour]);
     for (let i = 0; i < inner.length; ++i) {
         if (seams.includes(i)) continue;
         const j = (i + 1) % inner.length;

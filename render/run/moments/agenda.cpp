@@ -37,15 +37,18 @@ std::optional<Stop> Agenda::next() {
     const bool begins = begins_ && at_ == first_;
     const std::int64_t measures = begins ? first_ : measures_.next(at_, clock_);
     const std::int64_t moment = moments_.empty() ? never : *moments_.begin();
+    keys_.erase(keys_.begin(), keys_.lower_bound(at_));
+    const std::int64_t key = keys_.empty() ? never : *keys_.begin();
 
     Stop stop;
-    stop.step = std::min({shot, trajectory, measures, moment, fields, last_});
+    stop.step = std::min({shot, trajectory, measures, moment, fields, key, last_});
     stop.moment = moment == stop.step;
     if (stop.moment) moments_.erase(moments_.begin());
     while (shot_ < shots_.size() && shots_[shot_].step == stop.step)
         stop.segments.push_back(shots_[shot_++].segment);
     stop.trajectory = trajectory == stop.step;
     stop.fields = fields == stop.step;
+    stop.key = key == stop.step;
     stop.measures = measures == stop.step || stop.step == last_;
     at_ = stop.step + 1;
     return stop;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "engine/plan/field_times.hpp"
@@ -20,6 +21,7 @@ struct Stop {
     bool measures = false;
     bool moment = false;  // a later picture wants to know how the grains are now
     bool fields = false;  // a record of fields ends
+    bool key = false;     // a key moment (key_moments.hpp)
 };
 
 class Agenda {
@@ -34,6 +36,9 @@ class Agenda {
     // The run has begun before `first`: measures come there only where they are due.
     void goes_on() { begins_ = false; }
 
+    // Stops at these steps too.
+    void want_keys(std::set<std::int64_t> steps) { keys_ = std::move(steps); }
+
     // The next stop, in rising order of step; the last is at `last`. Empty after it.
     std::optional<Stop> next();
 
@@ -42,7 +47,7 @@ class Agenda {
   private:
     std::vector<Shot> shots_;
     std::size_t shot_ = 0;
-    std::set<std::int64_t> moments_;
+    std::set<std::int64_t> moments_, keys_;
     Rhythm trajectory_, measures_;
     Clock clock_;
     std::optional<FieldTimes> fields_;

@@ -30,6 +30,19 @@ TEST(Agenda, MergesThreeSchedulesIntoOneStopAStep) {
     EXPECT_THAT(stops[3].segments, testing::ElementsAre(1));
 }
 
+TEST(Agenda, StopsAtKeyMomentsFromWhereTheRunIs) {
+    Agenda agenda({{7, 0}}, 6, 0, 3, 10);
+    agenda.want_keys({0, 2, 5, 6, 10, 12});
+    agenda.goes_on();
+    std::vector<std::int64_t> steps, keys;
+    for (const Stop& stop : all_of(agenda)) {
+        steps.push_back(stop.step);
+        if (stop.key) keys.push_back(stop.step);
+    }
+    EXPECT_THAT(steps, testing::ElementsAre(5, 6, 7, 10));
+    EXPECT_THAT(keys, testing::ElementsAre(5, 6, 10));
+}
+
 TEST(Agenda, SeveralPicturesOfOneStepAreAllTaken) {
     const std::vector<Stop> stops = all_of(Agenda({{2, 0}, {2, 1}}, 0, 0, 0, 4));
     ASSERT_EQ(stops.size(), 3u);

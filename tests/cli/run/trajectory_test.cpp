@@ -57,10 +57,45 @@ void expect_same(const Frame& got, const Frame& wanted) {
         EXPECT_EQ(got.velocity[i], as_floats(wanted.velocity[i]));
         EXPECT_EQ(got.spin[i], as_floats(wanted.spin[i]));
     }
+    EXPECT_EQ(got.contact_number, wanted.contact_number);
     ASSERT_EQ(got.orientation.size(), wanted.orientation.size());
     for (std::size_t i = 0; i < wanted.orientation.size(); ++i) {
         EXPECT_TRUE(got.orientation[i].coeffs().isApprox(wanted.orientation[i].coeffs(), 1e-6));
     }
+}
+
+Frame with_contact_numbers(Frame frame) {
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        frame.contact_number.push_back(static_cast<std::int32_t>(i * i));
+    return frame;
+}
+
+TEST(Trajectory, ReadsBackContactNumbers) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(5);
+    info.contact_numbers = true;
+    {
+        TrajectoryWriter writer(here / "t.nc", info);
+        for (int i = 0; i < 3; ++i) writer.write(with_contact_numbers(made_frame(5 - i, i)));
+    }
+    const TrajectoryReader reader(here / "t.nc");
+    EXPECT_TRUE(reader.info().contact_numbers);
+    for (std::size_t i = 0; i < 3; ++i)
+        expect_same(reader.read(i),
+                    with_contact_numbers(made_frame(5 - static_cast<int>(i), static_cast<int>(i))));
+}
+
+// A run of an earlier version goes on without them.
+TEST(Trajectory, AFileWithoutContactNumbersGoesOnWithoutThem) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(5);
+    TrajectoryWriter(here / "t.nc", info).write(made_frame(5, 0));
+    info.contact_numbers = true;
+    TrajectoryWriter(here / "t.nc", info, 1).write(with_contact_numbers(made_frame(5, 1)));
+    const TrajectoryReader reader(here / "t.nc");
+    ASSERT_EQ(reader.frames(), 2u);
+    EXPECT_FALSE(reader.info().contact_numbers);
+    expect_same(reader.read(1), made_frame(5, 1));
 }
 
 TEST(Trajectory, ReadsBackWhatWasWritten) {
