@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which pattern does a wide shaken layer stand in: stripes, squares or hexagons?
 
-    tests/phenomena/layer_pattern.py RUN [--periods N] [--map FILE]
+    tests/phenomena/layer_pattern.py RUN [--periods N] [--until SECONDS] [--map FILE]
 
 RUN is a finished run in a box, seen at one phase of the drive. Prints for its last N periods:
   inverted    share of the surface's shape that changes its sign from each period to the next; by chance 1/N
@@ -33,8 +33,8 @@ def surface(places, radii, floor, cells, width, depth, diameter):
 
 
 def top(column, diameter):
-    """Of grains from the lowest up; a column ends below a gap of more than 1.5 diameters."""
-    height = 0.0
+    """Of grains from the lowest up, as the layer flies; a column ends below a gap of more than 1.5 diameters."""
+    height = column[0][0] if column else 0.0
     for z, radius in column:
         if z - radius > height + 1.5 * diameter:
             break
@@ -114,13 +114,14 @@ def ideal(waves, cells, wavelength):
 
 
 class Pattern:
-    """Of the last `periods` frames of a trajectory at one phase of the drive, whole periods apart."""
+    """Of the last `periods` frames of a trajectory at one phase of the drive, whole periods apart, until a time."""
 
-    def __init__(self, trajectory, width, depth, periods=8, phase=0.0):
+    def __init__(self, trajectory, width, depth, periods=8, phase=0.0, until=math.inf):
         radii = trajectory.record("radius", 0)
         diameter = 2 * sum(radii) / len(radii)
         self.cells = int(min(width, depth) / (1.5 * diameter))
-        frames = [i for i, turns in enumerate(trajectory.values("phase")) if abs((turns - phase + 0.5) % 1 - 0.5) < 0.02]
+        frames = [i for i, (turns, time) in enumerate(zip(trajectory.values("phase"), trajectory.values("time")))
+                  if abs((turns - phase + 0.5) % 1 - 0.5) < 0.02 and time <= until]
         floor = trajectory.values("floor_offset")
         surfaces = [surface(trajectory.record("coordinates", i), radii, floor[3 * i + 2], self.cells, width, depth, diameter)
                     for i in frames[-periods:]]
@@ -138,11 +139,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("run", type=Path)
     parser.add_argument("--size", type=float, default=0.1, help="width and depth of the box, m [0.1]")
-    parser.add_argument("--periods", type=int, default=8)
-    parser.add_argument("--phase", type=float, default=0.0, help="turns")
-    parser.add_argument("--map", type=Path)
+    parser.add_argument("--periods", type=int, default=8, help="how many [8]")
+    parser.add_argument("--phase", type=float, default=0.0, help="of the drive, turns [0]")
+    parser.add_argument("--until", type=float, default=math.inf, help="end of those periods, s [the run's]")
+    parser.add_argument("--map", type=Path, help="write the part that is inverted, mm, a row a line")
     options = parser.parse_args()
-    pattern = Pattern(Fields(options.run / "trajectory.nc"), options.size, options.size, options.periods, options.phase)
+    pattern = Pattern(Fields(options.run / "trajectory.nc"), options.size, options.size, options.periods, options.phase,
+                      options.until)
     print(f"inverted {pattern.inverted:.3f}  rms {1000 * pattern.rms:.3f} mm  wavelength {1000 * pattern.wavelength:.2f} mm")
     for name, orders in {"here": pattern.orders, **pattern.ideals}.items():
         print(f"{name:<9}M2 {orders[0]:.2f}  M4 {orders[1]:.2f}  M6 {orders[2]:.2f}")
