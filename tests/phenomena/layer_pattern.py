@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which pattern does a wide shaken layer stand in: stripes, squares or hexagons?
 
-    tests/phenomena/layer_pattern.py RUN [--periods N] [--until SECONDS] [--map FILE]
+    tests/phenomena/layer_pattern.py RUN [--periods N] [--until SECONDS] [--every-second] [--map FILE]
 
 RUN is a finished run in a box, seen at one phase of the drive. Prints for its last N periods:
   inverted    share of the surface's shape that changes its sign from each period to the next; by chance 1/N
@@ -9,7 +9,11 @@ RUN is a finished run in a box, seen at one phase of the drive. Prints for its l
   M2, M4, M6  |sum of P(a) exp(i n a)| / sum of P(a), of the power P of waves of that length in the direction a, in 25
               places with a Gaussian window of 0.6 wavelengths; and what ideal stripes, squares and hexagons have:
               M2 is largest for stripes, M4 is larger than M2 and M6 for squares, and M6 for hexagons
---map writes the part of the surface's height that is inverted, for gnuplot.
+--every-second is for a layer that lands in every second period, and looks otherwise in the one than in the other. The
+pattern is then the mean of N surfaces two periods apart, the last of them at the end or at SECONDS, and `repeated` its
+share of the surfaces' shape; by chance 1/N. Its skewness is above 0 where there are single peaks, below 0 where there are
+single holes, and 0 for stripes and squares.
+--map writes the pattern's height, for gnuplot.
 """
 import argparse
 import cmath
@@ -53,6 +57,28 @@ def subharmonic(surfaces):
     part = [sum((-1)**n * shape[i] for n, shape in enumerate(shapes)) / len(shapes) for i in range(len(shapes[0]))]
     total = sum(value * value for shape in shapes for value in shape) / len(shapes)
     return part, sum(value * value for value in part) / total
+
+
+def repeated(surfaces):
+    """The mean shape of the surfaces, and its share of the variance."""
+    shapes = [without_mean(surface) for surface in surfaces]
+    part = [sum(values) / len(shapes) for values in zip(*shapes)]
+    return part, sum(value * value for value in part) * len(shapes) / sum(value * value for shape in shapes for value in shape)
+
+
+def smooth(part, cells):
+    """The mean of each cell and its neighbours; those outside are those at the edge."""
+    def line(values):
+        return [(values[max(0, i - 1)] + values[i] + values[min(cells - 1, i + 1)]) / 3 for i in range(cells)]
+    rows = [line(part[c * cells:(c + 1) * cells]) for c in range(cells)]
+    columns = [line([row[r] for row in rows]) for r in range(cells)]
+    return [columns[r][c] for c in range(cells) for r in range(cells)]
+
+
+def skewness(values):
+    values = without_mean(values)
+    square = sum(value * value for value in values) / len(values)
+    return sum(value**3 for value in values) / len(values) / square**1.5
 
 
 def spectrum(values, cells, most, fine=2):
@@ -116,16 +142,18 @@ def ideal(waves, cells, wavelength):
 class Pattern:
     """Of the last `periods` frames of a trajectory at one phase of the drive, whole periods apart, until a time."""
 
-    def __init__(self, trajectory, width, depth, periods=8, phase=0.0, until=math.inf):
+    def __init__(self, trajectory, width, depth, periods=8, phase=0.0, until=math.inf, every_second=False):
         radii = trajectory.record("radius", 0)
         diameter = 2 * sum(radii) / len(radii)
         self.cells = int(min(width, depth) / (1.5 * diameter))
         frames = [i for i, (turns, time) in enumerate(zip(trajectory.values("phase"), trajectory.values("time")))
                   if abs((turns - phase + 0.5) % 1 - 0.5) < 0.02 and time <= until]
         floor = trajectory.values("floor_offset")
+        chosen = frames[::-2][:periods] if every_second else frames[-periods:]
         surfaces = [surface(trajectory.record("coordinates", i), radii, floor[3 * i + 2], self.cells, width, depth, diameter)
-                    for i in frames[-periods:]]
-        self.part, self.inverted = subharmonic(surfaces)
+                    for i in chosen]
+        self.part, self.share = (repeated if every_second else subharmonic)(surfaces)
+        self.skewness = skewness(smooth(self.part, self.cells))
         self.rms = math.sqrt(sum(value * value for value in self.part) / len(self.part))
         power = spectrum(self.part, self.cells, most=12)
         k = ring(power, least=2)
@@ -142,11 +170,13 @@ def main():
     parser.add_argument("--periods", type=int, default=8, help="how many [8]")
     parser.add_argument("--phase", type=float, default=0.0, help="of the drive, turns [0]")
     parser.add_argument("--until", type=float, default=math.inf, help="end of those periods, s [the run's]")
-    parser.add_argument("--map", type=Path, help="write the part that is inverted, mm, a row a line")
+    parser.add_argument("--every-second", action="store_true", help="surfaces two periods apart")
+    parser.add_argument("--map", type=Path, help="write the pattern's height, mm, a row a line")
     options = parser.parse_args()
     pattern = Pattern(Fields(options.run / "trajectory.nc"), options.size, options.size, options.periods, options.phase,
-                      options.until)
-    print(f"inverted {pattern.inverted:.3f}  rms {1000 * pattern.rms:.3f} mm  wavelength {1000 * pattern.wavelength:.2f} mm")
+                      options.until, options.every_second)
+    print(f"{'repeated' if options.every_second else 'inverted'} {pattern.share:.3f}  rms {1000 * pattern.rms:.3f} mm  "
+          f"wavelength {1000 * pattern.wavelength:.2f} mm  skewness {pattern.skewness:.2f}")
     for name, orders in {"here": pattern.orders, **pattern.ideals}.items():
         print(f"{name:<9}M2 {orders[0]:.2f}  M4 {orders[1]:.2f}  M6 {orders[2]:.2f}")
     if options.map:
