@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from typing import Callable
 
 from bed_states import coherence, over_the_cycle
+from fields import Fields
+from layer_pattern import Pattern
 
 DRAFT = "run.accuracy=draft"
 
@@ -36,6 +38,7 @@ class Check:
 
 
 NARROW = ("container.width=120 mm", "species.grains.count=2000")  # half of the scene
+SMALL_LAYER = ("container.width=60 mm", "container.depth=60 mm", "species.grains.count=12000", "output.trajectory=true")
 SORT_AND_MIX = ('drive.stage=[{from="3 s", frequency="25 Hz", g_level=7, over=4},'
                 ' {from="10 s", frequency="9 Hz", g_level=4, over=4}]')
 ON_EARTH = ("gravity=9.81", "drive.frequency=12 Hz", "run.duration=2 s", DRAFT)
@@ -62,6 +65,11 @@ def along_walls(run, after, diameter):
 def discharge_time(run):
     """From the opening of the outlet until 99 % have run out."""
     return run.end("emptied") - 0.3
+
+
+def inverted_pattern(run):
+    """Of a square box 60 mm wide: share of the surface, seen from above, that changes its sign every period."""
+    return Pattern(Fields(run.folder / "trajectory.nc"), 0.06, 0.06).share
 
 
 CHECKS = [
@@ -165,6 +173,16 @@ CHECKS = [
         number=lambda run: run.mean("surface_half", 1.5),
         least=0.5,
         runs=((*NARROW, DRAFT),),
+    ),
+    Check(
+        name="layer_patterns",
+        claim="a wide layer stands in a pattern that changes places every period (Umbanhowar, Melo & Swinney 1998)",
+        scene="layer_patterns",
+        runs=((*SMALL_LAYER, "drive.frequency=15.5 Hz", "run.duration=1.62 s"),),
+        control=["drive.g_level=2"],
+        what="share of the surface, seen from above, that is inverted every period; by chance 0.125",
+        number=inverted_pattern,
+        least=0.25,
     ),
     Check(
         name="quarter_waves",

@@ -67,14 +67,19 @@ class Fields:
     def shape(self, name):
         return [self.lengths[i] or self.records for i in self.variables[name]["dimensions"]]
 
+    def record(self, name, number):
+        """The values of one record of a variable that has records."""
+        variable, length = self.variables[name], 1
+        for n in self.shape(name)[1:]:
+            length *= n
+        place = variable["begin"] + number * self.record_bytes
+        return struct.unpack_from(f">{length}{LETTER[variable['kind']]}", self.data, place)
+
     def values(self, name):
         variable, shape = self.variables[name], self.shape(name)
-        records, each = (shape[0], shape[1:]) if self.by_record(variable) else (1, shape)
+        if self.by_record(variable):
+            return [value for number in range(shape[0]) for value in self.record(name, number)]
         length = 1
-        for n in each:
+        for n in shape:
             length *= n
-        values = []
-        for record in range(records):
-            place = variable["begin"] + record * self.record_bytes
-            values += struct.unpack_from(f">{length}{LETTER[variable['kind']]}", self.data, place)
-        return values
+        return list(struct.unpack_from(f">{length}{LETTER[variable['kind']]}", self.data, variable["begin"]))
