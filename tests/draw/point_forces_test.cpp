@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support.hpp"
+#include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {

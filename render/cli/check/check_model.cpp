@@ -68,9 +68,13 @@ void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
                    promised_error_text(promised_restitution_error(plan, pair, a, b)), pair.friction,
                    span_text(pair.contact_time), pair.contact_time / plan.clock.step);
     };
+    const auto moves = [&](std::size_t species) {
+        return scene.species[species].all() > 0;
+    };  // not glued only
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
+        if (!moves(a)) continue;
         for (std::size_t b = a; b < scene.species.size(); ++b)
-            if (a != b || scene.species[a].count > 1)  // a single grain never meets its like
+            if (moves(b) && (a != b || scene.species[a].all() > 1))  // a single grain never meets its like
                 row(scene.species[a].name + " - " + scene.species[b].name, plan.between(a, b),
                     scene.species[a], &scene.species[b]);
         row(scene.species[a].name + " - wall", plan.wall[a], scene.species[a], nullptr);

@@ -116,10 +116,12 @@ void print_stages(const Scene& scene, Listing& list) {
 void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
     list.line("scene", fmt::format("{} ({})", scene.title, scene.file));
     list.line("grains", fmt::format("{}, {:.3g} kg", grouped(scene.grains()), total_mass(scene)));
-    for (const Species& s : scene.species)
+    for (const Species& s : scene.species) {
+        if (s.all() == 0) continue;  // glued to walls only
         list.line("", fmt::format("{} {} of {}, {:.4g} kg/m3{}", grouped(s.all()), s.name,
                                   diameter_text(s.diameter), s.density,
                                   s.fed > 0 ? fmt::format(", {} of them fed", grouped(s.fed)) : ""));
+    }
     for (const Feed& feed : scene.feeds) list.line("feed", feed_text(scene, feed));
     list.line("container", container_text(scene.container));
     if (scene.container.wall_grains) list.line("", rough_text(scene));
