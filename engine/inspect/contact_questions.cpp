@@ -40,7 +40,7 @@ AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
              {"moment_y", Dimension::moment, ""},
              {"moment_z", Dimension::moment, ""},
              {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"},
-             {"force", Dimension::force, "magnitude of the force"}},
+             {"force", Dimension::force, "magnitude of the force; with --average the mean of magnitudes"}},
             {{static_cast<std::int64_t>(on_wall.size()), force.x(), force.y(), force.z(), normal, moment.x(),
               moment.y(), moment.z(), share, force.norm()}},
             true};

@@ -23,7 +23,7 @@ run render "$work/wedge" --at 5 --size 1120x630 --set film.colour.by=rise --set 
 
 # The forces on a grain.
 rm -f "$here/inspect.png"
-"$grainreel" inspect "$work/wedge" --at 4.21s --grain 234 --size 1120x630 --png "$here/inspect.png" --quiet > /dev/null
+"$grainreel" inspect "$work/wedge" --at 4.21s --grain 234 --size 1280x720 --png "$here/inspect.png" --quiet > /dev/null
 
 # Three drives side by side.
 for g in 0.9 2 4; do run movie "$wedge" --duration 2s --no-film --set drive.g_level=$g --out "$work/g$g"; done
