@@ -15,7 +15,7 @@
 
 #include "render/watch/listening.hpp"
 #include "render/watch/visitors.hpp"
-#include "tests/cli/http.hpp"
+#include "tests/cli/page/http.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "tests/cli/http.hpp"
+#include "tests/cli/page/http.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
