@@ -36,8 +36,8 @@ Footprint::Range Footprint::range_of(std::size_t k, double low, double high) con
     return {floor_of((low - axis.low) * cells), floor_of((high - axis.low) * cells) + 1};
 }
 
-// The cells within the cutoff of a box, and what each of them adds to an index of the grid, axis by axis: -1
-// beyond the grid's edge.
+// Clears the values of the cells within the cutoff of a box, and notes what each of them adds to an index of
+// the grid, axis by axis: -1 beyond the grid's edge.
 void Footprint::set_box(const Vec3& low, const Vec3& high) {
     std::int64_t stride = 1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -50,58 +50,66 @@ void Footprint::set_box(const Vec3& low, const Vec3& high) {
         }
         stride *= grid_.axes[k].count;
     }
+    width_ = box_[along_].end - box_[along_].begin;
+    layer_ = width_ * (box_[across_].end - box_[across_].begin);
+    values_.assign(static_cast<std::size_t>(layer_ * (box_[2].end - box_[2].begin)), 0);
 }
 
-// Of the distance along one axis between a point and the middles of cells.
-void Footprint::set_squares(std::size_t k, Range range, double point) {
-    const GridAxis& axis = grid_.axes[k];
-    squares_[k].clear();
-    for (std::int64_t cell = range.begin; cell < range.end; ++cell) {
-        const double away = axis.resolved ? axis.middle(cell) - point : 0;
-        squares_[k].push_back(away * away);
-    }
-}
-
-// Adds the kernel about a point, times `share`, to the values of the box. Cells of one row lie side by side:
-// along x, or along y where x is not resolved.
+// Adds the kernel about a point, times `share`, to the values of the box, row by row. Of a row, only cells
+// within the cutoff are visited.
 void Footprint::add_kernel(const Vec3& middle, double share) {
     std::array<Range, 3> near;
     for (std::size_t k = 0; k < 3; ++k) {
         const double at = middle[static_cast<int>(k)];
+        const GridAxis& axis = grid_.axes[k];
         near[k] = range_of(k, at - kernel_.cutoff(), at + kernel_.cutoff());
-        set_squares(k, near[k], at);
+        squares_[k].clear();
+        for (std::int64_t cell = near[k].begin; cell < near[k].end; ++cell) {
+            const double away = axis.resolved ? axis.middle(cell) - at : 0;
+            squares_[k].push_back(away * away);
+        }
     }
-    const std::size_t along = grid_.axes[0].resolved ? 0 : 1, across = 1 - along;
-    const std::int64_t width = box_[along].end - box_[along].begin,
-                       layer = width * (box_[across].end - box_[across].begin);
-    double* plane = values_.data() + (near[2].begin - box_[2].begin) * layer +
-                    (near[across].begin - box_[across].begin) * width + near[along].begin - box_[along].begin;
+    const std::vector<double>& squares = squares_[along_];
+    factors_.clear();
+    if (kernel_.is_product())
+        for (const double square : squares) factors_.push_back(kernel_.at(square));
+    const double cutoff = kernel_.cutoff() * kernel_.cutoff();
+    double* plane = values_.data() + (near[2].begin - box_[2].begin) * layer_ +
+                    (near[across_].begin - box_[across_].begin) * width_ + near[along_].begin -
+                    box_[along_].begin;
     for (const double square_z : squares_[2]) {
         double* row = plane;
-        for (const double square : squares_[across]) {
+        for (const double square : squares_[across_]) {
             const double away = square_z + square;
-            for (std::size_t k = 0; k < squares_[along].size(); ++k)
-                row[k] += share * kernel_.at(away + squares_[along][k]);
-            row += width;
+            std::size_t begin = 0, end = squares.size();
+            while (begin < end && away + squares[begin] >= cutoff) ++begin;
+            while (begin < end && away + squares[end - 1] >= cutoff) --end;
+            if (kernel_.is_product()) {
+                const double factor = share * kernel_.at(away);
+                for (std::size_t k = begin; k < end; ++k) row[k] += factor * factors_[k];
+            } else {
+                for (std::size_t k = begin; k < end; ++k) row[k] += share * kernel_.at(away + squares[k]);
+            }
+            row += width_;
         }
-        plane += layer;
+        plane += layer_;
     }
 }
 
-// The cells of the box that have a value, scaled. `value` is asked for each cell once, x fastest.
-template <class Value>
-std::span<const CellWeight> Footprint::collect(const Value& value) {
-    cells_.resize(offsets_[0].size() * offsets_[1].size() * offsets_[2].size());
-    CellWeight* next = cells_.data();
+// The cells of the box that have a value, scaled.
+std::span<const CellWeight> Footprint::collect() {
+    cells_.resize(values_.size());
     double sum = 0;
-    for (std::size_t z = 0; z < offsets_[2].size(); ++z)
-        for (std::size_t y = 0; y < offsets_[1].size(); ++y)
-            for (std::size_t x = 0; x < offsets_[0].size(); ++x) {
-                const double here = value(x, y, z);
+    const double* value = values_.data();
+    const std::int64_t* const offsets = offsets_[along_].data();
+    CellWeight* next = cells_.data();
+    for (const std::int64_t z : offsets_[2])
+        for (const std::int64_t other : offsets_[across_])
+            for (std::int64_t k = 0; k < width_; ++k) {
+                const double here = *value++;
                 if (here <= 0) continue;
                 sum += here;
-                const std::int64_t at_x = offsets_[0][x], at_y = offsets_[1][y], at_z = offsets_[2][z];
-                if ((at_x | at_y | at_z) >= 0) *next++ = {at_x + at_y + at_z, here};
+                if ((z | other | offsets[k]) >= 0) *next++ = {z + other + offsets[k], here};
             }
     const std::span<CellWeight> found{cells_.data(), next};
     const double scale = 1 / (sum * grid_.cell_volume());
@@ -111,22 +119,18 @@ std::span<const CellWeight> Footprint::collect(const Value& value) {
 
 std::span<const CellWeight> Footprint::of_point(const Vec3& point) {
     set_box(point, point);
-    for (std::size_t k = 0; k < 3; ++k) set_squares(k, box_[k], point[static_cast<int>(k)]);
-    return collect([&](std::size_t x, std::size_t y, std::size_t z) {
-        return kernel_.at(squares_[2][z] + squares_[1][y] + squares_[0][x]);
-    });
+    add_kernel(point, 1);
+    return collect();
 }
 
 std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& branch) {
     const Vec3 end = begin + branch;
     set_box(begin.cwiseMin(end), begin.cwiseMax(end));
-    values_.assign(offsets_[0].size() * offsets_[1].size() * offsets_[2].size(), 0);
     const int stretches =
         std::max(1, static_cast<int>(std::ceil(branch.norm() / (longest_stretch * kernel_.width()))));
     for (int k = 0; k < stretches; ++k)
         for (const auto& [at, share] : quadrature) add_kernel(begin + (k + at) / stretches * branch, share);
-    const double* next = values_.data();
-    return collect([&](std::size_t, std::size_t, std::size_t) { return *next++; });
+    return collect();
 }
 
 }  // namespace grainreel

@@ -22,7 +22,8 @@ struct CellWeight {
 // spread is kept to rounding, whatever the size of the cells. The answer is good until the next question.
 class Footprint {
   public:
-    Footprint(const FieldGrid& grid, const FieldKernel& kernel) : grid_(grid), kernel_(kernel) {}
+    Footprint(const FieldGrid& grid, const FieldKernel& kernel)
+        : grid_(grid), kernel_(kernel), along_(grid.axes[0].resolved ? 0 : 1), across_(1 - along_) {}
 
     // Of the kernel about a point.
     std::span<const CellWeight> of_point(const Vec3& point);
@@ -37,17 +38,19 @@ class Footprint {
     };
     Range range_of(std::size_t axis, double low, double high) const;
     void set_box(const Vec3& low, const Vec3& high);
-    void set_squares(std::size_t axis, Range range, double point);
     void add_kernel(const Vec3& middle, double share);
-    template <class Value>
-    std::span<const CellWeight> collect(const Value& value);
+    std::span<const CellWeight> collect();
 
     const FieldGrid& grid_;
     FieldKernel kernel_;
+    // Cells of a row lie side by side: along x, or along y where x is not resolved.
+    std::size_t along_, across_;
     std::array<Range, 3> box_{};
+    std::int64_t width_ = 0, layer_ = 0;  // cells of the box in a row, and in a layer of rows
     std::array<std::vector<std::int64_t>, 3> offsets_;
-    std::array<std::vector<double>, 3> squares_;  // m2
-    std::vector<double> values_;                  // of the box, x fastest
+    std::vector<double> values_;                  // of the box, row by row
+    std::array<std::vector<double>, 3> squares_;  // m2, distances along an axis
+    std::vector<double> factors_;                 // of a kernel that is a product, along a row
     std::vector<CellWeight> cells_;
 };
 

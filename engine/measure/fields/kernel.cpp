@@ -21,7 +21,8 @@ double kernel_value(FieldOutput::Kernel kind, double q) {
 }
 
 FieldKernel::FieldKernel(FieldOutput::Kernel kind, double width, int dimensions)
-    : width_(width),
+    : is_product_(kind == FieldOutput::Kernel::gaussian),
+      width_(width),
       cutoff_(width * (kind == FieldOutput::Kernel::lucy ? lucy_cutoff(dimensions) : gaussian_cutoff)),
       places_(kEntries / (cutoff_ * cutoff_)) {
     for (int k = 0; k <= kEntries; ++k)

@@ -24,6 +24,9 @@ class FieldKernel {
     double width() const { return width_; }    // m
     double cutoff() const { return cutoff_; }  // m
 
+    // Whether at(a + b) = at(a) at(b) within the cutoff.
+    bool is_product() const { return is_product_; }
+
     // Value at a distance whose square (m2) is given; 0 from the cutoff on. From a table over the square,
     // within 2e-5 of the formula.
     double at(double square) const {
@@ -38,6 +41,7 @@ class FieldKernel {
   private:
     static constexpr int kEntries = 4096;
 
+    bool is_product_;
     double width_, cutoff_;       // m
     double places_;               // 1/m2, entries for each square metre
     std::vector<double> values_;  // with zeros behind
