@@ -138,7 +138,9 @@ function makeCharts() {
 function hideUseless() {
     if (facts.live || charts) return;
     for (const part of document.querySelectorAll("#chart-controls, .whole-run")) part.hidden = true;
-    if (!runs.some((run) => run.film || run.bed)) document.getElementById("bar").hidden = true;
+    if (runs.some((run) => run.film || run.bed)) return;
+    document.getElementById("bar").hidden = true;
+    for (const button of document.querySelectorAll("button[data-time]")) button.replaceWith(button.textContent);
 }
 
 const facts = factsOf("facts");
