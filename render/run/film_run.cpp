@@ -171,7 +171,8 @@ void FilmRun::write_record() {
 // Of a run whose other files are closed, also of one that failed. A run without its page has failed at
 // nothing.
 void FilmRun::make_page() {
-    if (!request_.page || !begun_ || !has_folder_ || listener_.in_a_hurry()) return;
+    if (!request_.page || !has_folder_ || listener_.in_a_hurry()) return;
+    if (!begun_ && !failure_.any()) return;  // stopped before there was anything to show
     const Stopwatch making;
     const auto go_on = [&](double share) {
         Progress progress;

@@ -41,6 +41,18 @@ double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pic
     return scene.output.film_moments.value_or(bytes <= most_bytes) ? bytes : 0;
 }
 
+void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
+    frame.contact_number.assign(frame.size(), 0);
+    const auto count = [&](std::int32_t id) {
+        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+        if (id >= 0) ++frame.contact_number[static_cast<std::size_t>(at - frame.id.begin())];
+    };
+    for (const Simulation::ContactRecord& contact : contacts) {
+        count(contact.first);
+        count(contact.second);
+    }
+}
+
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                    const Simulation& simulation, const std::string& program_version)
     : folder_(folder),

@@ -89,4 +89,7 @@ class RunFiles {
     std::optional<Measures> first_, last_;
 };
 
+// Contact numbers of the frame, from all contacts that carry force then.
+void count_contacts(Frame& frame, const RunFiles::Contacts& contacts);
+
 }  // namespace grainreel

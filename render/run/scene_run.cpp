@@ -25,19 +25,6 @@ bool give_second_name(const std::filesystem::path& file, const std::filesystem::
     return !error;
 }
 
-// Into the frame, from all contacts that carry force.
-void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
-    frame.contact_number.assign(frame.size(), 0);
-    const auto count = [&](std::int32_t id) {
-        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-        if (id >= 0) ++frame.contact_number[static_cast<std::size_t>(at - frame.id.begin())];
-    };
-    for (const Simulation::ContactRecord& contact : contacts) {
-        count(contact.first);
-        count(contact.second);
-    }
-}
-
 }  // namespace
 
 SceneRun::SceneRun(const Scene& scene, const Plan& plan, int threads)

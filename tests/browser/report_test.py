@@ -7,7 +7,6 @@ without WebGL or DecompressionStream the page says so. FOLDER gets run, page and
 axe-core, which looks for barriers to people with disabilities.
 """
 import math
-import os
 import pathlib
 import shutil
 import subprocess
@@ -457,6 +456,23 @@ def without(page, reason, **browser_options):
         return browser.console()
 
 
+def of_a_failed_run(program, folder):
+    """The page says why, shows no empty controls, and is as legible as any other."""
+    (folder / "blown.toml").write_text(SCENE.replace("overlap = 0.05", 'step = "1.2e-3 s"'))  # far too large a step
+    ended = subprocess.run([program, "movie", "blown.toml", "--out", "blown", "--threads", "1"], cwd=folder,
+                           stderr=subprocess.DEVNULL)
+    assert ended.returncode == 1
+    with Browser() as browser:
+        browser.open(folder / "blown" / "report.html")
+        said = browser.run("return document.querySelector('.ended').textContent")
+        assert said.startswith("The run failed at 0 of 1 s: ") and "take a smaller run.step" in said, said
+        seen = browser.run("return [...document.querySelectorAll('button, select, input')].filter((e) => e.checkVisibility())"
+                           ".map((e) => e.textContent)")
+        assert not {"Play", "Zoom in", "Reset the view"} & set(seen), seen
+        browser.looks_as_kept("failed", folder)
+        assert browser.console() == []
+
+
 def no_barriers(browser, axe):
     browser.run(axe.read_text())
     found = browser.driver.execute_async_script(
@@ -482,6 +498,8 @@ def main():
     console = without(page, "no DecompressionStream", at_start="delete window.DecompressionStream")
     assert console == [], console
     print("passed: without DecompressionStream")
+    of_a_failed_run(program, folder)
+    print("passed: of_a_failed_run")
     for dark in (False, True):
         with Browser(dark=dark) as browser:
             browser.open(page)

@@ -10,10 +10,15 @@ function factsOf(id) {
 function bytesOf(id) {
     const element = document.getElementById(id);
     if (!element) return null;
-    const text = atob(element.textContent.trim());
-    const bytes = new Uint8Array(text.length);
-    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+    const text = element.textContent.trim();
     element.remove();
+    return Uint8Array.fromBase64 ? Uint8Array.fromBase64(text) : bytesOfBase64(text);
+}
+
+// For browsers of before 2025.
+function bytesOfBase64(text) {
+    const unpacked = atob(text), bytes = new Uint8Array(unpacked.length);
+    for (let i = 0; i < unpacked.length; ++i) bytes[i] = unpacked.charCodeAt(i);
     return bytes;
 }
 

@@ -21,6 +21,7 @@ class FilmPanel {
         this.video.addEventListener("error", () => this.say("This browser cannot play the film."));
         bar.player ??= {play: () => this.play(), pause: () => this.pause()};
         if (!this.tied) return;
+        this.takeOverControls();
         this.watchFrames();
         runTime.listen((time, source) => {
             if (source !== this) this.seek(time);
@@ -31,6 +32,19 @@ class FilmPanel {
     showStart() {
         this.wanted = 0;
         this.video.addEventListener("loadeddata", () => this.seekWanted(), {once: true});
+    }
+
+    // The page's bar plays the film. The browser's own controls would lie over the film's words.
+    takeOverControls() {
+        const {video} = this;
+        video.controls = false;
+        video.classList.add("tied");
+        video.addEventListener("click", () => (video.paused ? this.play() : this.pause()));
+        if (!video.requestFullscreen) return;
+        const button = element("button", {type: "button"}, "Full screen");
+        button.addEventListener("click", () => video.requestFullscreen());
+        video.addEventListener("fullscreenchange", () => (video.controls = document.fullscreenElement === video));
+        video.after(element("p", {className: "no-print"}, button));
     }
 
     // By the bar or its own buttons. Films that show the same moments go along; others are sought.

@@ -108,6 +108,7 @@ async function openPage() {
     report.films = runs.map((run, k) => openFilm(run, endOf(k)));
     report.beds = [];
     for (const [k, run] of runs.entries()) report.beds.push(await openBed(run, endOf(k)));
+    performance.mark("beds");
     report.fields = [];
     for (const [k, run] of runs.entries()) report.fields.push(await openFields(run, endOf(k)));
     const films = report.films.filter((film) => film?.tied), beds = report.beds.filter((bed) => bed);
@@ -133,11 +134,21 @@ function makeCharts() {
     return new Charts(tables, shown, runTime);
 }
 
+// Controls of what the run has not kept.
+function hideUseless() {
+    if (facts.live || charts) return;
+    for (const part of document.querySelectorAll("#chart-controls, .whole-run")) part.hidden = true;
+    if (runs.some((run) => run.film || run.bed)) return;
+    document.getElementById("bar").hidden = true;
+    for (const button of document.querySelectorAll("button[data-time]")) button.replaceWith(button.textContent);
+}
+
 const facts = factsOf("facts");
 const runTime = new RunTime(facts.begin, facts.end);
 const runs = facts.runs ?? [facts];
 const bar = new TimeBar(runTime, stepsOf(runs[0]), facts.frequency);
 const charts = makeCharts();
+hideUseless();
 bindCopies();
 bindLargePrint();
 bindStory(runTime);

@@ -103,6 +103,19 @@ TEST_F(ResumedRun, AKilledOneEndsAsIfItHadNotBeen) {
     expect_same("whole", "run");
 }
 
+// Browsers do not play Matroska, so the page needs a copy, which goes along with the film.
+TEST_F(ResumedRun, TheCopyForThePageIsWhole) {
+    const Words words = {"--duration", "1.5 s", "--format", "ffv1"};
+    kill_at(9, words);
+    EXPECT_FALSE(fs::exists(here / "run/movie_720.mp4"));
+    const Ended ended = run({"resume", "run"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_GT(decoded_pictures(here / "run/movie_720.mp4"), 10);
+    EXPECT_EQ(decoded_pictures(here / "run/movie_720.mp4"), decoded_pictures(here / "run/movie.mkv"));
+    EXPECT_FALSE(fs::exists(here / "run/movie_720.mp4.part"));
+    EXPECT_THAT(text_of(here / "run/report.html"), HasSubstr("This is a copy of at most 720 lines"));
+}
+
 TEST_F(ResumedRun, KilledTwiceAndStoppedOnce) {
     const Words without_film = {"--duration", "1.5 s", "--no-film"};
     ASSERT_EQ(run(movie("whole", without_film)).status, 0);

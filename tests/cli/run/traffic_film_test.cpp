@@ -63,7 +63,9 @@ TEST(TrafficFilm, FilesHaveWhoIsThere) {
         if (i % 2 == 1) sink.rain(i / 2);
         frames.push_back(sink.simulation.frame());
         measures.push_back(sink.simulation.measures());
-        files.add_frame(frames.back(), sink.simulation);
+        const RunFiles::Contacts contacts = sink.simulation.contacts();
+        count_contacts(frames.back(), contacts);
+        files.add_frame(frames.back(), contacts);
         files.add_measures(measures.back());
         sink.simulation.advance((i + 1) * every);
     }
@@ -79,6 +81,7 @@ TEST(TrafficFilm, FilesHaveWhoIsThere) {
         const Frame frame = reader.read(i);
         EXPECT_EQ(frame.id, frames[i].id) << i;
         EXPECT_EQ(frame.position, frames[i].position) << i;
+        EXPECT_EQ(frame.contact_number, frames[i].contact_number) << i;
         for (const std::int32_t id : frame.id) EXPECT_FALSE(gone.contains(id)) << id << " came back";
         const std::set<std::int32_t> now(frame.id.begin(), frame.id.end());
         all.insert(now.begin(), now.end());
