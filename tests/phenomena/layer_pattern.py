@@ -63,7 +63,8 @@ def repeated(surfaces):
     """The mean shape of the surfaces, and its share of the variance."""
     shapes = [without_mean(surface) for surface in surfaces]
     part = [sum(values) / len(shapes) for values in zip(*shapes)]
-    return part, sum(value * value for value in part) * len(shapes) / sum(value * value for shape in shapes for value in shape)
+    total = sum(value * value for shape in shapes for value in shape) / len(shapes)
+    return part, sum(value * value for value in part) / total
 
 
 def smooth(part, cells):
