@@ -3,9 +3,10 @@
 
     tests/phenomena/check.py PROGRAM [NAME ...] [--jobs N] [--out FOLDER] [--list]
 
-Runs the quick form of each check in checks.py, or of those named, N at a time on one thread each. A check is one number of a run, and a range in which
-the number must lie. The control is the same run with the cause of the effect switched off, and its number must lie
-outside of that range. So a check that cannot fail does not pass. Exit status: 0 all hold, 1 one does not, 2 a mistake.
+Runs the quick form of each check in checks.py, or of those named, N at a time on one thread each. A check is one
+number of a run, and a range in which the number must lie. The control is the same run with the cause of the effect
+switched off, and its number must lie outside of that range. So a check that cannot fail does not pass. Exit status: 0
+all hold, 1 one does not, 2 a mistake.
 """
 import argparse
 import csv
@@ -75,15 +76,20 @@ def measured(check, program, folder, control):
 
 
 def holds(check, program, folder):
-    number, seconds = measured(check, program, folder, control=False)
-    off, more_seconds = measured(check, program, folder, control=True)
+    """Whether the check holds, and the processor time of its runs."""
+    try:
+        number, seconds = measured(check, program, folder, control=False)
+        off, more_seconds = measured(check, program, folder, control=True)
+    except subprocess.CalledProcessError as error:
+        print(f"{check.name}: NOT SO, a run ended with exit status {error.returncode}: {' '.join(error.cmd)}", flush=True)
+        return False, 0.0
     there, gone = check.accepts(number), not check.accepts(off)
     print(f"{check.name}: {check.claim}\n"
           f"  {check.what}: {number:.4g}, expected {check.expected()}: {'ok' if there else 'NOT SO'}\n"
           f"  with {', '.join(check.control)}: {off:.4g}, expected outside of that: {'ok' if gone else 'NOT SO'}\n"
           f"  {seconds + more_seconds:.0f} s of one processor",
           flush=True)
-    return there and gone
+    return there and gone, seconds + more_seconds
 
 
 def main():
@@ -93,7 +99,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="checks at a time")
     parser.add_argument("--out", type=Path, help="keep the runs there")
     parser.add_argument("--list", action="store_true", help="print the names and end")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     unknown = set(options.names) - {check.name for check in CHECKS}
     if unknown:
         print(f"no such check: {', '.join(sorted(unknown))}; --list prints their names", file=sys.stderr)
@@ -106,8 +112,9 @@ def main():
         folder = options.out or Path(temporary)
         with ThreadPoolExecutor(max(1, options.jobs)) as pool:
             results = list(pool.map(lambda check: holds(check, options.program, folder), chosen))
-    print(f"{sum(results)} of {len(results)} hold")
-    return 0 if all(results) else 1
+    held = [there for there, _ in results]
+    print(f"{sum(held)} of {len(held)} hold; {sum(seconds for _, seconds in results):.0f} s of one processor")
+    return 0 if all(held) else 1
 
 
 if __name__ == "__main__":

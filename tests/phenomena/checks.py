@@ -204,6 +204,16 @@ CHECKS = [
         least=0.1,
     ),
     Check(
+        name="wedge_size",
+        claim="in the default film size alone keeps the big grains on top: of one size, the roll mixes them",
+        scene="wedge_segregation",
+        control=["species.big.diameter=5.01 mm", "species.big.count=873"],
+        what="height of the grains that began below over the others, 20 to 22 s, over the bed's height",
+        number=lambda run: run.mean("height_difference", 20),
+        least=0.1,
+        runs=(("run.duration=22 s", DRAFT),),
+    ),
+    Check(
         name="wedge_mixture",
         claim="shaking above Gamma = 1 brings the big grains of a mixture in a sealed wedge up",
         scene="wedge_mixture",

@@ -13,7 +13,7 @@ RUN is a finished run in a box, seen at one phase of the drive. Prints for its l
 pattern is then the mean of N surfaces two periods apart, the last of them at the end or at SECONDS, and `repeated` its
 share of the surfaces' shape; by chance 1/N. Its skewness is above 0 where there are single peaks, below 0 where there are
 single holes, and 0 for stripes and squares.
---map writes the pattern's height, for gnuplot.
+--map writes the pattern's height, each cell's mean with its neighbours, for gnuplot.
 """
 import argparse
 import cmath
@@ -63,7 +63,8 @@ def repeated(surfaces):
     """The mean shape of the surfaces, and its share of the variance."""
     shapes = [without_mean(surface) for surface in surfaces]
     part = [sum(values) / len(shapes) for values in zip(*shapes)]
-    return part, sum(value * value for value in part) * len(shapes) / sum(value * value for shape in shapes for value in shape)
+    total = sum(value * value for shape in shapes for value in shape) / len(shapes)
+    return part, sum(value * value for value in part) / total
 
 
 def smooth(part, cells):
@@ -86,7 +87,8 @@ def spectrum(values, cells, most, fine=2):
     window = [math.sin(math.pi * (i + 0.5) / cells)**2 for i in range(cells)]
     waves = range(-fine * most, fine * most + 1)
     turns = {q: [window[i] * cmath.exp(-2j * math.pi * q * (i + 0.5) / (fine * cells)) for i in range(cells)] for q in waves}
-    rows = [{q: sum(map(operator.mul, values[c * cells:(c + 1) * cells], turns[q])) for q in waves} for c in range(cells)]
+    rows = [{q: sum(map(operator.mul, values[c * cells:(c + 1) * cells], turns[q])) for q in waves}
+            for c in range(cells)]
     return {(p / fine, q / fine): abs(sum(turns[p][c] * rows[c][q] for c in range(cells)))**2
             for p in range(fine * most + 1) for q in waves}
 
@@ -99,7 +101,8 @@ def ring(power, least):
         if k >= least:
             shells[round(2 * k)] = shells.get(round(2 * k), 0) + value
     strongest = max(shells, key=shells.get) / 2
-    near = [(math.hypot(p, q), value) for (p, q), value in power.items() if abs(math.hypot(p, q) - strongest) <= 0.25 * strongest]
+    near = [(math.hypot(p, q), value) for (p, q), value in power.items()
+            if abs(math.hypot(p, q) - strongest) <= 0.25 * strongest]
     return sum(k * value for k, value in near) / sum(value for _, value in near)
 
 
@@ -171,7 +174,7 @@ def main():
     parser.add_argument("--phase", type=float, default=0.0, help="of the drive, turns [0]")
     parser.add_argument("--until", type=float, default=math.inf, help="end of those periods, s [the run's]")
     parser.add_argument("--every-second", action="store_true", help="surfaces two periods apart")
-    parser.add_argument("--map", type=Path, help="write the pattern's height, mm, a row a line")
+    parser.add_argument("--map", type=Path, help="write the pattern's height, mm, a line for each row across")
     options = parser.parse_args()
     pattern = Pattern(Fields(options.run / "trajectory.nc"), options.size, options.size, options.periods, options.phase,
                       options.until, options.every_second)
@@ -180,9 +183,9 @@ def main():
     for name, orders in {"here": pattern.orders, **pattern.ideals}.items():
         print(f"{name:<9}M2 {orders[0]:.2f}  M4 {orders[1]:.2f}  M6 {orders[2]:.2f}")
     if options.map:
-        with open(options.map, "w") as file:
-            for c in range(pattern.cells):
-                file.write(" ".join(f"{1000 * v:.4f}" for v in pattern.part[c * pattern.cells:(c + 1) * pattern.cells]) + "\n")
+        heights, n = smooth(pattern.part, pattern.cells), pattern.cells
+        rows = (" ".join(f"{1000 * height:.4f}" for height in heights[c * n:(c + 1) * n]) for c in range(n))
+        options.map.write_text("\n".join(rows) + "\n")
 
 
 if __name__ == "__main__":

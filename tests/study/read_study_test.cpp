@@ -122,7 +122,8 @@ TEST(StudyKeys, DocsTellWhatTheReaderKnows) {
 }
 
 TEST(StudyKeys, EveryShippedStudyCanBeRead) {
-    for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes/studies")) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(GRAINREEL_SOURCE "/scenes/studies")) {
         if (entry.path().extension() != ".toml") continue;
         EXPECT_NO_THROW(make_members(read_study(entry.path()), [](const Scene&, const Plan&) {}))
             << entry.path();
