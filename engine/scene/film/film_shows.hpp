@@ -71,7 +71,7 @@ struct FilmPlot {
 // The grains' mean velocity in the y-z plane: an arrow in each cell.
 struct FilmArrows {
     int across = 0;      // cells across the container's width; 0: no arrows
-    double speed = 0;    // m/s, of an arrow as long as a cell is wide
+    double speed = 0;    // m/s; an arrow of this speed spans one cell
     bool period = true;  // over the last period of the drive, else of this moment
     bool operator==(const FilmArrows&) const = default;
 };

@@ -125,7 +125,7 @@ const KeyTable<FilmArrows>& arrow_table() {
             .usually([](A& arrows, const Scene& scene) { arrows.period = scene.drive.present; }),
         quantity("speed", &A::speed, Dimension::speed, positive,
                  note("a diameter in five periods; of now: the drive's, or a fall's at an outlet"),
-                 "Of an arrow as long as a cell is wide.")
+                 "An arrow of this speed spans one cell.")
             .usually(
                 [](A& arrows, const Scene& scene) { arrows.speed = usual_flow_speed(scene, arrows.period); }),
     };
@@ -142,7 +142,7 @@ const KeyTable<FilmStreamlines>& streamline_table() {
             .usually([](S& lines, const Scene& scene) { lines.period = scene.drive.present; }),
         quantity("speed", &S::speed, Dimension::speed, positive,
                  note("a diameter in five periods; of now: the drive's, or a fall's at an outlet"),
-                 "From which on lines have their full width; slower ones are thinner.")
+                 "Lines have their full width at this speed and above; slower ones are thinner.")
             .usually(
                 [](S& lines, const Scene& scene) { lines.speed = usual_flow_speed(scene, lines.period); }),
     };

@@ -53,11 +53,12 @@ TextSize colour_bar_block(const Writer& writer, const Scene& scene, double x, do
     const double widest = std::max(measure_text(tick_text(low, (high - low) / 3), writer.minor()).width,
                                    measure_text(tick_text(high, (high - low) / 3), writer.minor()).width);
     const int most = std::clamp(static_cast<int>(width / (1.5 * widest)), 2, 6);
-    const std::vector<double> ticks = round_ticks(low, high, most);
+    constexpr int finest = 9;
+    const AxisTicks ticks = axis_ticks(low, high, most, finest);
     double deepest = 0;
-    for (const double value : ticks) {
+    for (const double value : ticks.at) {
         const double at = bar.x + (value - low) / (high - low) * (bar.width - 1) + 0.5;
-        const std::string text = tick_text(value, ticks.size() > 1 ? ticks[1] - ticks[0] : std::abs(value));
+        const std::string text = tick_text(value, ticks.distance);
         const TextSize size = measure_text(text, writer.minor());
         const double left = std::clamp(at - 0.5 * size.width, x, std::max(x, x + width - size.width));
         if (writer.on) {
