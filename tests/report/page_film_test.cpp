@@ -105,6 +105,13 @@ TEST_F(PageCopyTest, TheRunsCopyIsTaken) {
     EXPECT_THAT(film.note, HasSubstr("a copy of at most 720 lines"));
 }
 
+TEST_F(PageCopyTest, ACopyThatIsTooLargeIsNotTaken) {
+    copy(FilmFormat::ffv1, 96, 800);
+    const PageFilm film = page_film(scene, here.path(), {}, kNoPageProgress, 100);
+    EXPECT_TRUE(film.bytes.empty());
+    EXPECT_THAT(film.note, HasSubstr("even a smaller copy is too large"));
+}
+
 TEST_F(PageCopyTest, WhereTheFilmWillDoThereIsNone) {
     copy(FilmFormat::mp4, 64, 48);
     EXPECT_FALSE(is_there(kPageCopy));

@@ -108,18 +108,18 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
     film.type = "video/mp4";
     film.note = fmt::format(
         "This is a copy of at most 720 lines, since {}; the film itself lies beside this page.", why);
-    const std::uintmax_t kept = fs::file_size(folder / kPageCopy, error);
-    if (!error && kept > 0 && kept <= most_bytes) {
-        film.bytes = read_bytes(folder / kPageCopy);
-        return film;
-    }
     const auto planned = static_cast<double>(std::max<std::int64_t>(1, frames.value_or(1)));
     std::int64_t copied = 0;
     const auto picture_taken = [&] {
         go_on_or_stop(progress, std::min(1.0, static_cast<double>(++copied) / planned));
     };
+    const std::uintmax_t kept = fs::file_size(folder / kPageCopy, error);
     try {
-        film.bytes = smaller_copy(scene, folder / name, picture_taken);
+        // One that is too large is as large when it is made again.
+        if (error || kept == 0)
+            film.bytes = smaller_copy(scene, folder / name, picture_taken);
+        else if (kept <= most_bytes)
+            film.bytes = read_bytes(folder / kPageCopy);
     } catch (const RunError& problem) {
         film.note = fmt::format(
             "The film is not on this page, since {}, and no copy could be made ({}); it lies "
@@ -127,7 +127,7 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
             why, problem.what());
         return film;
     }
-    if (film.bytes.size() <= most_bytes) return film;
+    if (!film.bytes.empty() && film.bytes.size() <= most_bytes) return film;
     film.bytes.clear();
     film.note = fmt::format(
         "The film is not on this page, since {} and even a smaller copy is too large for it; it "
