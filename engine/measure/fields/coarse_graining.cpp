@@ -33,9 +33,11 @@ std::array<double, contact_width> product_of(const FieldContact& contact) {
     return all;
 }
 
+// Eigen's arrays, for GCC leaves the plain loop in scalars.
 template <std::size_t Width>
 void add_to(double* cell, const std::array<double, Width>& numbers, double weight) {
-    for (std::size_t n = 0; n < Width; ++n) cell[n] += weight * numbers[n];
+    using Numbers = Eigen::Array<double, static_cast<int>(Width), 1>;
+    Eigen::Map<Numbers>(cell) += weight * Eigen::Map<const Numbers>(numbers.data());
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ Footprint::Range Footprint::range_of(std::size_t k, double low, double high) con
     return {floor_of((low - axis.low) * cells), floor_of((high - axis.low) * cells) + 1};
 }
 
-// Clears the values of the cells within the cutoff of a box, and notes what each of them adds to an index of
+// Notes the cells within the cutoff of a box, and what each of them adds to an index of
 // the grid, axis by axis: -1 beyond the grid's edge.
 void Footprint::set_box(const Vec3& low, const Vec3& high) {
     std::int64_t stride = 1;
@@ -50,21 +50,20 @@ void Footprint::set_box(const Vec3& low, const Vec3& high) {
         }
         stride *= grid_.axes[k].count;
     }
-    width_ = box_[along_].end - box_[along_].begin;
-    layer_ = width_ * (box_[across_].end - box_[across_].begin);
-    values_.assign(static_cast<std::size_t>(layer_ * (box_[2].end - box_[2].begin)), 0);
 }
 
-// Adds the kernel about a point, times `share`, to the values of the box, row by row. Of a row, only cells
-// within the cutoff are visited.
-void Footprint::add_kernel(const Vec3& middle, double share) {
-    std::array<Range, 3> near;
+// Calls each(z, other, k, value) for the cells within the cutoff of a point, row by row: indices in the box,
+// and the kernel's value.
+template <class Each>
+void Footprint::each_near(const Vec3& middle, const Each& each) {
+    std::array<std::size_t, 3> first{};
     for (std::size_t k = 0; k < 3; ++k) {
         const double at = middle[static_cast<int>(k)];
         const GridAxis& axis = grid_.axes[k];
-        near[k] = range_of(k, at - kernel_.cutoff(), at + kernel_.cutoff());
+        const Range near = range_of(k, at - kernel_.cutoff(), at + kernel_.cutoff());
+        first[k] = static_cast<std::size_t>(near.begin - box_[k].begin);
         squares_[k].clear();
-        for (std::int64_t cell = near[k].begin; cell < near[k].end; ++cell) {
+        for (std::int64_t cell = near.begin; cell < near.end; ++cell) {
             const double away = axis.resolved ? axis.middle(cell) - at : 0;
             squares_[k].push_back(away * away);
         }
@@ -74,63 +73,68 @@ void Footprint::add_kernel(const Vec3& middle, double share) {
     if (kernel_.is_product())
         for (const double square : squares) factors_.push_back(kernel_.at(square));
     const double cutoff = kernel_.cutoff() * kernel_.cutoff();
-    double* plane = values_.data() + (near[2].begin - box_[2].begin) * layer_ +
-                    (near[across_].begin - box_[across_].begin) * width_ + near[along_].begin -
-                    box_[along_].begin;
-    for (const double square_z : squares_[2]) {
-        double* row = plane;
-        for (const double square : squares_[across_]) {
-            const double away = square_z + square;
+    for (std::size_t z = 0; z < squares_[2].size(); ++z)
+        for (std::size_t other = 0; other < squares_[across_].size(); ++other) {
+            const double away = squares_[2][z] + squares_[across_][other];
             std::size_t begin = 0, end = squares.size();
             while (begin < end && away + squares[begin] >= cutoff) ++begin;
             while (begin < end && away + squares[end - 1] >= cutoff) --end;
-            if (kernel_.is_product()) {
-                const double factor = share * kernel_.at(away);
-                for (std::size_t k = begin; k < end; ++k) row[k] += factor * factors_[k];
-            } else {
-                for (std::size_t k = begin; k < end; ++k) row[k] += share * kernel_.at(away + squares[k]);
-            }
-            row += width_;
+            const double factor = kernel_.at(away);
+            for (std::size_t k = begin; k < end; ++k)
+                each(first[2] + z, first[across_] + other, first[along_] + k,
+                     kernel_.is_product() ? factor * factors_[k] : kernel_.at(away + squares[k]));
         }
-        plane += layer_;
-    }
 }
 
-// The cells of the box that have a value, scaled.
-std::span<const CellWeight> Footprint::collect() {
-    cells_.resize(values_.size());
-    double sum = 0;
-    const double* value = values_.data();
-    const std::int64_t* const offsets = offsets_[along_].data();
-    CellWeight* next = cells_.data();
-    for (const std::int64_t z : offsets_[2])
-        for (const std::int64_t other : offsets_[across_])
-            for (std::int64_t k = 0; k < width_; ++k) {
-                const double here = *value++;
-                if (here <= 0) continue;
-                sum += here;
-                if ((z | other | offsets[k]) >= 0) *next++ = {z + other + offsets[k], here};
-            }
-    const std::span<CellWeight> found{cells_.data(), next};
-    const double scale = 1 / (sum * grid_.cell_volume());
+// Begins the list of cells with a value.
+void Footprint::clear_cells() {
+    cells_.resize(offsets_[0].size() * offsets_[1].size() * offsets_[2].size());
+    found_ = 0;
+    sum_ = 0;
+}
+
+void Footprint::add_cell(std::size_t z, std::size_t other, std::size_t k, double value) {
+    sum_ += value;
+    const std::int64_t at_z = offsets_[2][z], at_other = offsets_[across_][other], at_k = offsets_[along_][k];
+    if ((at_z | at_other | at_k) >= 0) cells_[found_++] = {at_z + at_other + at_k, value};
+}
+
+std::span<const CellWeight> Footprint::scaled() {
+    const std::span<CellWeight> found{cells_.data(), found_};
+    const double scale = 1 / (sum_ * grid_.cell_volume());
     for (CellWeight& cell : found) cell.weight *= scale;
     return found;
 }
 
 std::span<const CellWeight> Footprint::of_point(const Vec3& point) {
     set_box(point, point);
-    add_kernel(point, 1);
-    return collect();
+    clear_cells();
+    each_near(point, [&](std::size_t z, std::size_t other, std::size_t k, double value) {
+        if (value > 0) add_cell(z, other, k, value);
+    });
+    return scaled();
 }
 
 std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& branch) {
     const Vec3 end = begin + branch;
     set_box(begin.cwiseMin(end), begin.cwiseMax(end));
+    const std::size_t width = offsets_[along_].size(), rows = offsets_[across_].size();
+    values_.assign(width * rows * offsets_[2].size(), 0);
     const int stretches =
         std::max(1, static_cast<int>(std::ceil(branch.norm() / (longest_stretch * kernel_.width()))));
-    for (int k = 0; k < stretches; ++k)
-        for (const auto& [at, share] : quadrature) add_kernel(begin + (k + at) / stretches * branch, share);
-    return collect();
+    for (int n = 0; n < stretches; ++n)
+        for (const auto& [at, share] : quadrature)
+            each_near(begin + (n + at) / stretches * branch,
+                      [&, share = share](std::size_t z, std::size_t other, std::size_t k, double value) {
+                          values_[(z * rows + other) * width + k] += share * value;
+                      });
+    clear_cells();
+    const double* value = values_.data();
+    for (std::size_t z = 0; z < offsets_[2].size(); ++z)
+        for (std::size_t other = 0; other < rows; ++other)
+            for (std::size_t k = 0; k < width; ++k, ++value)
+                if (*value > 0) add_cell(z, other, k, *value);
+    return scaled();
 }
 
 }  // namespace grainreel

@@ -38,20 +38,24 @@ class Footprint {
     };
     Range range_of(std::size_t axis, double low, double high) const;
     void set_box(const Vec3& low, const Vec3& high);
-    void add_kernel(const Vec3& middle, double share);
-    std::span<const CellWeight> collect();
+    template <class Each>
+    void each_near(const Vec3& middle, const Each& each);
+    void clear_cells();
+    void add_cell(std::size_t z, std::size_t other, std::size_t k, double value);
+    std::span<const CellWeight> scaled();
 
     const FieldGrid& grid_;
     FieldKernel kernel_;
     // Cells of a row lie side by side: along x, or along y where x is not resolved.
     std::size_t along_, across_;
     std::array<Range, 3> box_{};
-    std::int64_t width_ = 0, layer_ = 0;  // cells of the box in a row, and in a layer of rows
     std::array<std::vector<std::int64_t>, 3> offsets_;
     std::vector<double> values_;                  // of the box, row by row
     std::array<std::vector<double>, 3> squares_;  // m2, distances along an axis
     std::vector<double> factors_;                 // of a kernel that is a product, along a row
-    std::vector<CellWeight> cells_;
+    std::vector<CellWeight> cells_;               // the first found_ of them
+    std::size_t found_ = 0;
+    double sum_ = 0;  // of the values, those of cells beyond the grid's edge counted
 };
 
 }  // namespace grainreel
