@@ -224,6 +224,16 @@ CHECKS = [
         runs=(("run.duration=7 s", DRAFT),),
     ),
     Check(
+        name="wedge_mixture_size",
+        claim="in the sealed wedge size keeps the big grains of a mixture above the small ones: of one size, the roll mixes them",
+        scene="wedge_mixture",
+        control=["species.big.diameter=4.01 mm", "species.big.count=596"],
+        what="height of the grains that began below over the others, 12 to 15 s, over the bed's height",
+        number=lambda run: run.mean("height_difference", 12),
+        least=0.08,
+        runs=(("run.duration=15 s", "run.precision=mixed", DRAFT),),
+    ),
+    Check(
         name="hopper_rate",
         claim="vertical shaking slows the discharge of a wedge hopper (Wassgren et al. 2002)",
         scene="hopper_mixture",
