@@ -1,5 +1,6 @@
 #include "engine/measure/fields/footprint.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainreel {
@@ -52,8 +53,8 @@ void Footprint::set_box(const Vec3& low, const Vec3& high) {
     }
 }
 
-// Calls each(z, other, k, value) for the cells within the cutoff of a point, row by row: indices in the box,
-// and the kernel's value.
+// Calls each(z, other, begin, end, value) for each row of cells within the cutoff of a point: indices in the
+// box, and value(k) is the kernel's value in cell k of the row.
 template <class Each>
 void Footprint::each_near(const Vec3& middle, const Each& each) {
     std::array<std::size_t, 3> first{};
@@ -79,40 +80,44 @@ void Footprint::each_near(const Vec3& middle, const Each& each) {
             std::size_t begin = 0, end = squares.size();
             while (begin < end && away + squares[begin] >= cutoff) ++begin;
             while (begin < end && away + squares[end - 1] >= cutoff) --end;
-            const double factor = kernel_.at(away);
-            for (std::size_t k = begin; k < end; ++k)
-                each(first[2] + z, first[across_] + other, first[along_] + k,
-                     kernel_.is_product() ? factor * factors_[k] : kernel_.at(away + squares[k]));
+            const std::size_t row_z = first[2] + z, row_other = first[across_] + other, shift = first[along_];
+            if (kernel_.is_product()) {
+                const double factor = kernel_.at(away), *const factors = factors_.data();
+                each(row_z, row_other, shift + begin, shift + end,
+                     [=](std::size_t k) { return factor * factors[k - shift]; });
+            } else {
+                each(row_z, row_other, shift + begin, shift + end,
+                     [&](std::size_t k) { return kernel_.at(away + squares[k - shift]); });
+            }
         }
 }
 
-// Begins the list of cells with a value.
-void Footprint::clear_cells() {
-    cells_.resize(offsets_[0].size() * offsets_[1].size() * offsets_[2].size());
-    found_ = 0;
-    sum_ = 0;
-}
-
-void Footprint::add_cell(std::size_t z, std::size_t other, std::size_t k, double value) {
-    sum_ += value;
-    const std::int64_t at_z = offsets_[2][z], at_other = offsets_[across_][other], at_k = offsets_[along_][k];
-    if ((at_z | at_other | at_k) >= 0) cells_[found_++] = {at_z + at_other + at_k, value};
-}
-
-std::span<const CellWeight> Footprint::scaled() {
-    const std::span<CellWeight> found{cells_.data(), found_};
-    const double scale = 1 / (sum_ * grid_.cell_volume());
+// Lists the cells of rows that have a value, and scales these. rows(add) calls add(z, other, begin, end,
+// value) as each_near() does.
+template <class Rows>
+std::span<const CellWeight> Footprint::listed(const Rows& rows) {
+    cells_.resize(std::max(cells_.size(), offsets_[0].size() * offsets_[1].size() * offsets_[2].size()));
+    const std::int64_t* const offsets = offsets_[along_].data();
+    CellWeight* next = cells_.data();
+    double sum = 0;
+    rows([&](std::size_t z, std::size_t other, std::size_t begin, std::size_t end, const auto& value) {
+        const std::int64_t at_z = offsets_[2][z], at_other = offsets_[across_][other];
+        for (std::size_t k = begin; k < end; ++k) {
+            const double here = value(k);
+            if (here <= 0) continue;
+            sum += here;
+            if ((at_z | at_other | offsets[k]) >= 0) *next++ = {at_z + at_other + offsets[k], here};
+        }
+    });
+    const std::span<CellWeight> found{cells_.data(), next};
+    const double scale = 1 / (sum * grid_.cell_volume());
     for (CellWeight& cell : found) cell.weight *= scale;
     return found;
 }
 
 std::span<const CellWeight> Footprint::of_point(const Vec3& point) {
     set_box(point, point);
-    clear_cells();
-    each_near(point, [&](std::size_t z, std::size_t other, std::size_t k, double value) {
-        if (value > 0) add_cell(z, other, k, value);
-    });
-    return scaled();
+    return listed([&](const auto& add) { each_near(point, add); });
 }
 
 std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& branch) {
@@ -125,16 +130,18 @@ std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& br
     for (int n = 0; n < stretches; ++n)
         for (const auto& [at, share] : quadrature)
             each_near(begin + (n + at) / stretches * branch,
-                      [&, share = share](std::size_t z, std::size_t other, std::size_t k, double value) {
-                          values_[(z * rows + other) * width + k] += share * value;
+                      [&, share = share](std::size_t z, std::size_t other, std::size_t first,
+                                         std::size_t last, const auto& value) {
+                          double* const row = values_.data() + (z * rows + other) * width;
+                          for (std::size_t k = first; k < last; ++k) row[k] += share * value(k);
                       });
-    clear_cells();
-    const double* value = values_.data();
-    for (std::size_t z = 0; z < offsets_[2].size(); ++z)
-        for (std::size_t other = 0; other < rows; ++other)
-            for (std::size_t k = 0; k < width; ++k, ++value)
-                if (*value > 0) add_cell(z, other, k, *value);
-    return scaled();
+    return listed([&](const auto& add) {
+        for (std::size_t z = 0; z < offsets_[2].size(); ++z)
+            for (std::size_t other = 0; other < rows; ++other) {
+                const double* const row = values_.data() + (z * rows + other) * width;
+                add(z, other, 0, width, [row](std::size_t k) { return row[k]; });
+            }
+    });
 }
 
 }  // namespace grainreel

@@ -40,9 +40,8 @@ class Footprint {
     void set_box(const Vec3& low, const Vec3& high);
     template <class Each>
     void each_near(const Vec3& middle, const Each& each);
-    void clear_cells();
-    void add_cell(std::size_t z, std::size_t other, std::size_t k, double value);
-    std::span<const CellWeight> scaled();
+    template <class Rows>
+    std::span<const CellWeight> listed(const Rows& rows);
 
     const FieldGrid& grid_;
     FieldKernel kernel_;
@@ -53,9 +52,7 @@ class Footprint {
     std::vector<double> values_;                  // of the box, row by row
     std::array<std::vector<double>, 3> squares_;  // m2, distances along an axis
     std::vector<double> factors_;                 // of a kernel that is a product, along a row
-    std::vector<CellWeight> cells_;               // the first found_ of them
-    std::size_t found_ = 0;
-    double sum_ = 0;  // of the values, those of cells beyond the grid's edge counted
+    std::vector<CellWeight> cells_;
 };
 
 }  // namespace grainreel
