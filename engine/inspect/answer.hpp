@@ -45,6 +45,8 @@ struct Answer {
     std::vector<AnswerTable> tables;
     std::vector<std::string> notes;  // sentences
     std::optional<AnswerMoment> moment{};
+    // Ids of all grains of the answer, where the tables list only some of them.
+    std::optional<std::vector<std::int32_t>> grains{};
 };
 
 }  // namespace grainreel

@@ -83,6 +83,8 @@ Answer where_answer(const Snapshot& s, const std::string& condition, std::size_t
     const Expression wanted(condition, GrainVocabulary(s));
     const std::vector<std::size_t> found = grains_where(s, wanted);
     Answer answer{{counts_table(s, found)}, {}};
+    answer.grains.emplace();
+    for (const std::size_t i : found) answer.grains->push_back(s.frame.id[i]);
     if (found.empty()) return answer;
     answer.tables.push_back(statistics_table(s, found, wanted.columns()));
     if (most > 0) answer.tables.push_back(list_table(s, found, most));

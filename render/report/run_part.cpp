@@ -85,9 +85,12 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         BedContacts contacts;
         contacts.touches = [&all](std::size_t index) { return all.touches(index); };
         contacts.keys = key_moments_of(all);
+        bed_news_ = all.news();
         bed_ = bed_frames(all, most_bytes, progress, contacts);
-    } catch (const UserError&) {
+    } catch (const UserError& problem) {
         // A frame beside the trajectory is damaged: the trajectory does without it.
+        bed_news_.push_back(
+            fmt::format("{}; the page has the moments of trajectory.nc alone", problem.what()));
         bed_ = bed_frames(*run_.run, most_bytes, progress);
     }
 }
@@ -124,7 +127,7 @@ std::string RunPart::film(bool beside) const {
 }
 
 std::string RunPart::bed() const {
-    if (!run_.run) return "<p>The run kept no moment of its grains, so there is no bed to turn.</p>\n";
+    if (!run_.run) return fmt::format("<p>{}, so there is no bed to turn.</p>\n", no_moments());
     return filled(page_files().bed, {{"about", bed_about(bed_, scene())}, {"n", n_}});
 }
 
@@ -170,9 +173,20 @@ std::string RunPart::late_blobs() const {
     return late_blobs_;
 }
 
+// Why there is no trajectory.
+std::string RunPart::no_moments() const {
+    if (record_.trajectory_frames > 0)
+        return "The trajectory.nc that the run wrote is no longer in its folder";
+    return "The run kept no moment of its grains";
+}
+
 std::vector<std::string> RunPart::news() const {
     std::vector<std::string> news;
-    if (run_.run) news = run_.run->news();
+    if (run_.run)
+        news = run_.run->news();
+    else if (record_.trajectory_frames > 0)
+        news.push_back(no_moments() + "; the page has no bed");
+    news.insert(news.end(), bed_news_.begin(), bed_news_.end());
     for (const std::string& note : {film_.note, times_.why_not})
         if (!note.empty()) news.push_back(note);
     if (bed_.moments.size() < bed_.all_moments)

@@ -49,6 +49,7 @@ class RunPart {
 
   private:
     FilmTimes film_times_of() const;
+    std::string no_moments() const;
     Span kept_span() const;  // of moments and measures
 
     const PageRun& run_;
@@ -61,6 +62,7 @@ class RunPart {
     std::vector<std::uint8_t> poster_;
     FilmTimes times_;
     BedFrames bed_;
+    std::vector<std::string> bed_news_;
     PageFields fields_;
     std::string lead_, late_blobs_;
     bool whole_table_ = false;

@@ -126,17 +126,29 @@ void RunFiles::keep_key_moments() {
     key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_);
 }
 
-void RunFiles::keep_key_moments_from(std::int64_t step) {
-    if (!is_there(folder_ / kKeyMoments) || !is_there(folder_ / kKeyContacts)) return;
-    const std::vector<std::int64_t> steps = steps_in_trajectory(folder_ / kKeyMoments);
+std::string RunFiles::keep_key_moments_from(std::int64_t step) {
+    const std::filesystem::path moments = folder_ / kKeyMoments, contacts = folder_ / kKeyContacts;
+    if (!is_there(moments) && !is_there(contacts)) return "";  // of a run without a page
+    for (const auto& file : {moments, contacts})
+        if (!is_there(file)) return fmt::format("{} is not there", file.string());
+    std::string damage;
+    try {
+        const TrajectoryReader whole(moments);
+        const ContactsReader whole_too(contacts);
+    } catch (const UserError& problem) {
+        damage = problem.what();
+    }
+    const std::vector<std::int64_t> steps = steps_in_trajectory(moments);
     const auto frames =
         static_cast<std::size_t>(std::lower_bound(steps.begin(), steps.end(), step) - steps.begin());
     try {
-        key_moments_.emplace(folder_ / kKeyMoments, info_, frames);
-        key_contacts_.emplace(folder_ / kKeyContacts, frames);
-    } catch (const UserError&) {
-        key_moments_.reset();  // damaged; the run does without
+        key_moments_.emplace(moments, info_, frames);
+        key_contacts_.emplace(contacts, frames);
+    } catch (const UserError& problem) {
+        key_moments_.reset();  // the run does without
+        damage = problem.what();
     }
+    return damage;
 }
 
 void RunFiles::add_key_moment(const Frame& frame, const Contacts& contacts) {

@@ -48,8 +48,9 @@ class RunFiles {
     void add_film_moment(const Frame& frame) { film_moments_->write(frame); }
     // From now on: key moments with their contacts.
     void keep_key_moments();
-    // Behind those before a step, where the run has kept some.
-    void keep_key_moments_from(std::int64_t step);
+    // Behind those before a step, where the run has kept some. Returns what is wrong with them; "" where
+    // nothing is.
+    std::string keep_key_moments_from(std::int64_t step);
     bool keeps_key_moments() const { return key_moments_.has_value(); }
     void add_key_moment(const Frame& frame, const Contacts& contacts);
     void add_measures(const Measures& measures);

@@ -142,7 +142,9 @@ void SceneRun::open_files(const std::vector<Shot>& shots) {
         return;
     }
     files_.emplace(RunFiles::GoesOn(), folder, scene_, plan_, simulation_, program_version_);
-    files_->keep_key_moments_from(simulation_.step());
+    if (const std::string damage = files_->keep_key_moments_from(simulation_.step()); !damage.empty())
+        news_.push_back(fmt::format("{}; the run's page may lack forces of moments before {:.4g} s", damage,
+                                    plan_.clock.time(simulation_.step())));
     std::error_code ignored;
     if (shots.empty() || !std::filesystem::exists(folder / kFilmMoments, ignored)) return;
     files_->keep_film_moments(pictures_kept_);
@@ -184,7 +186,12 @@ std::optional<Taken> SceneRun::waiting() {
 }
 
 std::vector<std::string> SceneRun::news() const {
-    return bed_periods_ ? bed_periods_->news() : std::vector<std::string>{};
+    std::vector<std::string> news = news_;
+    if (bed_periods_) {
+        const std::vector<std::string> of_bed = bed_periods_->news();
+        news.insert(news.end(), of_bed.begin(), of_bed.end());
+    }
+    return news;
 }
 
 void SceneRun::leave_out_pictures(Stop& stop) {

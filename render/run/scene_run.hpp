@@ -108,6 +108,7 @@ class SceneRun final : public FrameSource {
     std::optional<EarlierPictures> earlier_;
     std::optional<RunFiles> files_;
     std::optional<Agenda> agenda_;
+    std::vector<std::string> news_;  // of what is found when it starts
     std::optional<BedPeriods> bed_periods_;
     std::vector<FilmSegment> segments_;  // of the film
     std::optional<PictureParts> parts_;

@@ -150,7 +150,18 @@ TEST_F(PageFilmTest, ADamagedFilmIsLinkedAndSaidSo) {
     const PageFilm film = page_film(scene, here.path());
     EXPECT_TRUE(film.bytes.empty());
     EXPECT_EQ(film.file, "movie.mkv");
-    EXPECT_THAT(film.note, HasSubstr("no copy could be made"));
+    EXPECT_THAT(film.note, HasSubstr("movie.mkv is damaged"));
+}
+
+TEST_F(PageFilmTest, AFilmThatWasCutOffIsNotTaken) {
+    make_film(FilmFormat::mp4, 64, 48);
+    EXPECT_EQ(pictures_in(here / "movie.mp4"), 6);
+    EXPECT_EQ(page_film(scene, here.path(), 6).note, "");
+    const PageFilm film = page_film(scene, here.path(), 7);
+    EXPECT_TRUE(film.bytes.empty());
+    EXPECT_THAT(film.note, HasSubstr("6 of the 7 pictures"));
+    std::filesystem::remove(here / "movie.mp4");
+    EXPECT_THAT(page_film(scene, here.path(), 6).note, HasSubstr("no longer in the run's folder"));
 }
 
 TEST_F(PageFilmTest, ThePosterIsAJpegOfAtMost960Pixels) {

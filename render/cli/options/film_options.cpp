@@ -36,6 +36,10 @@ void add_gl(CLI::App& verb, gl::Provider& provider) {
         ->type_name("WHICH");
 }
 
+CLI::Validator not_empty() {
+    return CLI::Validator([](std::string& text) { return text.empty() ? "is empty; give a name" : ""; }, "");
+}
+
 void check_typed(const std::string& option, const std::string& text) {
     if (const std::string wrong = complaint_of_utf8(text); !wrong.empty())
         throw UserError(fmt::format("{}: {}; type it in a UTF-8 terminal", option, wrong));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 
 #include "engine/scene/text/assignment.hpp"
 #include "render/cli/report/reporter.hpp"
@@ -22,6 +23,9 @@ inline constexpr const char* exit_statuses =
 
 // Throws UserError when what was typed after an option is not UTF-8.
 void check_typed(const std::string& option, const std::string& text);
+
+// What an option needs that names a file: an unset variable of a shell is no name.
+CLI::Validator not_empty();
 
 // --set, of values that are to take the place of others.
 void add_sets(CLI::App& verb, Assignments& sets, const char* about);

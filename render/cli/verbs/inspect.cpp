@@ -97,6 +97,7 @@ class Inspect final : public Verb {
                         "Draw the moment too, with the answer ringed and all else pale; with --grain and "
                         "--wall the forces on it as arrows")
             ->type_name("FILE")
+            ->check(not_empty())
             ->excludes(average);
         add_gl(parser, gl_);
         add_sets(parser, sets_,
@@ -180,7 +181,11 @@ class Inspect final : public Verb {
 
     // A question about forces gets arrows.
     AnswerMarks marks_of(const Snapshot& snapshot, const Answer& answer) const {
-        if (!grain_ && !wall_) return {grains_in(answer), {}, "", true};
+        if (!grain_ && !wall_) {
+            const std::string count =
+                where_ ? fmt::format("{} of {} grains", answer.grains->size(), snapshot.frame.size()) : "";
+            return {grains_in(answer), {}, count, true};
+        }
         const AnswerForces all =
             grain_ ? forces_on_grain(snapshot, *grain_) : forces_on_wall(snapshot, *wall_);
         return {all.grains, all.forces, all.words, !snapshot.forces};

@@ -40,7 +40,8 @@ class Report final : public Verb {
         parser
             .add_option("--out", out_,
                         "The page's file [report.html in RUN; of several runs side_by_side.html]")
-            ->type_name("FILE");
+            ->type_name("FILE")
+            ->check(not_empty());
         add_reporting(parser, report);
     }
 

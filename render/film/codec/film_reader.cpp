@@ -40,6 +40,24 @@ bool FilmReader::feed() {
     return true;
 }
 
+std::int64_t pictures_in(const std::filesystem::path& film) {
+    const auto check = [&](int code) {
+        if (code < 0)
+            throw RunError(fmt::format("{}: cannot be read back: {}", film.string(), ffmpeg_error(code)));
+    };
+    AVFormatContext* context = nullptr;
+    check(avformat_open_input(&context, ffmpeg_url(film).c_str(), nullptr, nullptr));
+    const InputPtr file(context);
+    const PacketPtr packet(av_packet_alloc());
+    check(packet ? 0 : AVERROR(ENOMEM));
+    std::int64_t count = 0;
+    while (av_read_frame(context, packet.get()) >= 0) {
+        count += packet->stream_index == 0 && (packet->flags & AV_PKT_FLAG_CORRUPT) == 0;
+        av_packet_unref(packet.get());
+    }
+    return count;
+}
+
 void FilmReader::check(int code) const {
     if (code < 0)
         throw RunError(fmt::format("{}: cannot be read back: {}", path_.string(), ffmpeg_error(code)));

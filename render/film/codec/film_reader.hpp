@@ -1,6 +1,7 @@
 // Frames of a film file, one after another, as its decoder gives them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "render/film/codec/ffmpeg_handles.hpp"
@@ -27,5 +28,8 @@ class FilmReader {
     PacketPtr packet_;
     AvFramePtr frame_;
 };
+
+// Pictures that are whole in a film, without decoding them. Throws RunError when the file is no film.
+std::int64_t pictures_in(const std::filesystem::path& film);
 
 }  // namespace grainreel

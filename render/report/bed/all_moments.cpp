@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "engine/base/error.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "render/run/frames/same_run.hpp"
@@ -28,15 +30,17 @@ AllMoments::AllMoments(const RecordedRun& run, bool with_contacts)
     const fs::path film = run.folder() / kFilmMoments, keys = run.folder() / kKeyMoments;
     try {
         if (is_there(film)) merge(film_.emplace(film), &Place::film, film.string());
-    } catch (const UserError&) {
+    } catch (const UserError& problem) {
         film_.reset();
+        news_.push_back(fmt::format("{}; its moments are not on the page", problem.what()));
     }
     try {
         if (!is_there(keys)) return;
         key_contacts_.emplace(run.folder() / kKeyContacts);
         merge(keys_.emplace(keys), &Place::key, keys.string());
-    } catch (const UserError&) {
+    } catch (const UserError& problem) {
         keys_.reset();
+        news_.push_back(fmt::format("{}; the forces of key moments are not on the page", problem.what()));
     }
 }
 

@@ -28,6 +28,8 @@ class AllMoments final : public FrameArchive {
     std::optional<std::vector<Touch>> touches(std::size_t index) const;
     bool has_touches(std::size_t index) const;
     bool is_key(std::size_t index) const { return places_[index].key.has_value(); }
+    // Sentences about files beside the trajectory that are damaged; their moments are left out.
+    const std::vector<std::string>& news() const { return news_; }
 
   private:
     struct Place {  // in each of the files that has the moment
@@ -41,6 +43,7 @@ class AllMoments final : public FrameArchive {
     std::optional<ContactsReader> key_contacts_;
     std::vector<Frame> moments_;
     std::vector<Place> places_;  // of each
+    std::vector<std::string> news_;
 };
 
 }  // namespace grainreel

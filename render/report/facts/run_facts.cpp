@@ -54,6 +54,8 @@ RunFacts run_facts(const std::filesystem::path& folder) {
     facts.state_hash = text({"engine", "state_hash"});
     const Json* frames = member(record, {"written", "film_frames"});
     if (frames != nullptr && frames->is_number_integer()) facts.film_frames = frames->get<std::int64_t>();
+    const Json* kept = member(record, {"written", "trajectory_frames"});
+    if (kept != nullptr && kept->is_number_integer()) facts.trajectory_frames = kept->get<std::int64_t>();
     const auto line = [&](const char* name, const std::string& words) {
         if (!words.empty()) facts.lines.emplace_back(name, words);
     };

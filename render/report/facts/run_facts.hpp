@@ -19,6 +19,7 @@ struct RunFacts {
     std::string finished;                                    // UTC, ISO 8601; or when it started
     std::string state_hash;
     std::optional<std::int64_t> film_frames;
+    std::int64_t trajectory_frames = 0;
     std::vector<std::string> warnings;
 };
 

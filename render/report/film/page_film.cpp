@@ -81,6 +81,19 @@ std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film,
     return read_bytes(settings.path);
 }
 
+// Why the file is not the film that the run wrote; "" where it is. frames: that were written, where known.
+std::string damage_of(const fs::path& film, std::optional<std::int64_t> frames) {
+    try {
+        const std::int64_t whole = pictures_in(film);
+        if (whole == 0) return "it holds no picture";
+        if (frames && whole < *frames)
+            return fmt::format("{} of the {} pictures that the run wrote are in it", whole, *frames);
+        return "";
+    } catch (const RunError& problem) {
+        return problem.what();
+    }
+}
+
 std::string size_text(std::size_t bytes) {
     return data_size_text(static_cast<double>(bytes));
 }
@@ -96,8 +109,17 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
     const std::string name = std::string("movie.") + codec.extension;
     std::error_code error;
     const auto size = static_cast<std::size_t>(fs::file_size(folder / name, error));
-    if (error || size == 0) return film;
+    if (error || size == 0) {
+        if (frames.value_or(0) > 0)
+            film.note =
+                fmt::format("The film is not on this page, since {} is no longer in the run's folder.", name);
+        return film;
+    }
     film.file = name;
+    if (const std::string damage = damage_of(folder / name, frames); !damage.empty()) {
+        film.note = fmt::format("The film is not on this page, since {} is damaged ({}).", name, damage);
+        return film;
+    }
     film.type = type_of(scene.film.format);
     if (!film.type.empty() && size <= most_bytes) {
         film.bytes = read_bytes(folder / name);

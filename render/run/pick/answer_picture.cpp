@@ -56,7 +56,7 @@ Scene scene_of_moment(const Snapshot& snapshot, const AnswerMarks& marks) {
 }  // namespace
 
 std::vector<std::int32_t> grains_in(const Answer& answer) {
-    std::vector<std::int32_t> ids;
+    std::vector<std::int32_t> ids = answer.grains.value_or(std::vector<std::int32_t>{});
     for (const AnswerTable& table : answer.tables)
         for (std::size_t k = 0; k < table.columns.size(); ++k) {
             const std::string& name = table.columns[k].name;

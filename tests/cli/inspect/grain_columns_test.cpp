@@ -8,11 +8,13 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/inspect/questions.hpp"
 #include "engine/scene/film/grain_values.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "render/draw/grains/quantities.hpp"
 #include "render/run/moments/displacement.hpp"
 #include "render/run/pick/answer_forces.hpp"
+#include "render/run/pick/answer_picture.hpp"
 
 namespace grainreel {
 namespace {
@@ -210,6 +212,13 @@ TEST(AnswerForces, OfAWallAreThoseOnTheWall) {
     EXPECT_THAT(answer.words, HasSubstr("forces on " + name + "\n1 contact\n"));
     EXPECT_THAT(forces_on_wall(cube.snapshot, "floor").words, HasSubstr("no grain touches floor"));
     EXPECT_THROW(forces_on_wall(cube.snapshot, "roof"), UserError);
+}
+
+TEST(GrainColumns, ThePictureRingsGrainsThatTheListLeavesOut) {
+    const Cube cube;
+    const Answer answer = where_answer(cube.snapshot, "species == small", 3);
+    ASSERT_EQ(answer.tables.back().rows.size(), 3u);
+    EXPECT_EQ(grains_in(answer).size(), 124u);
 }
 
 }  // namespace

@@ -540,6 +540,7 @@ TEST_F(InspectedMoment, ThePictureIsDrawnOnce) {
     EXPECT_THAT(refusal({"--grain", "12", "--png", "grain.png"}),
                 HasSubstr("--png grain.png: exists already"));
     EXPECT_THAT(refusal({"--grain", "12", "--png", "grain.jpg"}), HasSubstr("ends in .png"));
+    EXPECT_THAT(refusal({"--grain", "12", "--png", ""}), HasSubstr("--png: is empty"));
 }
 
 }  // namespace

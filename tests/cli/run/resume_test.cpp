@@ -93,6 +93,15 @@ const std::vector<std::string> with_all = {"--duration", "1.5 s",
                                            "--set",      "film.segment=[{playback=5}]",
                                            "--frames"};
 
+TEST_F(ResumedRun, DamagedKeyMomentsAreSaid) {
+    ASSERT_EQ(run(movie("run", {})).status, 0);
+    fs::resize_file(here / "run" / "key_moments.nc", fs::file_size(here / "run" / "key_moments.nc") / 2);
+    const Ended ended = run({"resume", "run", "--for", "0.1 s"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("key_moments.nc: was cut off"));
+    EXPECT_THAT(ended.err, HasSubstr("may lack forces of moments before"));
+}
+
 TEST_F(ResumedRun, AKilledOneEndsAsIfItHadNotBeen) {
     ASSERT_EQ(run(movie("whole", with_all)).status, 0);
     kill_at(9, with_all);
