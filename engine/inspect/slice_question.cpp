@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/inspect/grain_list.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/scene/text/units.hpp"
 
@@ -59,22 +60,10 @@ Answer slice_answer(const Snapshot& s, const std::string& plane, std::size_t mos
         if (all > 0) share = area[k] / all;
         areas.rows.push_back({s.scene.species[k].name, count[k], share});
     }
-    AnswerTable list{"grains",
-                     found.size() > most ? fmt::format("The first {} of them", most) : "All of them",
-                     {{"id", Dimension::number, ""},
-                      {"species", Dimension::number, ""},
-                      {"x", Dimension::length, ""},
-                      {"y", Dimension::length, ""},
-                      {"z", Dimension::length, ""},
-                      {"circle_radius", Dimension::length, "of its circle in the plane"}},
-                     {}};
-    for (std::size_t k = 0; k < std::min(most, found.size()); ++k) {
-        const std::size_t i = found[k];
-        const Vec3& at = s.frame.position[i];
-        list.rows.push_back({static_cast<std::int64_t>(s.frame.id[i]), name_of_body(s, s.frame.id[i]), at.x(),
-                             at.y(), at.z(), circle(i)});
-    }
-    return {{std::move(areas), std::move(list)}, {}};
+    Answer answer{{std::move(areas)}, {}};
+    add_grain_list(answer, s, found, most,
+                   {{{"circle_radius", Dimension::length, "of its circle in the plane"}, circle}});
+    return answer;
 }
 
 }  // namespace grainreel

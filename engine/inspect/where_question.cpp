@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/inspect/columns/grain_columns.hpp"
+#include "engine/inspect/grain_list.hpp"
 #include "engine/inspect/questions.hpp"
 #include "engine/inspect/statistics.hpp"
 
@@ -56,38 +57,18 @@ AnswerTable statistics_table(const Snapshot& s, const std::vector<std::size_t>& 
     return table;
 }
 
-AnswerTable list_table(const Snapshot& s, const std::vector<std::size_t>& found, std::size_t most) {
-    AnswerTable table{"grains",
-                      found.size() > most ? fmt::format("The first {} of them", most) : "All of them",
-                      {{"id", Dimension::number, ""},
-                       {"species", Dimension::number, ""},
-                       {"x", Dimension::length, ""},
-                       {"y", Dimension::length, ""},
-                       {"z", Dimension::length, ""},
-                       {"height", Dimension::length, ""},
-                       {"speed", Dimension::speed, ""},
-                       {"vz", Dimension::speed, ""}},
-                      {}};
-    for (std::size_t k = 0; k < std::min(most, found.size()); ++k) {
-        const std::size_t i = found[k];
-        const Vec3 &at = s.frame.position[i], &v = s.frame.velocity[i];
-        table.rows.push_back({static_cast<std::int64_t>(s.frame.id[i]), name_of_body(s, s.frame.id[i]),
-                              at.x(), at.y(), at.z(), s.height(i), v.norm(), v.z()});
-    }
-    return table;
-}
-
 }  // namespace
 
 Answer where_answer(const Snapshot& s, const std::string& condition, std::size_t most) {
     const Expression wanted(condition, GrainVocabulary(s));
     const std::vector<std::size_t> found = grains_where(s, wanted);
     Answer answer{{counts_table(s, found)}, {}};
-    answer.grains.emplace();
-    for (const std::size_t i : found) answer.grains->push_back(s.frame.id[i]);
-    if (found.empty()) return answer;
-    answer.tables.push_back(statistics_table(s, found, wanted.columns()));
-    if (most > 0) answer.tables.push_back(list_table(s, found, most));
+    if (!found.empty()) answer.tables.push_back(statistics_table(s, found, wanted.columns()));
+    add_grain_list(
+        answer, s, found, found.empty() ? 0 : most,
+        {{{"height", Dimension::length, ""}, [&](std::size_t i) { return s.height(i); }},
+         {{"speed", Dimension::speed, ""}, [&](std::size_t i) { return s.frame.velocity[i].norm(); }},
+         {{"vz", Dimension::speed, ""}, [&](std::size_t i) { return s.frame.velocity[i].z(); }}});
     return answer;
 }
 

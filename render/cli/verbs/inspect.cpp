@@ -183,7 +183,8 @@ class Inspect final : public Verb {
     AnswerMarks marks_of(const Snapshot& snapshot, const Answer& answer) const {
         if (!grain_ && !wall_) {
             const std::string count =
-                where_ ? fmt::format("{} of {} grains", answer.grains->size(), snapshot.frame.size()) : "";
+                answer.grains ? fmt::format("{} of {} grains", answer.grains->size(), snapshot.frame.size())
+                              : "";
             return {grains_in(answer), {}, count, true};
         }
         const AnswerForces all =

@@ -219,6 +219,7 @@ TEST(GrainColumns, ThePictureRingsGrainsThatTheListLeavesOut) {
     const Answer answer = where_answer(cube.snapshot, "species == small", 3);
     ASSERT_EQ(answer.tables.back().rows.size(), 3u);
     EXPECT_EQ(grains_in(answer).size(), 124u);
+    EXPECT_EQ(grains_in(slice_answer(cube.snapshot, "z = 2 mm", 3)).size(), 25u);
 }
 
 }  // namespace
