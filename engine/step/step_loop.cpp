@@ -61,7 +61,7 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
 
         mine.walls.set(around_.faces, at.before, at.now, at.since);
         if (mine.walls.tally) mine.tally.begin_evaluation(at.acts / step);
-        const Told all = exchange(member, leaves);
+        const Told all = exchange(member, {kicks, first}, leaves);
         mine.clock.lap(Cost::other);
         lists_.renew(member, all.fastest, all.parted, at, step, kicks.frame);
         mine.clock.lap(Cost::neighbours);
@@ -125,15 +125,16 @@ void StepLoop::copy_foreign(int member) {
 // Exchanges grains with the other threads, once a step, and what the threads tell each other. This is the
 // only place in a step where threads wait for each other, unless lists are made. Returns what all have told:
 // the same on every thread.
-StepLoop::Told StepLoop::exchange(int member, bool may_leave) {
+StepLoop::Told StepLoop::exchange(int member, const FreeFlight& flight, bool may_leave) {
     Member& mine = members_[member];
     ThreadContacts& contacts = lists_.contacts(member);
     mine.box = 1 - mine.box;
     mine.told[mine.box] = {mine.fastest, contacts.parted(), may_leave};
+    const Loaded* const loaded = scheme_.corrects ? nullptr : &contacts.loaded;
     for (int other = 0; other < team_.size(); ++other)
-        if (other != member) lists_.contacts(other).halo.put(grains_, member, mine.box);
+        if (other != member) lists_.contacts(other).halo.put(grains_, loaded, member, mine.box);
     team_.barrier(member);
-    contacts.halo.get(grains_, mine.box);
+    contacts.halo.get(grains_, mine.box, flight);
     Told all;
     for (const Member& m : members_) {
         all.fastest = all.fastest.cwiseMax(m.told[mine.box].fastest);

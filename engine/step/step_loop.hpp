@@ -115,7 +115,7 @@ class StepLoop {
     void run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks);
     void set_kicks(const Evaluations& evaluations, const Evaluation& at, double step, KickInput& kicks) const;
     void move(int member, bool first, const KickInput& kicks);
-    Told exchange(int member, bool may_leave);
+    Told exchange(int member, const FreeFlight& flight, bool may_leave);
     void send_ahead(int member, bool goes_on, const KickInput& kicks);
     void end_run(int member, double step, KickInput kicks);
     void copy_foreign(int member);

@@ -19,6 +19,7 @@ struct Numbers {
     double *place, *motion, *load;
     float* rounded;
     const Loaded* loaded;
+    const std::uint64_t otherwise;
     bool large;
     Numbers(Grains& g, const KickInput& in)
         : place(reinterpret_cast<double*>(g.place.data())),
@@ -26,11 +27,12 @@ struct Numbers {
           load(reinterpret_cast<double*>(g.load.data())),
           rounded(g.rounded.empty() ? nullptr : reinterpret_cast<float*>(g.rounded.data())),
           loaded(in.loaded && in.loaded->few() ? in.loaded : nullptr),
+          otherwise(in.unloaded ? 0 : ~std::uint64_t{0}),
           large(g.size() >= kLargeBed) {}
 
     // Bit k says whether grain i + k may have a load.
     HWY_INLINE std::uint64_t loads_from(std::ptrdiff_t i) const {
-        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : ~std::uint64_t{0};
+        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : otherwise;
     }
 
     // Fetches kTogether grains that lie some way ahead of grain i. `loads` are the bits of loads_from(i). In
@@ -207,6 +209,14 @@ Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std
     if (in.closing_drift != 0) turn(grains, in, in.closing_drift, begin, end);
     turn(grains, in, in.drift, begin, end);
     return fastest;
+}
+
+void fly(Grains& grains, const FreeFlight& flight, std::int32_t begin, std::int32_t end) {
+    KickInput kicks = flight.kicks;
+    kicks.unloaded = true;
+    kicks.loaded = nullptr;
+    flight.begins ? HWY_DYNAMIC_DISPATCH(first_half)(grains, kicks, begin, end)
+                  : HWY_DYNAMIC_DISPATCH(both_halves)(grains, kicks, begin, end);
 }
 
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {

@@ -19,6 +19,7 @@ struct KickInput {
     double closing_drift = 0;  // s, length of the drift that ends a step, where the next one begins at once
     double drift = 0;          // s, length of the drift that begins a step
     const Loaded* loaded = nullptr;  // grains that may have a load; nullptr: all may
+    bool unloaded = false;           // true: no grain has a load
 };
 
 // Loads are skipped where this many grains in a row have none. A choice for every single grain would be
@@ -34,6 +35,13 @@ void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t 
 
 // Ends one step and begins the next in one pass. The bits are the same as with kick() and kick_and_drift().
 Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// Moves grains that have no load. Neither loads nor orientations nor speeds are needed for that.
+struct FreeFlight {
+    const KickInput& kicks;
+    bool begins;  // true: as kick_and_drift() does; false: as kick_and_go_on() does
+};
+void fly(Grains& grains, const FreeFlight& flight, std::int32_t begin, std::int32_t end);
 
 // A drift of the length `in.drift` without a kick. The loads stay.
 void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);

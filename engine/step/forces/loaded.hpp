@@ -1,5 +1,6 @@
 // Marks those of a thread's grains that have contacts. Only these can get a load before the lists are made
-// again. The load of any other grain is zero and stays zero, so it is neither read nor cleared.
+// again. The load of any other grain is zero and stays zero, so it is neither read nor cleared. Another
+// thread can compute the flight of such a grain as well as its owner can.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,7 @@ class Loaded {
         count_ += (words_[at / 64] & bit) == 0;
         words_[at / 64] |= bit;
     }
+    bool has(std::int32_t grain) const { return from(grain) & 1; }
     // Whether so few grains are marked that it pays to treat the others apart: a quarter or less.
     bool few() const { return count_ <= (end_ - begin_) / 4; }
     // The bits of 64 grains from `grain` on. It must be one of the thread's own grains.

@@ -1,6 +1,7 @@
 #include "engine/step/threads/halo.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <numeric>
 
@@ -18,8 +19,22 @@ int numbers_of(const Grains& grains) {
     return kPosition + (grains.rounded.empty() ? kDoubles : kFloats);
 }
 constexpr int kMostNumbers = kPosition + 6;
+constexpr int kBits = 64;  // of a word
+constexpr std::int32_t words_for(std::int32_t count) {
+    return (count + kBits - 1) / kBits;
+}
 constexpr std::int32_t lines_for(std::int32_t count) {
-    return (count * kMostNumbers + 7) / 8;
+    return (words_for(count) + count * kMostNumbers + 7) / 8;
+}
+
+bool all_come(const double* words, std::int32_t count) {
+    std::int32_t come = 0;
+    for (std::int32_t w = 0; w < words_for(count); ++w) {
+        std::uint64_t word;
+        std::memcpy(&word, words + w, sizeof word);
+        come += std::popcount(word);
+    }
+    return come == count;
 }
 
 void set_copy(Grains& grains, std::int32_t copy, const double* from) {
@@ -98,31 +113,50 @@ void Halo::copy(Grains& grains) const {
 
 // Before a line is written, this processor must fetch it from the reader's cache. Asking for the line ahead
 // makes this three times as fast.
-void Halo::put(const Grains& grains, int owner, int box) {
+void Halo::put(const Grains& grains, const Loaded* loaded, int owner, int box) {
     constexpr int kAhead = 16 * 8;
     const int numbers = numbers_of(grains);
+    const bool all = !loaded || !loaded->few();
     const Part part = part_[owner];
     if (part.begin == part.end) return;
-    double* to = box_[box].data()[part.line].number;
-    for (std::int32_t k = part.begin; k < part.end; ++k, to += numbers) {
-        const std::int32_t i = foreign_[k];
-        fetch_to_write(to + kAhead);
-        std::memcpy(to, grains.place[i].position.data(), kPosition * sizeof(double));
-        if (!grains.rounded.empty()) {
-            std::memcpy(to + kPosition, &grains.rounded[i], sizeof(RoundedMotion));
-        } else {
-            std::memcpy(to + kPosition, grains.motion[i].velocity.data(), 3 * sizeof(double));
-            std::memcpy(to + kPosition + 3, grains.motion[i].spin.data(), 3 * sizeof(double));
+    double* words = box_[box].data()[part.line].number;
+    double* to = words + words_for(part.end - part.begin);
+    for (std::int32_t k = part.begin; k < part.end; k += kBits, ++words) {
+        const int many = std::min(kBits, part.end - k);
+        std::uint64_t comes = all ? bits_of_first(many) : 0;
+        if (!all)  // no branch for each grain: it would be mispredicted
+            for (int bit = 0; bit < many; ++bit)
+                comes |= std::uint64_t{loaded->has(foreign_[k + bit])} << bit;
+        for (std::uint64_t left = comes; left != 0; left &= left - 1) {
+            const std::int32_t i = foreign_[k + std::countr_zero(left)];
+            fetch_to_write(to + kAhead);
+            std::memcpy(to, grains.place[i].position.data(), kPosition * sizeof(double));
+            if (!grains.rounded.empty()) {
+                std::memcpy(to + kPosition, &grains.rounded[i], sizeof(RoundedMotion));
+            } else {
+                std::memcpy(to + kPosition, grains.motion[i].velocity.data(), 3 * sizeof(double));
+                std::memcpy(to + kPosition + 3, grains.motion[i].spin.data(), 3 * sizeof(double));
+            }
+            to += numbers;
         }
+        std::memcpy(words, &comes, sizeof comes);
     }
 }
 
-void Halo::get(Grains& grains, int box) {
+void Halo::get(Grains& grains, int box, const FreeFlight& flight) {
     const int numbers = numbers_of(grains);
     for (const Part& part : part_) {
         if (part.begin == part.end) continue;
-        const double* from = box_[box].data()[part.line].number;
-        for (std::int32_t k = part.begin; k < part.end; ++k, from += numbers) set_copy(grains, at_ + k, from);
+        const std::int32_t words = words_for(part.end - part.begin);
+        const double* word = box_[box].data()[part.line].number;
+        const double* from = word + words;
+        if (!all_come(word, part.end - part.begin)) fly(grains, flight, at_ + part.begin, at_ + part.end);
+        for (std::int32_t k = part.begin; k < part.end; k += kBits, ++word) {
+            std::uint64_t comes;
+            std::memcpy(&comes, word, sizeof comes);
+            for (; comes != 0; comes &= comes - 1, from += numbers)
+                set_copy(grains, at_ + k + std::countr_zero(comes), from);
+        }
     }
 }
 

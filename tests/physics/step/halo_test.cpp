@@ -1,6 +1,8 @@
 // What a thread reads of other threads' grains, and contacts in a new order.
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <numeric>
 #include <random>
 
 #include "engine/step/grid/reorder.hpp"
@@ -45,7 +47,7 @@ Halo halo_of(Grains& grains) {
 }
 
 void send(Halo& halo, const Grains& grains, int box) {
-    for (const int owner : {0, 2}) halo.put(grains, owner, box);
+    for (const int owner : {0, 2}) halo.put(grains, nullptr, owner, box);
 }
 
 class HaloOf : public testing::TestWithParam<bool> {};
@@ -62,8 +64,10 @@ TEST_P(HaloOf, BringsWhatOwnersHadWhenTheyPutItIn) {
     std::int32_t one[kBlock], two[kBlock];
     std::copy_n(first, 3, one), std::copy_n(second, 3, two);
     std::fill(one + 3, one + kBlock, 12), std::fill(two + 3, two + kBlock, 13);
+    KickInput kicks;
+    kicks.drift = 1;  // shows if copies that have come move
     for (const int box : {0, 1}) {
-        halo.get(grains, box);
+        halo.get(grains, box, {kicks, true});
         const Halo::Bodies at = halo.find(one, two, 3);
         EXPECT_EQ(at.second[0], 12);  // its own where they are
         EXPECT_EQ(at.first[2], 12);
@@ -78,6 +82,38 @@ TEST_P(HaloOf, BringsWhatOwnersHadWhenTheyPutItIn) {
             } else {
                 EXPECT_EQ(grains.motion.data()[copy].velocity, Vec3(box + 1, grain, 1));
                 EXPECT_EQ(grains.motion.data()[copy].spin, Vec3(-box - 1, grain, 2));
+            }
+        }
+    }
+}
+
+// Bit by bit as their owners move them, though these send only what has contacts.
+TEST_P(HaloOf, LetsCopiesFlyThatDoNotCome) {
+    Grains grains = some_grains(GetParam());
+    move_to(grains, 1);
+    Halo halo = halo_of(grains);
+    const std::int32_t foreign[] = {7, 9, 35};
+    Loaded loaded[3];
+    for (int owner = 0; owner < 3; ++owner) loaded[owner].clear(kShares[owner], kShares[owner + 1]);
+    loaded[0].note(9);
+    KickInput kicks{Vec3(0.1, -0.2, -9.81), true, 0.99, Vec3(0.3, 0.7, -0.5), 1e-3, 2e-3, 0.1, nullptr};
+    for (int step = 0; step < 3; ++step) {
+        grains.load[9].force = Vec3(step, 1, -2);
+        grains.load[9].torque = Vec3(1, step, 3);
+        const auto move = step == 0 ? kick_and_drift : kick_and_go_on;
+        move(grains, kicks, 0, kGrains);
+        for (const int owner : {0, 2}) halo.put(grains, &loaded[owner], owner, step % 2);
+        halo.get(grains, step % 2, {kicks, step == 0});
+        for (int k = 0; k < 3; ++k) {
+            const std::int32_t copy = kCopiesAt + k, own = foreign[k];
+            EXPECT_EQ(grains.place.data()[copy].position, grains.place[own].position) << own << ' ' << step;
+            if (GetParam()) {
+                EXPECT_EQ(
+                    std::memcmp(&grains.rounded.data()[copy], &grains.rounded[own], sizeof(RoundedMotion)), 0)
+                    << own << ' ' << step;
+            } else {
+                EXPECT_EQ(grains.motion.data()[copy].velocity, grains.motion[own].velocity);
+                EXPECT_EQ(grains.motion.data()[copy].spin, grains.motion[own].spin);
             }
         }
     }
