@@ -106,9 +106,11 @@ void StepLoop::move(int member, bool first, const KickInput& kicks) {
     }
 }
 
-// Allows the grains of a large bed to begin the next step as soon as their loads are complete.
+// Allows grains to begin the next step as soon as their loads are complete. vanguard.hpp says where this
+// pays.
 void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
-    const bool may = goes_on && is_large_bed(grains_) && !scheme_.corrects;
+    const bool pays = team_.size() > 1 || is_large_bed(grains_);
+    const bool may = goes_on && pays && !scheme_.corrects;
     const std::int32_t begin = lists_.begin(member);
     members_[member].ahead = {begin, may ? lists_.end(member) : begin, kicks};
 }
