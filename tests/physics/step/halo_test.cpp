@@ -96,7 +96,7 @@ TEST_P(HaloOf, LetsCopiesFlyThatDoNotCome) {
     Loaded loaded[3];
     for (int owner = 0; owner < 3; ++owner) loaded[owner].clear(kShares[owner], kShares[owner + 1]);
     loaded[0].note(9);
-    KickInput kicks{Vec3(0.1, -0.2, -9.81), true, 0.99, Vec3(0.3, 0.7, -0.5), 1e-3, 2e-3, 0.1, nullptr};
+    KickInput kicks{Vec3(0.1, -0.2, -9.81), true, 0.99, Vec3(0.3, 0.7, -0.5), 1e-3, 2e-3, 0.05, 0.1};
     for (int step = 0; step < 3; ++step) {
         grains.load[9].force = Vec3(step, 1, -2);
         grains.load[9].torque = Vec3(1, step, 3);
