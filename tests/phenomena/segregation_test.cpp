@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/measure/columns.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/text/reader.hpp"
 
@@ -24,7 +25,7 @@ double mean_of_ten(const std::vector<double>& values, std::size_t first) {
 
 HeightDifference height_difference(const std::string& scene_file, int seed) {
     const Scene scene = read_scene(fmt::format("{}/scenes/{}", GRAINREEL_SOURCE, scene_file),
-                                   {fmt::format("run.seed={}", seed)});
+                                   {fmt::format("run.seed={}", seed)}, measurable_in);
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 0);
     simulation.pack();
