@@ -44,10 +44,11 @@ void Footprint::set_box(const Vec3& low, const Vec3& high) {
     for (std::size_t k = 0; k < 3; ++k) {
         const int axis = static_cast<int>(k);
         box_[k] = range_of(k, low[axis] - kernel_.cutoff(), high[axis] + kernel_.cutoff());
-        offsets_[k].clear();
-        for (std::int64_t cell = box_[k].begin; cell < box_[k].end; ++cell) {
-            const std::int64_t in_grid = inside(grid_.axes[k], cell);
-            offsets_[k].push_back(in_grid < 0 ? -1 : in_grid * stride);
+        offsets_[k].resize(box_[k].size());
+        std::int64_t cell = box_[k].begin;
+        for (std::int64_t& offset : offsets_[k]) {
+            const std::int64_t in_grid = inside(grid_.axes[k], cell++);
+            offset = in_grid < 0 ? -1 : in_grid * stride;
         }
         stride *= grid_.axes[k].count;
     }
@@ -63,16 +64,20 @@ void Footprint::each_near(const Vec3& middle, const Each& each) {
         const GridAxis& axis = grid_.axes[k];
         const Range near = range_of(k, at - kernel_.cutoff(), at + kernel_.cutoff());
         first[k] = static_cast<std::size_t>(near.begin - box_[k].begin);
-        squares_[k].clear();
-        for (std::int64_t cell = near.begin; cell < near.end; ++cell) {
+        squares_[k].resize(near.size());
+        std::int64_t cell = near.begin;
+        for (double& square : squares_[k]) {
             const double away = axis.resolved ? axis.middle(cell) - at : 0;
-            squares_[k].push_back(away * away);
+            square = away * away;
+            ++cell;
         }
     }
     const std::vector<double>& squares = squares_[along_];
-    factors_.clear();
-    if (kernel_.is_product())
-        for (const double square : squares) factors_.push_back(kernel_.at(square));
+    if (kernel_.is_product()) {
+        factors_.resize(squares.size());
+        std::transform(squares.begin(), squares.end(), factors_.begin(),
+                       [&](double square) { return kernel_.at(square); });
+    }
     const double cutoff = kernel_.cutoff() * kernel_.cutoff();
     for (std::size_t z = 0; z < squares_[2].size(); ++z)
         for (std::size_t other = 0; other < squares_[across_].size(); ++other) {

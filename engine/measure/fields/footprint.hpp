@@ -35,6 +35,7 @@ class Footprint {
   private:
     struct Range {
         std::int64_t begin = 0, end = 1;  // cells, those beyond the edge of the grid counted
+        std::size_t size() const { return static_cast<std::size_t>(end - begin); }
     };
     Range range_of(std::size_t axis, double low, double high) const;
     void set_box(const Vec3& low, const Vec3& high);
