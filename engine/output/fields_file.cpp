@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <set>
 
@@ -33,12 +32,6 @@ NetcdfFormat format_for(const std::vector<const FieldSet*>& sets) {
         for (const FieldInfo& field : set->fields)
             if (cells_of(*set, field) > most_cells_of_cdf2) return NetcdfFormat::cdf5;
     return NetcdfFormat::cdf2;
-}
-
-// "z" of a place to "Z", for programs that want to know which way is up; empty for all else.
-std::string direction_of(const FieldAxis& axis) {
-    const bool place = axis.unit == "m" && (axis.name == "x" || axis.name == "y" || axis.name == "z");
-    return place ? std::string(1, static_cast<char>(std::toupper(axis.name.front()))) : "";
 }
 
 struct Variable {
@@ -104,9 +97,11 @@ void FieldsWriter::Impl::define_axes(const FieldSet& set) {
         const int dimension = file.dimension(name, axis.at.size());
         const int variable = file.variable(name, NC_DOUBLE, {dimension}, axis.unit);
         file.attribute(variable, "long_name", axis.about);
-        if (const std::string direction = direction_of(axis); !direction.empty())
-            file.attribute(variable, "axis", direction);
-        if (axis.name == "z") file.attribute(variable, "positive", "up");
+        // No axis attribute for x and y: ParaView would take them for longitude and latitude.
+        if (axis.name == "z") {
+            file.attribute(variable, "axis", "Z");
+            file.attribute(variable, "positive", "up");
+        }
         axes[name] = {dimension, variable, axis};
     }
 }
