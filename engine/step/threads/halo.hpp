@@ -4,7 +4,7 @@
 //
 // Where few grains have contacts, only these go through the box. A grain without contacts flies freely, so
 // this thread moves its copy by the same sums as the owner, to the same bits. This takes less time than a
-// cache line that two processors share: 3 to 6 % of a step in flight, nothing in dense beds
+// cache line that two processors share: 3 % of a step in flight, nothing in dense beds
 // (docs/notes/performance.md, "Three devices of the step").
 //
 // The copies stand behind the last grain, in reserved room of the grains' arrays. So a contact reads a copy
