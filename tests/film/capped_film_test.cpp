@@ -21,7 +21,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-constexpr int frames = 30, wide = 256, high = 144;
+constexpr int frames = 50, wide = 256, high = 144;
 
 // Three by five dots a digit, a row after another from the top.
 constexpr std::array<std::array<int, 5>, 10> font{{{7, 5, 5, 5, 7},
