@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How fast a flat-bottomed hopper empties through a slot, against the law of Beverloo for slots.
 
-    tests/hopper/slot_rate.py [--depth L/d] PROGRAM FOLDER [B/d ...]
+    tests/hopper/slot_rate.py [--depth L/d] [--friction MU] PROGRAM FOLDER [B/d ...]
 
 The hopper is a box, B + 30 d wide, filled to 1.2 times its width, six grains deep (or L) and periodic in depth, so that
 no front and back walls hold grains back. For each slot of width B the program runs one discharge into FOLDER and
@@ -31,7 +31,7 @@ diameter = {{ min = {low}, max = {high} }}
 density = {solid}
 [contact]
 restitution = 0.7
-friction = 0.5
+friction = {friction}
 [container]
 shape = "box"
 width = {width}
@@ -51,19 +51,19 @@ measures_interval = "0.05 s"
 """
 
 
-def scene_of(ratio, depth):
+def scene_of(ratio, depth, friction):
     width = (ratio + 30) * D
     volume = math.pi / 6 * D**3
     count = int(0.6 * width * depth * 1.2 * width / volume)
     mass = count * volume * SOLID
     expected = 1.03 * 0.6 * SOLID * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5
     return mass, SCENE.format(
-        ratio=ratio, count=count, low=0.9 * D, high=1.1 * D, solid=SOLID, width=width, depth=depth,
+        ratio=ratio, count=count, friction=friction, low=0.9 * D, high=1.1 * D, solid=SOLID, width=width, depth=depth,
         height=2.2 * width, slot=ratio * D, exit=4 * D, duration=0.1 + 0.55 * mass / expected)
 
 
-def run(program, folder, ratio, depth):
-    mass, text = scene_of(ratio, depth)
+def run(program, folder, ratio, depth, friction):
+    mass, text = scene_of(ratio, depth, friction)
     out = os.path.join(folder, f"slot_{ratio:g}")
     if not os.path.exists(os.path.join(out, "final.csv")):
         path = out + ".toml"
@@ -111,6 +111,7 @@ def best_k(points):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--depth", type=float, default=6, help="of the hopper, in grain diameters [6]")
+    parser.add_argument("--friction", type=float, default=0.5, help="of the grains and the walls [0.5]")
     parser.add_argument("program")
     parser.add_argument("folder")
     parser.add_argument("ratios", type=float, nargs="*", default=[6, 9, 14, 20], metavar="B/d")
@@ -119,7 +120,7 @@ def main():
     depth, points = words.depth * D, []
     print("  B/d   W in kg/s       C   W/L in kg/(s m)")
     for ratio in words.ratios:
-        rate = run(words.program, words.folder, ratio, depth)
+        rate = run(words.program, words.folder, ratio, depth, words.friction)
         c = rate / (0.6 * SOLID * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5)
         points.append((ratio, rate))
         print(f"{ratio:5g}  {rate:10.4f}  {c:6.3f}  {rate / depth:10.3f}", flush=True)

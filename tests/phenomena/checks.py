@@ -41,6 +41,8 @@ NARROW = ("container.width=120 mm", "species.grains.count=2000")  # half of the 
 SMALL_LAYER = ("container.width=60 mm", "container.depth=60 mm", "species.grains.count=12000", "output.trajectory=true")
 SORT_AND_MIX = ('drive.stage=[{from="3 s", frequency="25 Hz", g_level=7, over=4},'
                 ' {from="10 s", frequency="9 Hz", g_level=4, over=4}]')
+FINE_ROWS = ("output.measures_interval=5 ms",)
+UPRIGHT = ("container.half_angle=1 deg", "container.half_width=12 mm", "container.height=400 mm", "run.duration=1.5 s")
 ON_EARTH = ("gravity=9.81", "drive.frequency=12 Hz", "run.duration=2 s", DRAFT)
 ON_THE_MOON = ("run.duration=4.922 s", DRAFT)
 
@@ -65,6 +67,16 @@ def along_walls(run, after, diameter):
 def discharge_time(run):
     """From the opening of the outlet until 99 % have run out."""
     return run.end("emptied") - 0.3
+
+
+def rate_kept(run):
+    """Rate while 65 to 80 % of the outflow leaves, over that while 5 to 20 % does."""
+    rows = [(row["time"], row["outflow"]) for row in run.rows]
+
+    def when(share):
+        return next(time for time, mass in rows if mass >= share * rows[-1][1])
+
+    return (when(0.2) - when(0.05)) / (when(0.8) - when(0.65))
 
 
 def inverted_pattern(run):
@@ -337,6 +349,17 @@ CHECKS = [
         least=0.945,
         most=0.957,
         runs=((),),
+    ),
+    Check(
+        name="hourglass",
+        claim="grains run out at one rate however high they stand, for friction carries them (Beverloo et al. 1961)",
+        scene="teaching_hourglass",
+        control=["contact.friction=0"],
+        what="rate near the end over that near the beginning, of the hourglass and of an upright column, the smaller one",
+        number=lambda *runs: min(rate_kept(run) for run in runs),
+        least=0.75,
+        most=1.3,
+        runs=(FINE_ROWS, FINE_ROWS + UPRIGHT),
     ),
     Check(
         name="thrown_bed",

@@ -166,7 +166,8 @@ class Inspect final : public Verb {
             ->needs(questions.back());
         parser.add_option("--bins", bins_, "With --histogram: how many [20]")
             ->type_name("N")
-            ->check(CLI::Range(1, 10000));
+            ->check(CLI::Range(1, 10000))
+            ->needs(parser.get_option("--histogram"));
     }
 
     Answer single_answer(MomentFinder& finder, const Record& record, Reporter& reporter) {

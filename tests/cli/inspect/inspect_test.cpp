@@ -361,6 +361,7 @@ TEST_F(InspectedMoment, AWallTellsWhoTouchesIt) {
     }
     EXPECT_GT(bins, 0);
     EXPECT_TRUE(told["by_height"]["rows"][0][4].is_null());
+    EXPECT_THAT(refusal({"--bins", "5"}), HasSubstr("--bins requires --histogram"));
     EXPECT_THAT(refusal({"--wall", "roof"}),
                 HasSubstr("--wall: 'roof' is no wall of this scene; it has floor"));
 }
