@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The same hopper, emptied by grainreel and by LAMMPS from the same places, with the same law and the same step.
 
-    tests/hopper/lammps_slot.py PROGRAM FOLDER [B/d]
+    tests/hopper/lammps_slot.py [--friction MU] PROGRAM FOLDER [B/d]
 
 A box (B + 30 d wide, filled to 1.2 times its width, six grains deep and periodic in depth) is filled and comes to
 rest in grainreel. Its final.csv is the start of both programs, which then open a slot of width B in the floor. Both
@@ -9,6 +9,7 @@ have linear springs and dashpots with friction (LAMMPS: gran/hooke/history, wall
 flows between 10 % and 35 % of the mass, by least squares of the mass that has fallen below the floor, and their
 ratio. It should be 1 within 5 %. Needs `lmp` (Debian: lammps).
 """
+import argparse
 import csv
 import math
 import os
@@ -21,7 +22,6 @@ from slot_rate import D, K, SOLID  # noqa: E402
 STIFFNESS = 2000.0  # N/m
 DAMPING = 1555.0  # 1/s, times the effective mass: a restitution of 0.7 for two grains of diameter D
 STEP = 1.5e-5  # s, a thirtieth of a contact
-FRICTION = 0.5
 
 SCENE = """[[species]]
 name = "grain"
@@ -81,8 +81,8 @@ run {steps}
 """
 
 
-def law():
-    return f"{STIFFNESS} {2 / 7 * STIFFNESS} {DAMPING} {DAMPING / 2} {FRICTION} 1"
+def law(friction):
+    return f"{STIFFNESS} {2 / 7 * STIFFNESS} {DAMPING} {DAMPING / 2} {friction} 1"
 
 
 def geometry(ratio):
@@ -93,7 +93,7 @@ def geometry(ratio):
     return width, depth, count, 0.1 + 0.45 * mass / expected
 
 
-def grainreel(program, folder, name, ratio, outlet, start, duration):
+def grainreel(program, folder, name, ratio, friction, outlet, start, duration):
     width, depth, count, _ = geometry(ratio)
     out = os.path.join(folder, name)
     if os.path.exists(os.path.join(out, "final.csv")):
@@ -101,7 +101,7 @@ def grainreel(program, folder, name, ratio, outlet, start, duration):
     with open(out + ".toml", "w") as file:
         file.write(SCENE.format(
             count=count, low=0.9 * D, high=1.1 * D, solid=SOLID, stiffness=STIFFNESS, damping=DAMPING,
-            tangential=DAMPING / 2, friction=FRICTION, width=width, depth=depth, height=2.2 * width,
+            tangential=DAMPING / 2, friction=friction, width=width, depth=depth, height=2.2 * width,
             outlet=outlet, start=start, duration=duration, step=STEP))
     subprocess.run([program, "movie", out + ".toml", "--no-film", "--quiet", "--threads", "1", "--out", out, "--force"],
                    check=True, stdout=subprocess.DEVNULL)
@@ -122,7 +122,7 @@ def write_data(path, grains, width, depth, duration):
             file.write(" ".join([str(i)] + [g[k] for k in ("vx", "vy", "vz", "wx", "wy", "wz")]) + "\n")
 
 
-def lammps(folder, ratio, duration, grains):
+def lammps(folder, ratio, friction, duration, grains):
     width, depth, _, _ = geometry(ratio)
     out = os.path.join(folder, "lammps.txt")
     if os.path.exists(out):
@@ -131,7 +131,7 @@ def lammps(folder, ratio, duration, grains):
     script = os.path.join(folder, "slot.lammps")
     with open(script, "w") as file:
         file.write(LAMMPS.format(
-            data=os.path.join(folder, "start.data"), law=law(), step=STEP, half_slot=ratio * D / 2,
+            data=os.path.join(folder, "start.data"), law=law(friction), step=STEP, half_slot=ratio * D / 2,
             half_width=width / 2, every=100, steps=round(duration / STEP), out=out + ".part"))
     subprocess.run(["lmp", "-in", script, "-log", os.path.join(folder, "lammps.log"), "-screen", "none"], check=True)
     os.rename(out + ".part", out)
@@ -167,19 +167,22 @@ def below_floor(out, times):
 
 
 def main():
-    if len(sys.argv) < 3:
-        raise SystemExit(__doc__)
-    program, folder = sys.argv[1], os.path.abspath(sys.argv[2])
-    ratio = float(sys.argv[3]) if len(sys.argv) > 3 else 12.0
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--friction", type=float, default=0.5, help="of the grains and the walls [0.5]")
+    parser.add_argument("program")
+    parser.add_argument("folder", type=os.path.abspath)
+    parser.add_argument("ratio", type=float, nargs="?", default=12.0, metavar="B/d")
+    words = parser.parse_args()
+    program, folder, ratio, friction = words.program, words.folder, words.ratio, words.friction
     os.makedirs(folder, exist_ok=True)
     duration = geometry(ratio)[3]
-    rest = grainreel(program, folder, "rest", ratio, "", 'settle_limit = "3 s"', 0.05)
+    rest = grainreel(program, folder, "rest", ratio, friction, "", 'settle_limit = "3 s"', 0.05)
     start = f'method = "file"\nfile = "{rest}/final.csv"'
-    ours = grainreel(program, folder, "slot", ratio, f"outlet = {{ width = {ratio * D}, exit_depth = {4 * D} }}",
+    ours = grainreel(program, folder, "slot", ratio, friction, f"outlet = {{ width = {ratio * D}, exit_depth = {4 * D} }}",
                      start, duration)
     with open(os.path.join(rest, "final.csv")) as file:
         grains = list(csv.DictReader(file))
-    theirs = lammps(folder, ratio, duration, grains)
+    theirs = lammps(folder, ratio, friction, duration, grains)
     mass = sum(mass_of(float(g["radius"])) for g in grains)
     with open(theirs) as file:
         rows = [tuple(map(float, line.split())) for line in file if not line.startswith("#")]
