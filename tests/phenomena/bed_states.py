@@ -68,8 +68,8 @@ CONDENSED = 0.4  # two thirds of random packing
 
 
 def main():
+    import argparse
     import csv
-    import sys
     from pathlib import Path
 
     from check import name_of
@@ -80,21 +80,31 @@ def main():
             with open(folder / "measures.csv", newline="") as file:
                 self.rows = [{name_of(head): float(value) for head, value in row.items()} for row in csv.DictReader(file)]
 
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("runs", type=Path, nargs="+", metavar="RUN")
+    parser.add_argument("--area", type=float, default=0.03 * 0.0135, help="of the floor, m2 [4.05e-4]")
+    parser.add_argument("--profiles", action="store_true", help="write shallow_N.dat of each run, of N grains, for gnuplot")
+    options = parser.parse_args()
     print("grains,coherence,least_expansion,most_expansion,least_solid,most_solid,densest_slice,state")
-    for folder in map(Path, sys.argv[1:]):
+    for folder in options.runs:
         run, trajectory = Finished(folder), Fields(folder / "trajectory.nc")
         coherent = coherence(run, 1)
         expansion, solid = over_the_cycle(run, "bed_expansion", 1), over_the_cycle(run, "bed_solid_fraction", 1)
-        cycle = profiles(trajectory, 0.002, 0.03 * 0.0135, 1)
+        cycle = profiles(trajectory, 0.002, options.area, 1)
         densest = max(max(row) for row in cycle)
         count = trajectory.shape("radius")[1]
         print(f"{count},{coherent:.3f},{min(expansion):.2f},{max(expansion):.2f},{min(solid):.3f},{max(solid):.3f},"
-              f"{densest:.3f},{state(coherent, solid, densest)}")
-        with open(f"shallow_{count}.dat", "w") as file:
-            for phase, row in enumerate(cycle + cycle[:1]):
-                for slice_, value in enumerate(row):
-                    file.write(f"{phase / len(cycle):.4f} {slice_ + 0.5} {value:.4f}\n")
-                file.write("\n")
+              f"{densest:.3f},{state(coherent, solid, densest)}", flush=True)
+        if options.profiles:
+            write_profiles(f"shallow_{count}.dat", cycle)
+
+
+def write_profiles(name, cycle):
+    with open(name, "w") as file:
+        for phase, row in enumerate(cycle + cycle[:1]):
+            for slice_, value in enumerate(row):
+                file.write(f"{phase / len(cycle):.4f} {slice_ + 0.5} {value:.4f}\n")
+            file.write("\n")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-# gnuplot docs/figures/phenomena/shallow_bed.gp, in the folder where tests/phenomena/bed_states.py wrote shallow_*.dat
+# gnuplot docs/figures/phenomena/shallow_bed.gp, in the folder where
+# tests/phenomena/bed_states.py --profiles output/shallow_bed/members/*_seed-1_* wrote shallow_*.dat
 set terminal pngcairo size 1300,420 font "sans,11"
 set output "shallow_bed.png"
 set multiplot layout 1,4
