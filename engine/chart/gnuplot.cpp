@@ -4,6 +4,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <sstream>
+
 namespace grainreel {
 
 bool run_gnuplot(const std::filesystem::path& folder, std::string commands) {
@@ -32,6 +36,22 @@ std::string gnuplot_text(const std::string& text) {
         result += byte < 0x20 || byte == 0x7f ? ' ' : c;
     }
     return result + "'";
+}
+
+std::string gnuplot_lines(const std::string& text, std::size_t most) {
+    const auto length = [](const std::string& utf8) {
+        return std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    };
+    std::string result, line, word;
+    std::istringstream words(text);
+    while (words >> word) {
+        if (!line.empty() && length(line) + 1 + length(word) > static_cast<std::ptrdiff_t>(most)) {
+            result += gnuplot_text(line) + ".\"\\n\".";
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + word;
+    }
+    return result + gnuplot_text(line);
 }
 
 }  // namespace grainreel

@@ -85,6 +85,10 @@ TEST(StudyTable, HasARowAMember) {
 TEST(StudyText, IsEscapedWhereverItGoes) {
     EXPECT_EQ(html_text("<a href=\"x\">'&"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;");
     EXPECT_EQ(gnuplot_text("it's `x`\n"), "'it''s `x` '");
+    EXPECT_EQ(gnuplot_lines("height of it's \u0393\u0393, m", 14),
+              "'height of it''s'.\"\\n\".'\u0393\u0393, m'");
+    EXPECT_EQ(gnuplot_lines("unbreakable", 4), "'unbreakable'");
+    EXPECT_EQ(gnuplot_lines("", 4), "''");
     EXPECT_EQ(shell_word("a b'c"), "'a b'\\''c'");
     EXPECT_EQ(shell_word(""), "''");
     EXPECT_EQ(shell_words({"--set", "drive.frequency=\"25 Hz\""}), "--set 'drive.frequency=\"25 Hz\"'");

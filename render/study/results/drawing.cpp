@@ -18,6 +18,8 @@ constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#
                                              "#e69f00", "#56b4e9", "#000000"};
 constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};
 
+constexpr std::size_t most_across = 80, most_upright = 55;  // characters of a line along the chart's edges
+
 std::string gnuplot_number(double value) {
     return std::isnan(value) ? "NaN" : fmt::format("{}", value);
 }
@@ -78,9 +80,11 @@ std::string chart_commands(const Study& study, const StudyChart& chart,
             gnuplot_text(stem + ".reference.csv"), gnuplot_text(chart.reference_label));
     std::string text = fmt::format("# Draws the table beside it: gnuplot {}.gp\n", stem);
     text += "set encoding utf8\nset datafile separator ','\nset datafile missing 'NaN'\nset grid\n";
-    text += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n", gnuplot_text(axis.title()),
-                        gnuplot_text(study.measures[chart.y].label));
-    if (!chart.title.empty()) text += fmt::format("set title {} noenhanced\n", gnuplot_text(chart.title));
+    text += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
+                        gnuplot_lines(axis.title(), most_across),
+                        gnuplot_lines(study.measures[chart.y].label, most_upright));
+    if (!chart.title.empty())
+        text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, most_across));
     text +=
         "set key noenhanced outside above left Left reverse maxcols 2 spacing 1.1\nset offsets graph 0.03, "
         "graph 0.03, graph 0.05, graph "
