@@ -39,7 +39,7 @@ double solid_volume(const Scene& scene) {
 double mean_diameter(const Scene& scene) {
     double sum = 0;
     for (const Species& species : scene.species)
-        sum += static_cast<double>(species.count) * species.diameter.mean;
+        sum += static_cast<double>(species.all()) * species.diameter.mean;
     return sum / static_cast<double>(scene.grains());
 }
 

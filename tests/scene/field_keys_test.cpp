@@ -32,6 +32,17 @@ TEST(FieldKeys, OneLineIsEnough) {
     EXPECT_FALSE(read_text(wedge_text).output.fields.wanted());
 }
 
+// 110 grains at the start, and 200 big ones that come in the two seconds of the run; then those alone.
+TEST(FieldKeys, TheMeanDiameterCountsGrainsThatCome) {
+    std::string text = wedge_text + "[[feed]]\nspecies = \"big\"\nrate = 100\n";
+    EXPECT_DOUBLE_EQ(read_text(text, {"output.fields.grid=yz"}).output.fields.width,
+                     0.5 * (100 * 5e-3 + 210 * 10e-3) / 310);
+    const std::size_t small = text.find("[[species]]"), big = text.find("[[species]]", small + 1);
+    text.erase(small, big - small);
+    text.erase(text.find("count = 10\n"), 11);
+    EXPECT_DOUBLE_EQ(read_text(text, {"output.fields.grid=yz"}).output.fields.width, 0.5 * 10e-3);
+}
+
 TEST(FieldKeys, WrittenSceneReadsBack) {
     for (const auto& [text, sets] :
          {std::pair<std::string, Assignments>{wedge_text,

@@ -14,12 +14,7 @@ SurfaceFrame surface_frame(const Scene& scene) {
     SurfaceFrame frame;
     const Container& c = scene.container;
     if (c.shape == Container::Shape::none) return frame;
-    double grains = 0, diameters = 0;
-    for (const Species& s : scene.species) {
-        grains += static_cast<double>(s.count);
-        diameters += static_cast<double>(s.count) * s.diameter.mean;
-    }
-    frame.diameter = diameters / grains;
+    frame.diameter = mean_diameter(scene);
     frame.right = c.half_width_at(fill_height(scene, kSettled));
     frame.left = -frame.right;
     frame.front = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;

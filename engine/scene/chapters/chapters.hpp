@@ -58,7 +58,7 @@ void write_run(SceneText& out, const Scene& scene, const Plan& plan);
 
 // [output.fields].
 void list_fields(keys::Keys& all);
-void read_fields(Document& document, Scene& scene);  // after drive and run
+void read_fields(Document& document, Scene& scene);  // after drive and run, and the count of fed grains
 void write_fields(SceneText& out, const Scene& scene);
 
 void read_film(Document& document, Scene& scene);  // after drive and run

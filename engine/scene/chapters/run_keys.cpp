@@ -157,7 +157,6 @@ void read_run(Document& document, Scene& scene) {
             "is made for velocity-verlet and the law walton-braun with a restitution that is the same at "
             "any speed; remove it");
     output_table().read(document, scene, "output", scene.output);
-    read_fields(document, scene);
 }
 
 void write_run(SceneText& out, const Scene& scene, const Plan& plan) {

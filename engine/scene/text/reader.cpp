@@ -76,6 +76,7 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file, 
     read_start(document, scene);
     read_run(document, scene);
     count_fed(document, scene);
+    read_fields(document, scene);
     if (measurable) scene.measurable = measurable(scene);
     check_instruments(document, scene);
     read_film(document, scene);

@@ -5,27 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "engine/scene/bed.hpp"
+
 namespace grainreel {
-
-namespace {
-
-double mean_diameter(const std::vector<Species>& species) {
-    double sum = 0, count = 0;
-    for (const Species& s : species) {
-        sum += static_cast<double>(s.count) * s.diameter.mean;
-        count += static_cast<double>(s.count);
-    }
-    return sum / count;
-}
-
-}  // namespace
 
 BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots,
                        bool may_leave_out)
     : clock_(clock),
       wanted_(scene.film.periods),
       may_leave_out_(may_leave_out),
-      diameter_(mean_diameter(scene.species)) {
+      diameter_(mean_diameter(scene)) {
     for (const Shot& shot : shots) first_.emplace(shot.segment, shot.step);
 }
 

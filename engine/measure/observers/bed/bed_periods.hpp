@@ -6,6 +6,7 @@
 #include "engine/measure/bed/period_multiple.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/plan/rhythm.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainreel::observers {
 
@@ -22,8 +23,7 @@ class BedPeriods final : public Observer {
                  "and in the one before; 0 until eight periods have been seen"}};
     }
 
-    BedPeriods(const Scene& scene, const Plan& plan)
-        : clock_(plan.clock), multiple_(mean_diameter(scene.species)) {}
+    BedPeriods(const Scene& scene, const Plan& plan) : clock_(plan.clock), multiple_(mean_diameter(scene)) {}
 
     std::int64_t gathers_after(std::int64_t step) const override {
         return is_shaken() ? looks().next(step + 1, clock_) : kNever;
@@ -42,14 +42,6 @@ class BedPeriods final : public Observer {
     void load(const Moment&, Bytes& in) override { multiple_.load(in); }
 
   private:
-    static double mean_diameter(const std::vector<Species>& species) {
-        double sum = 0, count = 0;
-        for (const Species& s : species) {
-            sum += static_cast<double>(s.all()) * s.diameter.mean;
-            count += static_cast<double>(s.all());
-        }
-        return sum / count;
-    }
     // m, of the centre of mass above the floor where that is now.
     static double centre_height(const Moment& m) {
         double moment = 0, mass = 0;
