@@ -41,6 +41,15 @@ TEST(PeriodMultiple, IsThePeriodOfASeries) {
     EXPECT_EQ(multiple_of(40, [](double t) { return wave(t, 1) + wave(t, 5); }), 1) << "too long to be seen";
 }
 
+// Against the period before, a wave of amplitude A and two periods differs by one of amplitude 2 A, and by
+// nothing from two periods before. Its root mean square over whole waves is sqrt(2) A.
+TEST(PeriodMultiple, DifferenceIsTheRootMeanSquare) {
+    PeriodMultiple multiple(kDiameter);
+    for (std::int64_t n = 0; n < 12 * kPhases; ++n)
+        multiple.add(n, 0.3 * wave(static_cast<double>(n) / kPhases, 2));
+    EXPECT_NEAR(multiple.difference(), std::numbers::sqrt2 * 0.3, 1e-12);
+}
+
 // A tenth of a grain: sin of period 2 changes by twice its amplitude, root mean square sqrt(2) times it.
 TEST(PeriodMultiple, DoesNotSeeWhatIsSmallAgainstAGrain) {
     const auto series = [](double amplitude) {

@@ -145,11 +145,19 @@ TEST(WallForcesAtRest, AWedgeCarriesAGrainOnBothSides) {
     EXPECT_LT((force_on(m, "right_slant") - push * Vec3(0, std::cos(angle), -std::sin(angle))).norm(),
               accuracy);
     EXPECT_NEAR(m.at("left_slant_carries"), 0.5, of_rounding(1e-9, 1e-5));
+    // Moments about the middle of the floor: the grain is touched at 2 mm along the slants' normals.
+    for (const auto& [slant, side] : {std::pair{"left_slant", -1}, {"right_slant", 1}}) {
+        const Vec3 touched(0.001, side * 0.002 * std::cos(angle), 0.002216);
+        EXPECT_LT((moment_on(m, slant) - touched.cross(force_on(m, slant))).norm(), 1e-3 * 0.002 * push)
+            << slant;
+    }
     EXPECT_EQ(m.at("floor_carries"), 0);
     // Four slices of 8 mm; the push is in the lowest, over its part of the slant.
     const Simulation run(scene, make_plan(scene), 1);
     const FieldSet& set = *run.field_sets().at(0);
     ASSERT_EQ(set.axes.at(0).at.size(), 4u);
+    for (std::size_t s = 0; s < 4; ++s)
+        EXPECT_NEAR(set.axes.at(0).at[s], 0.004 + 0.008 * static_cast<double>(s), 1e-12);
     const auto slant = std::find_if(set.fields.begin(), set.fields.end(), [](const FieldInfo& field) {
         return field.name == "pressure_left_slant";
     });
@@ -216,6 +224,54 @@ TEST(WallForcesOfScenes, AreAskedForByNameOrByWhatTheFilmShows) {
     EXPECT_EQ(read("[[film.plot]]\ny = \"floor_force_z\"\n"), std::vector<std::string>{"walls"});
     EXPECT_EQ(read("[output]\ninstruments = [\"walls\"]\n"), std::vector<std::string>{"walls"});
     EXPECT_THROW(read("[output]\ninstruments = [\"wals\"]\n"), UserError);
+}
+
+// Two grains of one weight on the floor: it carries both.
+TEST(WallForcesAtRest, AFloorCarriesAllGrains) {
+    std::string text = kOneGrain;
+    text.replace(text.find("[run]"), 5, "[[grain]]\nposition = [0, \"6 mm\", \"2 mm\"]\n[run]");
+    const Measures m = at_rest(scene_of(text));
+    EXPECT_NEAR(m.at("floor_carries"), 1, of_rounding(1e-9, 1e-5));
+}
+
+// Of the front of a wedge with slants up to 4 and a floor of half-width 1: between the heights 1 and 3 it is
+// a trapezoid. All slices together are the whole face.
+TEST(WallAreas, AreThoseOfTheContainersFaces) {
+    Container c;
+    c.half_width = 3, c.depth = 5, c.height = 10;
+    c.half_angle = std::atan(0.5), c.slant_height = 4;
+    EXPECT_NEAR(area_between(c, "front", 1, 3), 2 * (2 * 1.5 + 2 * 2.5) / 2, 1e-12);
+    EXPECT_NEAR(area_between(c, "back", 3, 6), (2 * 2.5 + 2 * 3) / 2 + 2 * 2 * 3, 1e-12);
+    EXPECT_NEAR(area_between(c, "left wall", 3, 6), 5 * 2, 1e-12);
+    EXPECT_NEAR(area_between(c, "right slant", 3, 6), 5 * 1 * std::sqrt(1.25), 1e-12);
+    EXPECT_EQ(area_between(c, "floor", 0, 10), 0);
+    double front = 0;
+    for (int k = 0; k < 20; ++k) front += area_between(c, "front", 0.5 * k, 0.5 * (k + 1));
+    EXPECT_NEAR(front, c.volume() / c.depth, 1e-12);
+    c.shape = Container::Shape::cylinder;
+    EXPECT_NEAR(area_between(c, "wall", 9, 12), 2 * std::numbers::pi * 3, 1e-12);
+}
+
+// A face whose point is at the height 5 is pressed half a unit above that, where a periodic depth of 8 begins
+// anew: the near image of the place is at x = 1.
+TEST(WallTally, TakesPlacesInTheRoomAndTheNearestImage) {
+    Face face = floor_face();
+    face.point = {0, 0, 5};
+    WallScale scale;
+    scale.force = std::exp2(-40), scale.length = 1, scale.slices = 8, scale.slice = 1, scale.period = 8;
+    WallTally tally;
+    tally.begin({face}, scale);
+    tally.add(0, Vec3(0, 0, -2), 2, Vec3(-7, 3, 0.5));
+    WallSums sums;
+    tally.add_to(sums);
+    const auto moment = [&](int axis) {
+        return static_cast<double>(sums.faces[0].last_moment[static_cast<std::size_t>(axis)]) * scale.force;
+    };
+    EXPECT_NEAR(moment(0), 3 * -2, 1e-9);
+    EXPECT_NEAR(moment(1), -(1 * -2), 1e-9);
+    ASSERT_EQ(sums.slices.size(), 8u);
+    for (std::size_t s = 0; s < 8; ++s)
+        EXPECT_NEAR(static_cast<double>(sums.slices[s]) * scale.force, s == 5 ? 2 : 0, 1e-9) << s;
 }
 
 TEST(WallTally, CountsInAnyOrder) {

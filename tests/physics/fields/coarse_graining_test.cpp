@@ -86,6 +86,37 @@ TEST_P(Fields, StreamsThroughEachOtherAreHeat) {
     EXPECT_NEAR(fields.velocity[1][middle], 0, 1e-12);
 }
 
+// A grain of 2 kg in one phase and one of 6 kg in the other, both in one place: V = (2 v1 + 6 v2) / 8, and
+// against its own phase each stands still. Two more in a phase of their own move against each other along a
+// diagonal: m v v of both, off the diagonal as well.
+TEST_P(Fields, WeighMassAcrossPhases) {
+    const Scene scene = box({5, 5, 5}, 0.5, 0.5);
+    CoarseGraining by(scene, 3);
+    const Vec3 place(0, 0, 2.5), first(1, 2, 3), second(-1, 4, 0), along(0, 1, 2);
+    const double per_kg = 6 / std::numbers::pi;
+    for (int period = 0; period < 2; ++period) {
+        by.add({{sphere(place, 0.5, per_kg, along), sphere(place, 0.5, 3 * per_kg, along / -3)}, {}}, 0);
+        by.add({{sphere(place, 0.5, 2 * per_kg, first)}, {}}, 1);
+        by.add({{sphere(place, 0.5, 6 * per_kg, second)}, {}}, 2);
+    }
+    const CoarseFields fields = by.mean();
+    const auto& axes = by.grid().axes;
+    const auto middle =
+        static_cast<std::size_t>(by.grid().index(axes[0].count / 2, axes[1].count / 2, axes[2].count / 2));
+    for (int a = 0; a < 3; ++a)
+        EXPECT_NEAR(fields.velocity[static_cast<std::size_t>(a)][middle], (2 * first[a] + 6 * second[a]) / 12,
+                    1e-12);
+    EXPECT_NEAR(integral(by, fields.density), 12.0 / 3, 1e-10);
+    constexpr int pairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
+    double heat = 0;
+    for (std::size_t c = 0; c < 6; ++c) {
+        const double moved = along[pairs[c][0]] * along[pairs[c][1]] * (1 + 3.0 / 9);
+        EXPECT_NEAR(padded_integral(by, fields.kinetic_stress[c]), moved / 3, 1e-10) << c;
+        if (pairs[c][0] == pairs[c][1]) heat += moved;
+    }
+    EXPECT_NEAR(fields.temperature[middle], heat / (3 * 12), 1e-12);
+}
+
 // What all grains do in every period at the same phase is no heat.
 TEST_P(Fields, BouncingTogetherIsNoHeat) {
     for (const int phases : {2, 1}) {

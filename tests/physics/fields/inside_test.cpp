@@ -1,8 +1,10 @@
 // Cells at the walls: what of them is inside, and that no mass is lost there.
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
+#include "engine/measure/fields/field_names.hpp"
 #include "engine/scene/bed.hpp"
 #include "tests/physics/fields/field_scene.hpp"
 
@@ -41,6 +43,27 @@ double free_volume(const Scene& scene) {
 TEST(FieldCells, AddUpToTheContainer) {
     for (const Scene& scene : {wedge(Grid::yz), wedge(Grid::xyz), cylinder()})
         EXPECT_NEAR(free_volume(scene) / scene.container.volume(), 1, 1e-12);
+}
+
+// Where the floor alone is shaken, its lowest place is the end of the room.
+TEST(FieldCells, ReachDownToWhereAMovingFloorGoes) {
+    Scene scene = field_box({4, 10, 12}, Grid::yz, 0.5, 0.37);
+    scene.drive.present = true;
+    scene.drive.moves = Drive::Moves::floor;
+    scene.drive.amplitude = 0.3;
+    scene.drive.frequency = 1;
+    EXPECT_NEAR(free_volume(scene), 4 * 10 * (12 + 0.3), 1e-9);
+}
+
+TEST(FieldCells, FreeVolumesAreThatOfTheContainer) {
+    for (const Scene& scene : {wedge(Grid::yz), cylinder()}) {
+        const CoarseGraining by(scene, 1);
+        const FieldSet set = coarse_field_set(scene, by);
+        ASSERT_EQ(set.fields.at(0).name, "free_volume");
+        const FieldValues values = coarse_field_values(std::nullopt, by);
+        const double sum = std::accumulate(values.at(0).begin(), values.at(0).end(), 0.0);
+        EXPECT_NEAR(sum / scene.container.volume(), 1, 1e-12);
+    }
 }
 
 TEST(FieldCells, BeginAtTheWallsAndReachAsFarBeyondAsTheKernel) {

@@ -50,6 +50,34 @@ TEST_P(Kernels, LineIsTheMeanOverItsPoints) {
 INSTANTIATE_TEST_SUITE_P(Both, Kernels,
                          ::testing::Values(FieldOutput::Kernel::gaussian, FieldOutput::Kernel::lucy));
 
+// exp(-r2 / 2 w2) up to three widths.
+TEST(GaussianKernel, HasItsWidthAndItsCutoff) {
+    for (const int dimensions : {2, 3}) {
+        const FieldKernel kernel(FieldOutput::Kernel::gaussian, kWidth, dimensions);
+        for (const double widths : {0.5, 1.0, 2.0, 2.9})
+            EXPECT_NEAR(kernel.at(std::pow(widths * kWidth, 2)), std::exp(-0.5 * widths * widths), 2e-5);
+        EXPECT_NEAR(kernel.cutoff(), 3 * kWidth, 1e-12);
+    }
+}
+
+// A point on the outer edge of the grid has half of its kernel beyond it, and that half is lost.
+TEST(Footprints, WhatLiesBeyondTheGridIsNotMadeUpFor) {
+    const Scene scene = field_box({6, 6, 6}, FieldOutput::Grid::yz, 0.5, 0.25);
+    const FieldGrid grid = make_field_grid(scene, scene.output.fields);
+    for (const FieldOutput::Kernel kind : {FieldOutput::Kernel::gaussian, FieldOutput::Kernel::lucy}) {
+        Footprint footprint(grid, FieldKernel(kind, 0.5, 2));
+        const auto all_of = [&](const std::span<const CellWeight> cells) {
+            double sum = 0;
+            for (const CellWeight& cell : cells) sum += cell.weight;
+            return sum * grid.cell_volume();
+        };
+        const Vec3 edge(0, 0, grid.axes[2].low);
+        EXPECT_NEAR(all_of(footprint.of_point(Vec3(0, 0, 3))), 1, 1e-12);
+        EXPECT_NEAR(all_of(footprint.of_point(edge)), 0.5, 1e-12);
+        EXPECT_NEAR(all_of(footprint.of_line(edge - Vec3(0, 0, 0.2), Vec3(0, 0, 0.4))), 0.5, 1e-12);
+    }
+}
+
 TEST(LucyKernel, HasItsWidthAsStandardDeviationAlongEachAxis) {
     for (const int dimensions : {2, 3}) {
         const FieldKernel kernel(FieldOutput::Kernel::lucy, kWidth, dimensions);

@@ -100,5 +100,32 @@ TEST_P(Profiles, VelocityIsMomentumOverMass) {
         }
 }
 
+// In a wedge, a heavy grain that rises in the middle and a light one that sinks at the slant, each out of the
+// other's reach: mean times mass, summed over heights, is their momentum.
+TEST(VelocityProfile, IsByTheMassInsideTheContainer) {
+    Scene scene = field_box({4, 10, 12}, FieldOutput::Grid::yz, width, 0.37);
+    scene.container.shape = Container::Shape::wedge;
+    scene.container.half_angle = 0.5;
+    scene.container.slant_height = 6;
+    CoarseGraining by(scene, 1);
+    FieldState state;
+    state.grains.push_back(sphere(Vec3(0, -0.5, 3), 0.5, 3 * 6 / std::numbers::pi, Vec3(0, 0, 1)));
+    state.grains.push_back(sphere(Vec3(0, 3.3, 3), 0.5, 6 / std::numbers::pi, Vec3(0, 0, -1)));
+    by.add(state, 0);
+    const CoarseFields fields = by.mean();
+    const std::vector<double> profile = velocity_profile(fields, by, ProfileAxis::height, 2);
+    const FieldGrid& grid = by.grid();
+    double momentum = 0;
+    for (std::int64_t k = 0; k < grid.axes[2].count; ++k) {
+        double mass = 0;
+        for (std::int64_t j = 0; j < grid.axes[1].count; ++j) {
+            const auto at = static_cast<std::size_t>(grid.index(0, j, k));
+            mass += fields.density[at] * by.shares()[at] * grid.cell_volume();
+        }
+        if (mass > 0) momentum += mass * profile[static_cast<std::size_t>(k)];
+    }
+    EXPECT_NEAR(momentum, 3 * 1 - 1, 1e-10);
+}
+
 }  // namespace
 }  // namespace grainreel

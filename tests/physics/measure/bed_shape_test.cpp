@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/nearest_image.hpp"
 #include "engine/measure/bed/intruder.hpp"
 #include "engine/measure/bed/solid_fraction.hpp"
 #include "engine/measure/segregation/side_walls.hpp"
@@ -49,6 +50,28 @@ TEST(SolidFraction, CountsACapBelowTheTop) {
     const Grains grain = cubic_bed(1, 1, 1, 0);
     const double cap = std::numbers::pi / 16 * (1.5 - 0.25) / 3;
     EXPECT_NEAR(solid_fraction(scene.container, grain, 0, 0.25), cap / 0.25, 1e-12);
+}
+
+// A ball of radius 1 in a cylinder of radius 3, and in a wedge between slants of 45 degrees from a floor of
+// half-width 2, whose area up to the height h is 4 h + h^2.
+TEST(SolidFraction, IsOverTheRoomOfTheContainersShape) {
+    Scene scene = box_scene(6, 5, 9);
+    scene.container.shape = Container::Shape::cylinder;
+    Grains ball;
+    ball.add(0, 0, {0, 0, 1}, 1, 1);
+    const double volume = 4 * std::numbers::pi / 3;
+    EXPECT_NEAR(solid_fraction(scene.container, ball, 0, 4), volume / (std::numbers::pi * 9 * 4), 1e-12);
+    scene.container.shape = Container::Shape::wedge;
+    scene.container.half_width = 8;
+    scene.container.half_angle = std::numbers::pi / 4;
+    scene.container.slant_height = 6;
+    EXPECT_NEAR(solid_fraction(scene.container, ball, 0, 3), volume / (5 * (4 * 3 + 3 * 3)), 1e-12);
+}
+
+TEST(SolidFraction, EndsAtTheRim) {
+    const Scene scene = box_scene(5, 5, 9);
+    const Grains grains = cubic_bed(5, 5, 9, 0);
+    EXPECT_NEAR(solid_fraction(scene.container, grains, 0, 12), std::numbers::pi / 6, 1e-12);
 }
 
 TEST(SolidFraction, IsUndefinedInEmptySpaceAndUnderTheFloor) {
@@ -122,6 +145,24 @@ TEST(Intruder, GoesByTheSurfaceAroundIt) {
             grains.add(static_cast<std::int32_t>(grains.size()), 0, p.position, p.radius, 1);
     grains.add(5000, 1, {0, -8, 6 - 1.5}, 1.5, 1);
     EXPECT_NEAR(intruder_height(scene, grains, grains.size() - 1, 0), 1, 1e-12);
+}
+
+// A bed that is six layers high in its middle and ten elsewhere along x, and the same moved by half a period.
+TEST(Intruder, SeesTheSurfaceAcrossAPeriodicDepth) {
+    Scene scene = box_scene(12, 12, 40);
+    scene.container.periodic_depth = true;
+    const auto level = [&](double moved) {
+        Grains grains;
+        for (const Place& p : cubic_bed(12, 12, 10, 0).place) {
+            if (std::abs(p.position.x()) < 2 && p.position.z() > 6) continue;
+            const double x = nearest_image(p.position.x() + moved, 12);
+            grains.add(static_cast<std::int32_t>(grains.size()), 0, {x, p.position.y(), p.position.z()}, 0.5,
+                       1);
+        }
+        grains.add(5000, 1, {nearest_image(0.3 + moved, 12), 0, 4}, 1.5, 1);
+        return intruder_height(scene, grains, grains.size() - 1, 0);
+    };
+    EXPECT_NEAR(level(6), level(0), 1e-12);
 }
 
 TEST(Intruder, IsOneGrainOfTheLargestSpecies) {

@@ -83,6 +83,17 @@ TEST(StreamFunction, IsWhatTheFlowWasMadeFrom) {
     }
 }
 
+// Two filled cells of weights 1 and 3 with flows 3 up and 1 down, in a row of two: as much up as down.
+TEST(StreamFunction, WeighsCellsByWhatIsInThem) {
+    VelocityGrid grid = field(2, 1, 0.5, 1, [](double y, double) {
+        return std::pair{0.0, y < 0 ? 3.0 : -1.0};
+    });
+    grid.weight = {1, 3};
+    const std::vector<double> psi = stream_function(grid);
+    EXPECT_NEAR(psi[0], -(1.0 / 2) * 3 * 0.5, 1e-12);
+    EXPECT_NEAR(psi[1], 0, 1e-12);
+}
+
 TEST(StreamFunction, HasItsExtremaInTheMiddleOfTheRolls) {
     const VelocityGrid grid = rolls(0);
     const std::vector<double> psi = stream_function(grid);
@@ -157,7 +168,52 @@ TEST(Drift, OfTwoWheelsHasTheirCirculation) {
         EXPECT_NEAR(drift.roll(Side::left).mean, wheel - missing, 1e-12);
         EXPECT_NEAR(drift.roll(Side::right).mean, wheel - missing, 1e-12);
         EXPECT_TRUE(std::isnan(drift.roll(Side::left).error));
+        EXPECT_NEAR(drift.centre(Side::left).y, -5, 1e-12);
+        EXPECT_NEAR(drift.centre(Side::right).y, 5, 1e-12);
     }
+}
+
+// The middle third ends at 11 / 3. Grains whose ways have their middle there rise, those at -2, 0 and 2. The
+// others do not: not those at -4, nor those that come from 4.6 to 3.
+TEST(Drift, GoesByTheMiddleOfAWay) {
+    Bed bed;
+    Drift drift(bed.scene);
+    for (const int window : {0, 1}) {
+        for (std::size_t i = 0; i < bed.grains.size(); ++i) {
+            Vec3& place = bed.grains.place[i].position;
+            const int column = bed.grains.id[i] % 11;
+            if (column >= 4 && column <= 6) place.z() += 4e-3 * window;
+            if (column == 7) place.y() = window == 0 ? 4.6 : 3;
+        }
+        drift.note(4 * window, bed.grains, {});
+    }
+    EXPECT_NEAR(drift.rise(Drift::in_middle).mean, 1e-3 * (1 - 3.0 / 11), 1e-12);
+}
+
+// In the lowest row 22 grains turn one way in the first window and 11 of them the other way in the second
+// one: a third of the first is left. In the row above all turn by a fifth of it.
+TEST(Drift, CentreIsThatOfAllGrainsOfTheWindows) {
+    Bed bed;
+    Drift drift(bed.scene);
+    for (int j = 0; j < 11; ++j) bed.grains.add(1000 + j, 0, {0.5, 2 * j - 10.0, 1}, 0.5, 1);
+    const auto turn = [&](double ways) {
+        for (std::size_t i = 0; i < bed.grains.size(); ++i) {
+            Place& place = bed.grains.place[i];
+            const int column = static_cast<int>(std::lround((place.position.y() + 10) / 2));
+            const double up = column < 2 ? -1 : column == 3 || column == 4 ? 1 : 0;
+            if (place.position.z() < 2) place.position.z() += 4e-3 * ways * up;
+            if (place.position.z() > 2 && place.position.z() < 4) place.position.z() += 0.2 * 4e-3 * up;
+        }
+    };
+    drift.note(0, bed.grains, {});
+    turn(1), drift.note(4, bed.grains, {});
+    Grains left;
+    for (std::size_t i = 0; i < bed.grains.size(); ++i)
+        if (bed.grains.id[i] < 1000) left.add(bed.grains.id[i], 0, bed.grains.place[i].position, 0.5, 1);
+    bed.grains = left;
+    turn(-1), drift.note(8, bed.grains, {});
+    EXPECT_NEAR(drift.centre(Side::left).y, -7, 1e-12);
+    EXPECT_NEAR(drift.centre(Side::left).z, 1, 1e-12);
 }
 
 // Four windows without a gap: mean and standard error of what they had. A fifth takes the first one's place.

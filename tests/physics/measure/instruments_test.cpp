@@ -5,60 +5,19 @@
 #include <numbers>
 
 #include "engine/measure/columns.hpp"
-#include "engine/measure/observers.hpp"
+#include "engine/measure/flow/drift.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
+#include "tests/physics/measure/bed_by_hand.hpp"
 #include "tests/physics/measure/inelastic_block.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
 namespace {
 
-constexpr auto no_contacts = [](const auto&) {};
-
-// A box with a floor of stacks of grains of diameter 1, and what an instrument sees of it. A row every 125
-// steps, a period of 1000.
-struct Bed {
-    Scene scene;
-    Plan plan;
-    Grains grains;
-    Traffic traffic;
-    std::unique_ptr<Observers> observers;
-
-    explicit Bed(const std::string& instrument) {
-        scene.container.shape = Container::Shape::box;
-        scene.container.half_width = 20;
-        scene.container.depth = 4;
-        scene.container.height = 30;
-        scene.species.resize(2);
-        scene.species[0].name = "small";
-        scene.species[0].diameter.mean = 1;
-        scene.species[0].count = 1;
-        scene.species[1].name = "big";
-        scene.species[1].diameter.mean = 3;
-        scene.output.instruments = {instrument};
-        plan.clock = {1e-3, 1000, 0};
-        plan.measures_every = 125;
-        observers = std::make_unique<Observers>(all_observers(), scene, plan);
-    }
-    void fill(const std::function<double(double y)>& top) {
-        grains = {};
-        for (int j = 0; j < 40; ++j)
-            for (int i = 0; i < 4; ++i)
-                for (double z = top(j - 19.5) - 0.5; z > 0; z -= 1)
-                    grains.add(static_cast<std::int32_t>(grains.size()), 0, {i - 1.5, j - 19.5, z}, 0.5, 1);
-    }
-    Moment moment(std::int64_t step) const {
-        return {scene, plan.clock, grains, step, {0, 0, -10}, 0, {}, 0, traffic};
-    }
-    void start() { observers->start(moment(0), no_contacts); }
-    void gather(std::int64_t step) { observers->gather(moment(step), no_contacts); }
-    double look(std::int64_t step, const std::string& column) {
-        return observers->look(moment(step), no_contacts, column);
-    }
-};
+using Bed = test::BedByHand;
 
 // Waves at f/2 from row to row: known from the eighth period on.
 TEST(SurfaceInstrument, TellsWavesThatComeEverySecondPeriod) {
@@ -80,6 +39,27 @@ TEST(SurfaceInstrument, TellsWavesThatComeEverySecondPeriod) {
     EXPECT_TRUE(std::isnan(bed.look(7001, "surface_half")));  // no row was at that phase
 }
 
+// 20 bins of 2, ten of them on either side. On two levels the bins are 2 above or below their mean. With the
+// middle half 2 higher than the rest, each half rises by sum y h / sum y^2 = 50 / 330 in straight lines. The
+// container stands 5 to the right.
+TEST(SurfaceInstrument, HasTheShapeOfSteps) {
+    Bed bed("surface");
+    bed.pose.offset = {0, 5, 0};
+    const auto fill = [&](const std::function<double(double)>& top) {
+        bed.fill(top);
+        for (Place& place : bed.grains.place) place.position.y() += 5;
+    };
+    fill([](double y) { return y < 0 ? 10 : 14; });
+    EXPECT_NEAR(bed.look(0, "surface_rms_m"), 2, 1e-12);
+    EXPECT_NEAR(bed.look(0, "surface_tilt"), 2 * 200.0 / 2660, 1e-12);
+    EXPECT_NEAR(bed.look(0, "mound_slope"), 0, 1e-12);
+    fill([](double y) { return std::abs(y) < 10 ? 12 : 10; });
+    EXPECT_NEAR(bed.look(0, "mound_height_m"), 2, 1e-12);
+    EXPECT_NEAR(bed.look(0, "mound_slope"), 50.0 / 330, 1e-12);
+    EXPECT_NEAR(bed.look(0, "surface_tilt"), 0, 1e-12);
+    EXPECT_NEAR(bed.look(0, "surface_rms_m"), 1, 1e-12);
+}
+
 TEST(IntruderInstrument, NotesWhenItCameUp) {
     Bed bed("intruder");
     const auto place = [&](double top) {
@@ -95,6 +75,8 @@ TEST(IntruderInstrument, NotesWhenItCameUp) {
     place(6), bed.gather(375);
     EXPECT_NEAR(bed.look(375, "rise_time_s"), 0.25, 1e-12);
     EXPECT_NEAR(bed.look(375, "intruder_level"), 0.6, 1e-12);
+    place(11), bed.gather(500);
+    EXPECT_NEAR(bed.look(500, "rise_time_s"), 0.25, 1e-12);  // it has been up before
 }
 
 // 3 kg of big and 1 kg of small grains, which leave one after the other.
@@ -116,12 +98,100 @@ TEST(OutflowInstrument, WeighsWhatHasLeft) {
     EXPECT_NEAR(bed.look(250, "big_outflow"), 1.5 / 2, 1e-12);
     EXPECT_NEAR(bed.look(250, "small_outflow"), 0.5 / 2, 1e-12);
     EXPECT_TRUE(std::isnan(bed.look(250, "emptied_s")));
-    keep(0.035, 0), bed.gather(375);
-    bed.gather(500);
-    EXPECT_NEAR(bed.look(500, "emptied_s"), 0.375, 1e-12);
-    EXPECT_NEAR(bed.look(500, "outflow_rate"), 0, 1e-9);
+    keep(0.045, 0), bed.gather(375);
+    EXPECT_TRUE(std::isnan(bed.look(375, "emptied_s")));  // 1 % is 0.04 kg
+    keep(0.035, 0), bed.gather(500);
+    bed.gather(625);
+    EXPECT_NEAR(bed.look(625, "emptied_s"), 0.5, 1e-12);
+    EXPECT_NEAR(bed.look(625, "outflow_rate"), 0, 1e-9);
     bed.traffic.came = 1;
-    EXPECT_TRUE(std::isnan(bed.look(500, "outflow_kg")));
+    EXPECT_TRUE(std::isnan(bed.look(625, "outflow_kg")));
+}
+
+// The floor is at 0.3 now, and the lower grain has fallen below it into the tray.
+TEST(OutflowInstrument, GrainsInTheTrayAreOut) {
+    Bed bed("outflow");
+    bed.scene.container.tray = Tray{5, 20};
+    bed.pose.offset = {0, 0, 0.3};
+    const double volume = std::numbers::pi / 6;
+    bed.add(0, {0, 0, 2}, 0.5, 1 / volume);
+    bed.add(1, {0, 0, 5}, 0.5, 3 / volume);
+    bed.start();
+    bed.grains.place[0].position.z() = 0.2;
+    bed.gather(125);
+    EXPECT_NEAR(bed.look(125, "outflow_kg"), 1, 1e-12);
+    bed.scene.container.tray.reset();
+    EXPECT_NEAR(bed.look(125, "outflow_kg"), 0, 1e-12);
+}
+
+// Two windows of four periods in which grains rise by ways of their own; drifts are tested in flow_test.cpp.
+TEST(ConvectionInstrument, GivesTheDriftOfItsWindows) {
+    Bed bed("convection");
+    Drift drift(bed.scene);
+    for (int period = 0; period <= 8; ++period) {
+        bed.fill([](double) { return 10; });
+        for (Place& place : bed.grains.place) {
+            const double y = place.position.y(), rise = period * (16 + period) * std::cos(0.2 * y + 0.3);
+            place.position += 0.0006 * Vec3(0, 0.3 * rise * (place.position.z() - 5), rise);
+        }
+        period == 0 ? bed.start() : bed.gather(1000 * period);
+        if (period % 4 == 0) drift.note(period, bed.grains, {});
+    }
+    const auto expect = [&](const std::string& column, double value) {
+        EXPECT_TRUE(std::isfinite(value)) << column;
+        EXPECT_EQ(bed.look(8000, column), value) << column;
+    };
+    for (const auto& [name, zone] : {std::pair{"flow_left", Drift::at_left_wall},
+                                     {"flow_middle", Drift::in_middle},
+                                     {"flow_right", Drift::at_right_wall}}) {
+        expect(std::string(name) + "_m", drift.rise(zone).mean);
+        expect(std::string(name) + "_error_m", drift.rise(zone).error);
+    }
+    for (const auto& [name, half] : {std::pair{"roll_left", Side::left}, {"roll_right", Side::right}}) {
+        expect(std::string(name) + "_m", drift.roll(half).mean);
+        expect(std::string(name) + "_error_m", drift.roll(half).error);
+        expect(std::string(name) + "_y_m", drift.centre(half).y);
+        expect(std::string(name) + "_z_m", drift.centre(half).z);
+    }
+}
+
+// A bed of two grains, each half of the weight. Looks are seven steps apart; in between the floor carries so
+// many weights in the mean: less than a tenth from step 21 on, and more than half from step 35 on.
+TEST(BedInstrument, FliesWhileTheFloorCarriesLittleOfTheWeight) {
+    Bed bed("bed");
+    for (const double y : {-1.0, 1.0}) bed.add(0, {0, y, 1}, 0.5, 0.5 * 6 / std::numbers::pi);
+    bed.walls = WallSums{};
+    bed.walls->scale.force = 1e-6;
+    bed.walls->faces.resize(2);
+    bed.start();
+    std::int64_t step = 0;
+    for (const double carried : {1.0, 0.7, 0.12, 0.08, 0.4, 0.6, 1.2}) {
+        const double newtons = -carried * 10 * 7;  // 1 kg, seven steps
+        bed.walls->faces[0].force[2] += static_cast<WideInt>(std::llround(newtons / 1e-6));
+        bed.gather(step += 7);
+    }
+    EXPECT_TRUE(std::isnan(bed.look(step, "takeoff_turns"))) << "shorter than a sixteenth of a period";
+    for (int look = 0; look < 12; ++look) {
+        const double carried = look < 1 ? 1 : look < 11 ? 0.05 : 0.9;
+        bed.walls->faces[0].force[2] -= static_cast<WideInt>(std::llround(carried * 70 / 1e-6));
+        bed.gather(step += 7);
+    }
+    EXPECT_NEAR(bed.look(step, "takeoff_turns"), 0.056, 1e-12);  // step 49 + 7
+    EXPECT_NEAR(bed.look(step, "landing_turns"), 0.126, 1e-12);
+    EXPECT_NEAR(bed.look(step, "flight_periods"), 0.07, 1e-12);
+}
+
+TEST(BedInstrument, ExpansionIsHeightOverThatAtRest) {
+    Bed bed("bed");
+    bed.fill([](double) { return 10; });
+    bed.start();
+    for (const double expansion : {1.1, 1.3}) {
+        bed.fill([](double) { return 10; });
+        bed.pose.offset = {0, 0, 0.2};
+        for (Place& place : bed.grains.place) place.position.z() = 0.2 + expansion * place.position.z();
+        bed.gather(expansion < 1.2 ? 7 : 14);
+        EXPECT_NEAR(bed.look(14, "bed_expansion"), expansion, 1e-12);
+    }
 }
 
 Scene shaken(std::vector<std::string> sets = {}) {

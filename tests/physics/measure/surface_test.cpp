@@ -10,6 +10,7 @@
 #include "engine/measure/surface/spectrum.hpp"
 #include "engine/measure/surface/subharmonics.hpp"
 #include "engine/measure/surface/surface.hpp"
+#include "engine/measure/surface/surface_frame.hpp"
 
 namespace grainreel {
 namespace {
@@ -96,6 +97,25 @@ TEST(Surface, FindsGrainsPastAPeriodicEnd) {
     EXPECT_EQ(surface.height[5], 3.5);  // in one column, and the other grain is too far above
 }
 
+// 90 grains of 1, and 10 of 4 that come during the run: their mean is 1.3. In the wedge they fill the room up
+// to the height h at 0.6 of it, below slants of 45 degrees from a floor of half-width 2: 4 h + h^2 times
+// depth.
+TEST(SurfaceFrame, IsAsWideAsTheContainerWhereTheBedEnds) {
+    Scene scene;
+    scene.species.resize(2);
+    scene.species[0].count = 90, scene.species[1].fed = 10;
+    scene.species[0].diameter.mean = 1, scene.species[1].diameter.mean = 4;
+    Container& wedge = scene.container;
+    wedge.half_width = 22, wedge.depth = 10, wedge.height = 40;
+    wedge.half_angle = pi / 4, wedge.slant_height = 20;
+    const double area = pi / 6 * (90 + 10 * 64) / 0.6 / 10, h = std::sqrt(4 + area) - 2;
+    const SurfaceFrame frame = surface_frame(scene);
+    EXPECT_NEAR(frame.diameter, 1.3, 1e-12);
+    EXPECT_NEAR(frame.right, 2 + h, 1e-9);
+    EXPECT_NEAR(frame.left, -2 - h, 1e-9);
+    EXPECT_NEAR(frame.front, 5, 1e-12);
+}
+
 // 2.5 waves of amplitude 4 and one of amplitude 1 with a whole number of waves: the larger one is told.
 TEST(Spectrum, FindsTheLargestWave) {
     Spectrum spectrum(30);
@@ -133,6 +153,17 @@ TEST(Spectrum, FindsTheWavelengthOfASineSurface) {
             EXPECT_GT(wave.share, 0.9) << waves << " " << phase;
         }
     }
+}
+
+// The larger wave is three bins long, the other one six: only waves of at least four bins count.
+TEST(Spectrum, LeavesOutWavesThatBinsDoNotResolve) {
+    Spectrum spectrum(30);
+    std::vector<double> h;
+    for (int j = 0; j < 30; ++j)
+        h.push_back(std::cos(2 * pi * 5 * (j + 0.5) / 30) + 3 * std::cos(2 * pi * 10 * (j + 0.5) / 30));
+    const DominantWave wave = spectrum.dominant(h, 30);
+    EXPECT_NEAR(wave.wavelength, 6, 1e-12);
+    EXPECT_NEAR(wave.share, 1.0 / 10, 1e-9);
 }
 
 TEST(Spectrum, OfAFlatSurfaceHasNoWave) {
@@ -208,6 +239,13 @@ TEST(Mound, OfATentHasItsSlope) {
         const double slack = bins == 24 ? 1e-12 : 1e-4;  // of 24 bins zones are whole ones
         EXPECT_NEAR(mound.height, 0.3 * 0.12 / 3, slack);
     }
+}
+
+// Seven bins that rise as 1, 2 and 4 towards the middle one, which belongs to neither half: slopes are those
+// of three bins each, (4 - 1) / 2.
+TEST(Mound, LeavesTheMiddleBinOut) {
+    Surface s{0, 1, {1, 2, 4, 9, 4, 2, 1}};
+    EXPECT_NEAR(mound_of(s).slope, 1.5, 1e-12);
 }
 
 TEST(Mound, OfAPlaneIsTiltAlone) {
