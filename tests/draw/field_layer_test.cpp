@@ -60,6 +60,44 @@ TEST(FieldLayer, MeanIsWeightedByMass) {
     expect_colour(seen_at(scene, frame, place), scale.at((8 * 0.45 - 0.9) / 9));
 }
 
+// A grain of volume v has the solid fraction v / (2 pi w^2 d) in its middle, w being three quarters of the
+// mean diameter and d the depth. The layer has its whole strength from 0.3 on.
+TEST(FieldLayer, IsAsStrongAsItsCellsAreFull) {
+    const Scene scene = with_field();
+    const auto strongest = [&](const std::vector<Ball>& balls) {
+        Shapes shapes;
+        FieldLayer(scene).draw(view_of(scene), frame_of(balls), shapes);
+        double alpha = 0;
+        for (const Shapes::Vertex& vertex : shapes.vertices()) alpha = std::max(alpha, double{vertex.alpha});
+        return alpha;
+    };
+    const Vec3 place(0, 0, 0.08);
+    const double width = 0.75 * (1500 * 0.005 + 120 * 0.010) / 1620;
+    const double solid = 4 * pi / 3 * 1e-9 / (2 * pi * width * width * scene.container.depth);
+    const double one = strongest({{place, 0.001}});
+    EXPECT_NEAR(one, 0.8 * solid / 0.3, 0.05 * one);
+    EXPECT_NEAR(strongest(std::vector<Ball>(20, {place, 0.005})), 0.8, 1e-6);
+}
+
+TEST(FieldLayer, EndsAtTheWalls) {
+    Scene scene = with_field();
+    scene.container.shape = Container::Shape::box;
+    scene.film.camera.field_of_view = 0;
+    scene.film.camera.azimuth = scene.film.camera.elevation = 0;
+    Shapes shapes;
+    const View view = view_of(scene);
+    FieldLayer(scene).draw(view, frame_of({{Vec3(0, 0.07, 0.08)}, {Vec3(0, 0, 0.005)}}), shapes);
+    const Pixel corner = view.project(Vec3(scene.container.depth / 2, 0.075, 0));
+    ASSERT_FALSE(shapes.vertices().empty());
+    double right = 0, bottom = 0;
+    for (const Shapes::Vertex& vertex : shapes.vertices()) {
+        right = std::max(right, double{vertex.x});
+        bottom = std::max(bottom, double{vertex.y});
+    }
+    EXPECT_NEAR(right, corner.x(), 0.5);
+    EXPECT_NEAR(bottom, corner.y(), 0.5);
+}
+
 TEST(FieldLayer, GoesWithTheContainer) {
     const Scene scene = with_field();
     const Vec3 place(0, 0, 0.08), moved(0, 0, 0.004);

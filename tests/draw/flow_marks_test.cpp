@@ -77,6 +77,22 @@ TEST(VelocityField, OfAPeriodIsDisplacementTimesFrequency) {
     EXPECT_LT((*here - scene.drive.frequency * Vec3(0, 0.001, -0.002)).norm(), 1e-12);
 }
 
+// From 20 Hz to 45 Hz: over the first three periods from 0.1 s on.
+TEST(VelocityField, OfAPeriodGoesByTheFrequencyThatIsOn) {
+    Scene scene = wedge();
+    scene.drive.stages = {{DriveStage::Kind::vibrate, 0.1, 3, 45, 0.001}};
+    Frame frame = spread_grains();
+    frame.displacement.assign(frame.size(), Vec3(0, 0.001, -0.002));
+    VelocityField field(scene, 0.006, true);
+    for (const auto& [cycles, frequency] : {std::pair{1.5, 20}, {9.0, 45}}) {
+        frame.cycles = cycles;
+        field.take(frame);
+        const std::optional<Vec3> here = field.at(0.01, 0.12);
+        ASSERT_TRUE(here);
+        EXPECT_LT((*here - frequency * Vec3(0, 0.001, -0.002)).norm(), 1e-9) << cycles;
+    }
+}
+
 TEST(VelocityField, NeedsThreeGrainsAndGoesWithTheContainer) {
     const Scene scene = wedge();
     const Vec3 moved(0, 0.003, 0.004);
@@ -122,6 +138,68 @@ TEST(Streamlines, EndWhereTheFlowDoes) {
     EXPECT_NEAR(line.front().at.x(), -0.05, 1e-9);
     EXPECT_NEAR(line.back().at.x(), 0.01, 0.0011);
     EXPECT_TRUE(streamline(half, {0.02, 0}, 0.05, 0.001).empty());
+}
+
+Extent extent_of_marks(const Scene& scene, const Frame& frame) {
+    Shapes shapes;
+    FlowMarks(scene, make_palette({1, 1, 1})).draw(view_of(scene), frame, shapes);
+    Extent extent;
+    for (const Shapes::Vertex& vertex : shapes.vertices()) {
+        ++extent.count;
+        extent.left = std::min(extent.left, double{vertex.x});
+        extent.right = std::max(extent.right, double{vertex.x});
+        extent.top = std::min(extent.top, double{vertex.y});
+        extent.bottom = std::max(extent.bottom, double{vertex.y});
+    }
+    return extent;
+}
+
+// Seen from the front without perspective, with arrows or streamlines on cells as wide as a third of the box.
+Scene flat_scene() {
+    Scene scene = wedge();
+    scene.species = {species("small", 3, 2e-4, blue)};
+    scene.film.camera.field_of_view = 0;
+    scene.film.camera.azimuth = scene.film.camera.elevation = 0;
+    return scene;
+}
+
+Frame moving(const std::vector<Ball>& balls, const Vec3& velocity) {
+    Frame frame = frame_of(balls);
+    frame.velocity.assign(frame.size(), velocity);
+    return frame;
+}
+
+// An arrow is about the middle of its cell, at the height 0.075. It ends in a point, behind which it is
+// widest: there is more of it on the side of its tip. It is never longer than one and a half cells.
+TEST(Arrows, GoWithTheFlowAndAreNotTooLong) {
+    Scene scene = flat_scene();
+    scene.film.shows.arrows = {3, 0.1, false};
+    const View view = view_of(scene);
+    const Pixel middle = view.project(Vec3(0, 0, 0.075));
+    const double cell = 0.05 * view.focal;
+    for (const double speed : {0.05, -0.05, 0.1, 1.0}) {
+        const Frame frame = moving(std::vector<Ball>(3, {Vec3(0, 0, 0.075), 1e-4, 0}), Vec3(0, speed, 0));
+        Shapes shapes;
+        FlowMarks(scene, make_palette({1, 1, 1})).draw(view, frame, shapes);
+        double widest = 0, at = 0;
+        for (const Shapes::Vertex& vertex : shapes.vertices())
+            if (std::abs(vertex.y - middle.y()) > widest)
+                widest = std::abs(vertex.y - middle.y()), at = vertex.x;
+        EXPECT_GT((at - middle.x()) * speed, 0) << speed;
+        const Extent seen = extent_of_marks(scene, frame);
+        EXPECT_NEAR(seen.right - seen.left, std::min(std::abs(speed) / 0.1, 1.5) * cell, 8) << speed;
+        EXPECT_NEAR(0.5 * (seen.left + seen.right), middle.x(), 4) << speed;
+    }
+}
+
+TEST(Streamlines, LieAlongTheFlow) {
+    Scene scene = flat_scene();
+    scene.film.shows.streamlines = {1, 0.1, false};
+    std::vector<Ball> row;
+    for (int k = 0; k < 400; ++k) row.push_back({Vec3(0, -0.06 + 0.0003 * k, 0.075), 1e-4, 0});
+    const Extent seen = extent_of_marks(scene, moving(row, Vec3(0, 0.1, 0)));
+    ASSERT_GT(seen.count, 0);
+    EXPECT_GT(seen.right - seen.left, 5 * (seen.bottom - seen.top));
 }
 
 // Lines and arrows are drawn where the flow is, and nowhere else.

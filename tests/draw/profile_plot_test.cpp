@@ -80,9 +80,39 @@ TEST(ProfilePlots, SharesBySpeciesLieWhereTheyAre) {
         EXPECT_TRUE(seen(0, low, orange));
         EXPECT_TRUE(seen(1, high, orange));
         EXPECT_TRUE(seen(0, high, blue));
+        EXPECT_TRUE(seen(0.5, across ? 0.0 : 0.08, orange)) << "the border of the layers";
         EXPECT_FALSE(seen(0.5, low, blue));
         EXPECT_FALSE(seen(0.5, high, orange));
     }
+}
+
+// Four grains of 5 mm in a depth of 40 mm on a square lattice of 5 mm.
+TEST(ProfilePlots, SolidFractionsAreVolumeOverVolume) {
+    const Scene scene = boxed();
+    const FilmPlot plot = plot_of(ProfileOf::solid_fraction, false);
+    const Picture picture = drawn(scene, plot, two_layers(false));
+    const double solid = 4 * (pi / 6 * std::pow(0.005, 3)) / (0.04 * 0.005 * 0.005);
+    EXPECT_TRUE(has_hue(picture, pixel_at(scene, plot, solid, 0.03), hue(blue)));
+    EXPECT_TRUE(has_hue(picture, pixel_at(scene, plot, solid, 0.13), hue(orange)));
+    EXPECT_FALSE(has_hue(picture, pixel_at(scene, plot, 1.3 * solid, 0.03), hue(blue)));
+}
+
+// Of an axis from -0.1 to 0.25: there is a tick at 0, and none at 0.15, as far from the other end.
+TEST(ProfilePlots, TicksStandAtTheirValues) {
+    const Scene scene = boxed();
+    FilmPlot plot = plot_of(ProfileOf::vertical_velocity, false);
+    plot.range = std::array<double, 2>{-0.1, 0.25};
+    const Picture picture = drawn(scene, plot, frame_of({}));
+    const auto has_tick = [&](double value) {
+        const auto [x, y] = pixel_at(scene, plot, value, 0);
+        int darkest = 255;
+        for (int dx = -1; dx <= 1; ++dx)
+            darkest =
+                std::min<int>(darkest, *picture.pixel(static_cast<int>(x) + dx, static_cast<int>(y) + 1));
+        return darkest < 200;
+    };
+    EXPECT_TRUE(has_tick(0));
+    EXPECT_FALSE(has_tick(0.15)) << "its mirror image";
 }
 
 TEST(ProfilePlots, HeightGoesUpAndWidthToTheRight) {

@@ -62,6 +62,9 @@ TEST(WallForces, ArrowEndsWhereTheForceActs) {
     EXPECT_NEAR(seen.bottom, tip.y(), 6);  // the border and its mitre
     // Half the scale's force: an eighth of the container's width.
     EXPECT_NEAR(seen.bottom - seen.top, 0.15 / 8 * view.focal, 8);
+    table->add({1, 0, 0, 2 * force.z(), 2 * moment.x(), 0, 0});  // the next row has twice the force
+    const Extent next = drawn(2);
+    EXPECT_NEAR(next.bottom - next.top, 0.15 / 4 * view.focal, 8);
 }
 
 }  // namespace

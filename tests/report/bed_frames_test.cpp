@@ -146,6 +146,19 @@ TEST(BedFrames, SpeedsAreWithinTheStatedError) {
     EXPECT_EQ(speed_byte(0, 0, 0), 0);  // nothing ever moved
 }
 
+// The scale of all moments goes by the fastest grain of all, which here is in the first one.
+TEST(BedFrames, SpeedsAreByTheFastestGrainOfAllMoments) {
+    std::vector<Frame> frames = random_frames(3, 20);
+    frames[0].velocity[4] = Vec3(3, 0, 4);
+    const BedFrames bed = bed_frames(MadeRun(frames), plenty);
+    EXPECT_EQ(bed.highest_speed, 5);
+    const auto read = read_back(bed);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < 20; ++i)
+            EXPECT_EQ(read[k].at(frames[k].id[i]).speed,
+                      speed_byte(frames[k].velocity[i].norm(), 5 / 1e5, 5));
+}
+
 TEST(BedFrames, GrainsThatComeAndGoAreAbsentMeanwhile) {
     std::vector<Frame> frames = random_frames(3, 2);
     const auto take_out = [](Frame& frame, std::size_t i) {

@@ -23,7 +23,7 @@ struct MovedBox {
         scene.drive.present = true;
         scene.drive.moves = moves;
         scene.species[0].density = 3;
-        grains.add(0, 0, {1.9, 0.5, 0.6}, 0.4, 3);
+        grains.add(0, 0, {-2.1, 0.5, 0.6}, 0.4, 3);  // its image inside is at 1.9
         grains.add(1, 0, {1.9, 0.5, 1.4}, 0.5, 3);
         grains.motion[0].velocity = {1, 2, 3};
     }

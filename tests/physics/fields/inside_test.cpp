@@ -82,6 +82,17 @@ TEST(FieldCells, BeginAtTheWallsAndReachAsFarBeyondAsTheKernel) {
     }
 }
 
+// A grain that is out has no density inside, near as it may be to the wall; the whole kernel has its mass.
+TEST(FieldCells, GrainsOutsideHaveNoDensity) {
+    for (const Vec3& place : {Vec3(0, 5.3, 6), Vec3(0, 0, -0.2), Vec3(0, 0, 12.4), Vec3(0, 4.9, 1)}) {
+        Scene scene = field_box({4, 10, 12}, Grid::yz, 0.5, 0.37);
+        if (place.y() == 4.9) scene = wedge(Grid::yz);  // in the slant
+        CoarseGraining by(scene, 1);
+        by.add({{sphere(place, 0.5, 1, Vec3(0, 0, 1))}, {}}, 0);
+        EXPECT_EQ(integral(by, by.mean().density), 0) << place.transpose();
+    }
+}
+
 // Grains anywhere inside, many of them with their kernels beyond slants, corners and the round wall.
 TEST(FieldCells, NoMassIsLostAtWalls) {
     for (const Scene& scene : {wedge(Grid::yz), wedge(Grid::xyz), cylinder()}) {

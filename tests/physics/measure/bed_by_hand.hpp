@@ -49,8 +49,17 @@ struct BedByHand {
                 for (double z = top(j - 19.5) - 0.5; z > 0; z -= 1) add(0, {i - 1.5, j - 19.5, z}, 0.5);
     }
     Moment moment(std::int64_t step) const {
-        return {scene, plan.clock, grains,  step, gravity,
-                period, pose,       0,       traffic, {},   walls ? &*walls : nullptr};
+        return {scene,
+                plan.clock,
+                grains,
+                step,
+                gravity,
+                period,
+                pose,
+                0,
+                traffic,
+                {},
+                walls ? &*walls : nullptr};
     }
     void start() { observers().start(moment(0), contacts); }
     void gather(std::int64_t step) { observers().gather(moment(step), contacts); }
