@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <stdexcept>
 
 #include "engine/output/fields_file.hpp"
 #include "tests/cli/temporary_folder.hpp"
