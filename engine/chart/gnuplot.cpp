@@ -38,15 +38,39 @@ std::string gnuplot_text(const std::string& text) {
     return result + "'";
 }
 
+namespace {
+
+constexpr const char* line_end = ".\"\\n\".";
+
+bool begins_character(char c) {
+    return (c & 0xC0) != 0x80;
+}
+
+std::string first_characters(const std::string& utf8, std::size_t count) {
+    std::size_t bytes = 0;
+    for (; bytes < utf8.size(); ++bytes)
+        if (begins_character(utf8[bytes]) && count-- == 0) break;
+    return utf8.substr(0, bytes);
+}
+
+}  // namespace
+
 std::string gnuplot_lines(const std::string& text, std::size_t most) {
     const auto length = [](const std::string& utf8) {
-        return std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; });
+        return std::count_if(utf8.begin(), utf8.end(), begins_character);
     };
     std::string result, line, word;
     std::istringstream words(text);
     while (words >> word) {
+        while (length(word) > static_cast<std::ptrdiff_t>(most)) {  // a piece of it on a line of its own
+            const std::string piece = first_characters(word, most);
+            if (!line.empty()) result += gnuplot_text(line) + line_end;
+            result += gnuplot_text(piece) + line_end;
+            line.clear();
+            word.erase(0, piece.size());
+        }
         if (!line.empty() && length(line) + 1 + length(word) > static_cast<std::ptrdiff_t>(most)) {
-            result += gnuplot_text(line) + ".\"\\n\".";
+            result += gnuplot_text(line) + line_end;
             line.clear();
         }
         line += (line.empty() ? "" : " ") + word;

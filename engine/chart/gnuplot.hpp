@@ -14,7 +14,7 @@ bool run_gnuplot(const std::filesystem::path& folder, std::string commands);
 std::string gnuplot_text(const std::string& text);
 
 // The same in lines of at most `most` characters, broken at spaces: gnuplot cuts off labels that are longer
-// than the picture. A longer word stands alone.
+// than the picture. A longer word is cut.
 std::string gnuplot_lines(const std::string& text, std::size_t most);
 
 }  // namespace grainreel

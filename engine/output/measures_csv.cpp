@@ -1,6 +1,7 @@
 #include "engine/output/measures_csv.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -10,6 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
+#include "engine/measure/no_value.hpp"
 
 namespace grainreel {
 namespace {
@@ -72,7 +74,10 @@ MeasuresWriter::Cut MeasuresWriter::cut_before(const std::filesystem::path& path
 
 void MeasuresWriter::write(const Measures& measures) {
     GRAINREEL_CHECK(measures.names() == columns_);
-    file_.write(fmt::format("{}\n", fmt::join(measures.values(), ",")));
+    std::vector<double> values = measures.values();
+    for (double& value : values)
+        if (std::isnan(value)) value = kNoValue;  // its sign would show as -nan
+    file_.write(fmt::format("{}\n", fmt::join(values, ",")));
     ++rows_;
 }
 

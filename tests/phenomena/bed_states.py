@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Which state is a shallow shaken bed in? Two numbers of measures.csv over whole cycles of the drive.
 
 With growing depth (Thomas et al. 1989, in the words of the thesis that this program grew from): Newtonian-I, grains fly

@@ -87,7 +87,8 @@ TEST(StudyText, IsEscapedWhereverItGoes) {
     EXPECT_EQ(gnuplot_text("it's `x`\n"), "'it''s `x` '");
     EXPECT_EQ(gnuplot_lines("height of it's \u0393\u0393, m", 14),
               "'height of it''s'.\"\\n\".'\u0393\u0393, m'");
-    EXPECT_EQ(gnuplot_lines("unbreakable", 4), "'unbreakable'");
+    EXPECT_EQ(gnuplot_lines("an unbreakable word", 4),
+              "'an'.\"\\n\".'unbr'.\"\\n\".'eaka'.\"\\n\".'ble'.\"\\n\".'word'");
     EXPECT_EQ(gnuplot_lines("", 4), "''");
     EXPECT_EQ(shell_word("a b'c"), "'a b'\\''c'");
     EXPECT_EQ(shell_word(""), "''");

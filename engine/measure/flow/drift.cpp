@@ -53,6 +53,10 @@ void divide(VelocityGrid& grid) {
     }
 }
 
+bool holds_grains(const VelocityGrid& grid) {
+    return std::any_of(grid.weight.begin(), grid.weight.end(), [](double weight) { return weight > 0; });
+}
+
 struct Mean {
     double sum = 0, count = 0;
     void add(double value) { sum += value, count += 1; }
@@ -67,7 +71,11 @@ Drift::Drift(const Scene& scene)
 void Drift::note(std::int64_t period, const Grains& grains, const Pose& pose) {
     if (cells_.weight.empty()) return;
     if (period != next_) windows_.clear();
-    if (period == next_) windows_.push_back(compare(grains, pose));
+    if (period == next_) {
+        Window window = compare(grains, pose);
+        // A window that no grain has gone through tells nothing: a feed may come later.
+        if (holds_grains(window.grid)) windows_.push_back(std::move(window));
+    }
     if (windows_.size() > kWindows) windows_.pop_front();
     find_centres();
     remember(grains, pose);

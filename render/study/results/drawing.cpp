@@ -18,7 +18,7 @@ constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#
                                              "#e69f00", "#56b4e9", "#000000"};
 constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};
 
-constexpr std::size_t most_across = 80, most_upright = 55;  // characters of a line along the chart's edges
+constexpr std::size_t most_across = 80, most_upright = 55, most_in_key = 60;  // characters of a line
 
 std::string gnuplot_number(double value) {
     return std::isnan(value) ? "NaN" : fmt::format("{}", value);
@@ -43,7 +43,8 @@ std::string reference_table(const std::vector<ReferencePoint>& points) {
 std::string plot_series(const std::string& table, const ChartSeries& series, std::size_t number) {
     const std::string style = fmt::format("lc rgb '{}' lw 2", colours[number % colours.size()]);
     const int mark = marks[number % marks.size()];
-    const std::string title = series.name.empty() ? "notitle" : "title " + gnuplot_text(series.name);
+    const std::string title =
+        series.name.empty() ? "notitle" : "title " + gnuplot_lines(series.name, most_in_key);
     return fmt::format(
         "{0} using (column(1)=={1} ? column(2) : NaN):3 with linespoints pt {2} ps 0.9 {3} {4}, \\\n"
         "    {0} using (column(1)=={1} ? column(2) : NaN):3:4:5 with yerrorbars pt {2} ps 0.9 {3} notitle",
@@ -77,7 +78,7 @@ std::string chart_commands(const Study& study, const StudyChart& chart,
     if (has_reference)
         plots += fmt::format(
             ", \\\n    {0} using 1:2:3 with yerrorbars pt 6 ps 1.1 lw 1.5 lc rgb 'black' title {1}",
-            gnuplot_text(stem + ".reference.csv"), gnuplot_text(chart.reference_label));
+            gnuplot_text(stem + ".reference.csv"), gnuplot_lines(chart.reference_label, most_in_key));
     std::string text = fmt::format("# Draws the table beside it: gnuplot {}.gp\n", stem);
     text += "set encoding utf8\nset datafile separator ','\nset datafile missing 'NaN'\nset grid\n";
     text += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",

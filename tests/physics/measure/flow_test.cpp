@@ -253,6 +253,21 @@ TEST(Drift, IsThatAgainstTheContainer) {
     EXPECT_NEAR(drift.rise(Drift::at_right_wall).mean, -1e-3 / 11, 1e-12);
 }
 
+// Grains that come by a feed: the window before they are there is none.
+TEST(Drift, BeginsWhenThereAreGrains) {
+    Bed bed;
+    Drift drift(bed.scene);
+    drift.note(0, {}, {});
+    drift.note(4, {}, {});
+    EXPECT_TRUE(std::isnan(drift.rise(Drift::in_middle).mean));
+    const auto up_in_middle = [](double y, double) { return std::pair{0.0, std::abs(y) < 3 ? 0.01 : 0.0}; };
+    bed.drift(up_in_middle, -1);
+    drift.note(8, bed.grains, {});
+    bed.drift(up_in_middle, 1);
+    drift.note(12, bed.grains, {});
+    EXPECT_NEAR(drift.rise(Drift::in_middle).mean, 0.01 * (1 - 3.0 / 11), 1e-12);
+}
+
 TEST(Drift, PassesOverGrainsThatComeAndGo) {
     Bed bed;
     Drift drift(bed.scene);

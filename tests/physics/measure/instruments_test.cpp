@@ -194,6 +194,14 @@ TEST(BedInstrument, ExpansionIsHeightOverThatAtRest) {
     }
 }
 
+TEST(BedInstrument, ExpansionOfABedThatCameLaterIsNotKnown) {
+    Bed bed("bed");
+    bed.start();
+    bed.fill([](double) { return 10; });
+    bed.gather(7);
+    EXPECT_TRUE(std::isnan(bed.look(7, "bed_expansion")));
+}
+
 Scene shaken(std::vector<std::string> sets = {}) {
     sets.insert(sets.begin(),
                 {"output.instruments=[\"bed\", \"surface\", \"convection\", \"intruder\", \"outflow\"]",

@@ -21,7 +21,8 @@ class BedMotion final : public Observer {
         return {
             {{{"bed_expansion", "expansion of the bed"}},
              "1",
-             "`bed_top_m` over that of the bed at rest, when the drive started"},
+             "`bed_top_m` over that of the bed at rest, when the drive started; NaN where there were no "
+             "grains then"},
             {{{"takeoff_turns", "phase of take-off (turns)"}, {"landing_turns", "phase of landing (turns)"}},
              "turns, 0 to 1",
              "phase of the drive at which the last flight began and ended: the floor carries less than a "
@@ -48,7 +49,7 @@ class BedMotion final : public Observer {
         note(m);
     }
     void look(const Moment& m, std::vector<double>& row) override {
-        row.push_back(height_of(m) / rest_height_);
+        row.push_back(rest_height_ > 0 ? height_of(m) / rest_height_ : kNoValue);
         const std::optional<Flight::Times> last = flight_.last();
         if (!last) return add_no_values(row, 3);
         row.insert(row.end(), {m.clock.phase(last->from), m.clock.phase(last->to),
