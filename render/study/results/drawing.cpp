@@ -20,6 +20,17 @@ constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};
 
 constexpr std::size_t most_across = 80, most_upright = 55, most_in_key = 60;  // characters of a line
 
+// Of the longest name in the key. gnuplot lets the names overlap unless they are set so far apart.
+std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference) {
+    const auto lines = [](const std::string& name) {
+        const std::string text = gnuplot_lines(name, most_in_key);
+        return 1 + std::count(text.begin(), text.end(), '\\');
+    };
+    std::ptrdiff_t most = lines(reference);
+    for (const ChartSeries& each : series) most = std::max(most, lines(each.name));
+    return most;
+}
+
 std::string gnuplot_number(double value) {
     return std::isnan(value) ? "NaN" : fmt::format("{}", value);
 }
@@ -86,10 +97,10 @@ std::string chart_commands(const Study& study, const StudyChart& chart,
                         gnuplot_lines(study.measures[chart.y].label, most_upright));
     if (!chart.title.empty())
         text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, most_across));
-    text +=
-        "set key noenhanced outside above left Left reverse maxcols 2 spacing 1.1\nset offsets graph 0.03, "
-        "graph 0.03, graph 0.05, graph "
-        "0.05\n";
+    text += fmt::format(
+        "set key noenhanced outside above left Left reverse maxcols 2 spacing {:.1f}\n",
+        1.1 * static_cast<double>(lines_of_key(series, has_reference ? chart.reference_label : "")));
+    text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n";
     if (!axis.numeric) text += word_ticks(axis);
     if (chart.log_x) text += "set logscale x\n";
     if (chart.log_y) text += "set logscale y\n";
