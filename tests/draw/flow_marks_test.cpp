@@ -143,15 +143,7 @@ TEST(Streamlines, EndWhereTheFlowDoes) {
 Extent extent_of_marks(const Scene& scene, const Frame& frame) {
     Shapes shapes;
     FlowMarks(scene, make_palette({1, 1, 1})).draw(view_of(scene), frame, shapes);
-    Extent extent;
-    for (const Shapes::Vertex& vertex : shapes.vertices()) {
-        ++extent.count;
-        extent.left = std::min(extent.left, double{vertex.x});
-        extent.right = std::max(extent.right, double{vertex.x});
-        extent.top = std::min(extent.top, double{vertex.y});
-        extent.bottom = std::max(extent.bottom, double{vertex.y});
-    }
-    return extent;
+    return extent_of_vertices(shapes);
 }
 
 // Seen from the front without perspective, with arrows or streamlines on cells as wide as a third of the box.

@@ -1,6 +1,7 @@
 // Scenes and frames made by hand, and measurements on pictures.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -9,6 +10,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/draw/container/container_drawing.hpp"
+#include "render/draw/picture/canvas.hpp"
 #include "render/draw/picture/renderer.hpp"
 #include "render/draw/words/layout.hpp"
 
@@ -77,6 +79,18 @@ struct Extent {
     int count = 0;
     double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
 };
+// The box around all vertices, and how many there are.
+inline Extent extent_of_vertices(const Shapes& shapes) {
+    Extent extent;
+    for (const Shapes::Vertex& vertex : shapes.vertices()) {
+        ++extent.count;
+        extent.left = std::min(extent.left, double{vertex.x});
+        extent.right = std::max(extent.right, double{vertex.x});
+        extent.top = std::min(extent.top, double{vertex.y});
+        extent.bottom = std::max(extent.bottom, double{vertex.y});
+    }
+    return extent;
+}
 inline double difference(const Picture& a, const Picture& b, int x, int y) {
     double sum = 0;
     for (int c = 0; c < 3; ++c) sum += std::abs(a.pixel(x, y)[c] - b.pixel(x, y)[c]);

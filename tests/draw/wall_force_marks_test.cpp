@@ -44,15 +44,7 @@ TEST(WallForces, ArrowEndsWhereTheForceActs) {
         frame.measure_rows = rows;
         Shapes shapes;
         WallForceMarks(scene, make_palette({1, 1, 1})).draw(view, frame, shapes);
-        Extent extent;
-        for (const Shapes::Vertex& vertex : shapes.vertices()) {
-            ++extent.count;
-            extent.left = std::min(extent.left, double{vertex.x});
-            extent.right = std::max(extent.right, double{vertex.x});
-            extent.top = std::min(extent.top, double{vertex.y});
-            extent.bottom = std::max(extent.bottom, double{vertex.y});
-        }
-        return extent;
+        return extent_of_vertices(shapes);
     };
     EXPECT_EQ(drawn(0).count, 0) << "no row yet";
     const Extent seen = drawn(1);
