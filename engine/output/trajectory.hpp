@@ -68,12 +68,15 @@ class DamagedFrame : public UserError {
 
 class TrajectoryReader {
   public:
-    // Throws UserError when the file is missing, was cut off, has a damaged header, or is no such trajectory:
-    // then it says what it lacks.
+    // Throws UserError when the file is missing, lacks more than its last frame, has a damaged header, or is
+    // no such trajectory: then it says what it lacks.
     explicit TrajectoryReader(const std::filesystem::path& path);
     ~TrajectoryReader();
 
-    std::size_t frames() const;
+    std::size_t frames() const;  // whole ones
+    // Whether the last frame that the header counts is not whole. The run was killed while it wrote that
+    // frame, or a copy of the file was cut off there.
+    bool cut_off() const;
     // Frames that lie in the file beyond those that its header counts: that count is damaged, or the run that
     // writes the file goes on.
     std::size_t uncounted() const;

@@ -30,6 +30,9 @@ void check_complete(const NetcdfFile& file, const std::string& name) {
     };
     std::for_each(frame_variables.begin(), frame_variables.end(), check);
     std::for_each(grain_variables.begin(), grain_variables.end(), check);
+    if (missing.empty() && !file.has_records())
+        throw UserError(
+            fmt::format("{}: its header is damaged (its frames are not counted); copy the file again", name));
     if (missing.empty()) return;
     if (missing.size() == frame_variables.size() + grain_variables.size())
         throw UserError(
@@ -41,11 +44,12 @@ void check_complete(const NetcdfFile& file, const std::string& name) {
                     fmt::join(missing, ", ")));
 }
 
-// The library would read zeros beyond the end.
-void check_whole(std::size_t frames, std::size_t whole, const std::string& name) {
-    if (whole < frames)
+// The library would read zeros beyond the end. One frame that is not whole is what a killed run leaves:
+// within the first block of the file the library writes a frame and its count in one go, the count first.
+void check_whole(std::size_t counted, std::size_t whole, const std::string& name) {
+    if (whole + 1 < counted)
         throw UserError(fmt::format("{}: was cut off: of its {} frames {} are whole; copy it again", name,
-                                    frames, whole));
+                                    counted, whole));
 }
 
 }  // namespace
@@ -53,9 +57,10 @@ void check_whole(std::size_t frames, std::size_t whole, const std::string& name)
 struct TrajectoryReader::Impl {
     explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
         check_complete(file, source);
-        frames = file.length("frame");
-        const std::size_t on_disk = file.records_on_disk(frames);
-        check_whole(frames, on_disk, source);
+        const std::size_t counted = file.length("frame"), on_disk = file.records_on_disk(counted);
+        check_whole(counted, on_disk, source);
+        frames = std::min(counted, on_disk);
+        cut_off = frames < counted;
         uncounted = on_disk - frames;
         info.title = file.text_attribute(NC_GLOBAL, "title");
         info.program_version = file.text_attribute(NC_GLOBAL, "programVersion");
@@ -126,6 +131,7 @@ struct TrajectoryReader::Impl {
     std::string source;  // for messages
     NetcdfFile file;
     std::size_t frames = 0, uncounted = 0;
+    bool cut_off = false;
     TrajectoryInfo info;
 };
 
@@ -228,6 +234,9 @@ TrajectoryReader::~TrajectoryReader() = default;
 
 std::size_t TrajectoryReader::frames() const {
     return impl_->frames;
+}
+bool TrajectoryReader::cut_off() const {
+    return impl_->cut_off;
 }
 std::size_t TrajectoryReader::uncounted() const {
     return impl_->uncounted;

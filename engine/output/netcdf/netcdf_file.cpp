@@ -55,9 +55,11 @@ NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t rec
     if ((records > 0 && end > std::filesystem::file_size(path, error)) || error)
         throw UserError(
             fmt::format("{}: was cut off; it lacks some of its first {} records", path.string(), records));
+    // In this order: a program that is killed in between leaves records that are not counted, which a reader
+    // tells from a file that was cut off.
+    set_record_count(path, records);
     std::filesystem::resize_file(path, end, error);
     if (error) throw RunError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
-    set_record_count(path, records);
     int id = -1;
     std::size_t buffer = buffer_size;
     if (const int status = nc__open(path.c_str(), NC_WRITE, &buffer, &id); status != NC_NOERR)

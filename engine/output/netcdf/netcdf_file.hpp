@@ -41,6 +41,9 @@ class NetcdfFile {
     bool has_variable(const std::string& name) const;
     std::size_t length(const std::string& dimension) const;                   // UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
+    bool has_records() const {
+        return header_.record > 0;
+    }  // whether a dimension of the file read is unlimited
     // How many whole records lie in the file that is read, whatever its header counts: fewer when it was cut
     // off, more when the count is damaged. Waits a little where fewer than `counted` lie there and the file
     // was written a moment ago: the library counts a record shortly before it writes it.

@@ -70,6 +70,11 @@ void RecordedRun::read_moments() {
             fmt::format("{}: has no checksums, for an earlier version wrote it; damage that leaves possible "
                         "numbers would not show",
                         name));
+    if (trajectory_.cut_off())
+        news_.push_back(fmt::format(
+            "{}: frame {} (the first is 0) is not whole, and is left out; the run was killed while "
+            "it wrote that frame, or the copy of the file was cut off",
+            name, trajectory_.frames()));
     if (trajectory_.uncounted() > 0)
         news_.push_back(
             fmt::format("{}: counts {} frames and holds {} more; they are left out. The run goes on, or the "

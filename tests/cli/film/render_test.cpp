@@ -220,6 +220,18 @@ TEST_F(RenderProgram, FilesOfAnotherRunAreRefusedAndDamagedOnesTold) {
     EXPECT_THAT(cut.err, HasSubstr("contacts.nc: was cut off"));
 }
 
+// As a run leaves it that was killed while it wrote the frame.
+TEST_F(RenderProgram, ALastFrameThatIsNotWholeIsLeftOut) {
+    short_run();
+    ASSERT_EQ(program({"render", "run", "--no-film", "--frames", "--out", "all"}).status, 0);
+    fs::resize_file(here / "run/trajectory.nc", fs::file_size(here / "run/trajectory.nc") - 100);
+    const Ended ended = program({"render", "run", "--no-film", "--frames", "--out", "cut"});
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_THAT(ended.err,
+                HasSubstr("run/trajectory.nc: frame 6 (the first is 0) is not whole, and is left"));
+    EXPECT_EQ(entries_of(here / "cut/frames"), entries_of(here / "all/frames") - 1);
+}
+
 TEST_F(RenderProgram, AStartFileThatIsGoneDoesNotMatter) {
     short_run();
     ASSERT_EQ(program({"movie", "run.toml", "--out", "second", "--no-film", "--duration", "0.1 s", "--set",
@@ -252,7 +264,7 @@ TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     fs::create_directory(here / "empty");
     fs::copy(here / "run", here / "cut");
     const std::string whole = text_of(here / "run/trajectory.nc");
-    write_text(here / "cut/trajectory.nc", whole.substr(0, whole.size() - 100));
+    write_text(here / "cut/trajectory.nc", whole.substr(0, whole.size() * 3 / 4));
     fs::copy(here / "run", here / "silent");
     fs::remove(here / "silent/trajectory.nc");
     write_text(here / "taken.png", "mine");
@@ -262,7 +274,7 @@ TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
         {{"render", "run.toml"}, "run.toml: no such folder"},
         {{"render", "empty"}, "empty: has no scene.toml"},
         {{"render", "silent"}, "silent: has no trajectory.nc"},
-        {{"render", "cut"}, "cut/trajectory.nc: was cut off: of its 7 frames 6 are whole"},
+        {{"render", "cut"}, "cut/trajectory.nc: was cut off: of its 7 frames 5 are whole"},
         {{"render", "run", "--set", "drive.frequency=3"}, "--set drive.frequency: the run is over"},
         {{"render", "run", "--set", "species.big.count=3"}, "the run is over"},
         {{"render", "run", "--set", "film.shade=3"}, "unknown key"},

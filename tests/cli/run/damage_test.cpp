@@ -98,7 +98,8 @@ TEST(Damage, NoFrameIsReadThatWasNotWritten) {
         write_old_text(here / "d.nc", damaged(whole, random));
         try {
             const TrajectoryReader reader(here / "d.nc");
-            EXPECT_EQ(reader.frames() + reader.uncounted(), std::size_t{frames}) << trial;
+            EXPECT_EQ(reader.frames() + reader.uncounted() + (reader.cut_off() ? 1 : 0), std::size_t{frames})
+                << trial;
             for (std::size_t i = 0; i < reader.frames(); ++i) {
                 try {
                     EXPECT_TRUE(same(reader.read(i), made_frame(grains, static_cast<int>(i), true)))

@@ -112,6 +112,18 @@ TEST_F(ResumedRun, AKilledOneEndsAsIfItHadNotBeen) {
     expect_same("whole", "run");
 }
 
+// A kill in the middle of a write leaves a frame that is counted and not whole.
+TEST_F(ResumedRun, AFrameThatWasHalfWrittenIsWrittenAgain) {
+    ASSERT_EQ(run(movie("whole", with_all)).status, 0);
+    kill_at(9, with_all);
+    for (const char* file :
+         {"trajectory.nc", "film_moments.nc", "contacts.nc", "fields.nc", "key_moments.nc"})
+        fs::resize_file(here / "run" / file, fs::file_size(here / "run" / file) - 10);
+    const Ended ended = run({"resume", "run"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    expect_same("whole", "run");
+}
+
 // Browsers do not play Matroska, so the page needs a copy, which goes along with the film.
 TEST_F(ResumedRun, TheCopyForThePageIsWhole) {
     const Words words = {"--duration", "1.5 s", "--format", "ffv1"};

@@ -349,22 +349,47 @@ TEST(Trajectory, AForeignFileIsToldWhatItLacks) {
                   "trajectory.nc of a run");
 }
 
-// The library reads zeros there; one byte less must show.
-TEST(Trajectory, AFileThatWasCutOffIsAUserError) {
-    const TemporaryFolder here;
+// Three frames of 200 grains.
+std::string three_frames(const TemporaryFolder& here) {
     {
         TrajectoryWriter writer(here / "t.nc", made_info(200, true));
         for (int i = 0; i < 3; ++i) writer.write(made_frame(200, i, true));
     }
-    const std::string whole = test::text_of(here / "t.nc");
-    const std::size_t record = (whole.size() - 1) / 3;  // and part of the header
-    const std::vector<std::pair<std::size_t, int>> cuts = {{1, 2}, {600, 2}, {record, 1}};
-    for (const auto& [cut, left] : cuts) {
-        test::write_old_text(here / "cut.nc", whole.substr(0, whole.size() - cut));
-        EXPECT_THAT(mistake_in(here / "cut.nc"),
-                    testing::HasSubstr("cut.nc: was cut off: of its 3 frames " + std::to_string(left)));
-    }
     EXPECT_EQ(mistake_in(here / "t.nc"), "none");
+    return test::text_of(here / "t.nc");
+}
+
+// A killed run leaves that. The library reads zeros there; one byte less must show.
+TEST(Trajectory, ALastFrameThatIsNotWholeIsLeftOut) {
+    const TemporaryFolder here;
+    const std::string whole = three_frames(here);
+    EXPECT_FALSE(TrajectoryReader(here / "t.nc").cut_off());
+    for (const std::size_t cut : {1, 600, 9000}) {
+        test::write_old_text(here / "cut.nc", whole.substr(0, whole.size() - cut));
+        const TrajectoryReader reader(here / "cut.nc");
+        EXPECT_TRUE(reader.cut_off()) << cut;
+        ASSERT_EQ(reader.frames(), 2u) << cut;
+        EXPECT_EQ(reader.read(1).position, made_frame(200, 1, true).position) << cut;
+    }
+}
+
+TEST(Trajectory, AFileThatWasCutOffIsAUserError) {
+    const TemporaryFolder here;
+    const std::string whole = three_frames(here);
+    const std::size_t record = (whole.size() - 1) / 3;  // and part of the header
+    test::write_old_text(here / "cut.nc", whole.substr(0, whole.size() - record));
+    EXPECT_THAT(mistake_in(here / "cut.nc"), testing::HasSubstr("cut.nc: was cut off: of its 3 frames 1"));
+}
+
+// A run that goes on in it puts the count right.
+TEST(Trajectory, ItIsWrittenOnBehindTheLastWholeFrame) {
+    const TemporaryFolder here;
+    const std::string whole = three_frames(here);
+    for (const std::size_t cut : {0, 1, 9000}) {
+        test::write_old_text(here / "cut.nc", whole.substr(0, whole.size() - cut));
+        TrajectoryWriter(here / "cut.nc", made_info(200, true), 2).write(made_frame(200, 2, true));
+        EXPECT_EQ(test::text_of(here / "cut.nc") == whole, true) << cut;
+    }
 }
 
 // The library counts a frame shortly before it writes it.
