@@ -13,11 +13,10 @@ import argparse
 import csv
 import math
 import os
-import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from slot_rate import D, K, SOLID  # noqa: E402
+from slot_rate import D, K, SOLID, call  # noqa: E402
 
 STIFFNESS = 2000.0  # N/m
 DAMPING = 1555.0  # 1/s, times the effective mass: a restitution of 0.7 for two grains of diameter D
@@ -103,8 +102,7 @@ def grainreel(program, folder, name, ratio, friction, outlet, start, duration):
             count=count, low=0.9 * D, high=1.1 * D, solid=SOLID, stiffness=STIFFNESS, damping=DAMPING,
             tangential=DAMPING / 2, friction=friction, width=width, depth=depth, height=2.2 * width,
             outlet=outlet, start=start, duration=duration, step=STEP))
-    subprocess.run([program, "movie", out + ".toml", "--no-film", "--quiet", "--threads", "1", "--out", out, "--force"],
-                   check=True, stdout=subprocess.DEVNULL)
+    call(program, "movie", out + ".toml", "--no-film", "--quiet", "--threads", "1", "--out", out, "--force")
     return out
 
 
@@ -133,7 +131,7 @@ def lammps(folder, ratio, friction, duration, grains):
         file.write(LAMMPS.format(
             data=os.path.join(folder, "start.data"), law=law(friction), step=STEP, half_slot=ratio * D / 2,
             half_width=width / 2, every=100, steps=round(duration / STEP), out=out + ".part"))
-    subprocess.run(["lmp", "-in", script, "-log", os.path.join(folder, "lammps.log"), "-screen", "none"], check=True)
+    call("lmp", "-in", script, "-log", os.path.join(folder, "lammps.log"), "-screen", "none")
     os.rename(out + ".part", out)
     return out
 

@@ -19,6 +19,7 @@ import csv
 import math
 import os
 import subprocess
+import sys
 
 D = 0.004  # m, mean diameter
 SOLID = 2500.0  # kg/m3
@@ -62,6 +63,16 @@ def scene_of(ratio, depth, friction):
         height=2.2 * width, slot=ratio * D, exit=4 * D, duration=0.1 + 0.55 * mass / expected)
 
 
+def call(*words):
+    """Runs a program; ends with one line where it is missing or fails."""
+    try:
+        code = subprocess.run(words, stdout=subprocess.DEVNULL, check=False).returncode
+    except OSError as problem:
+        sys.exit(f"{words[0]}: {problem.strerror}; give the path of a program that runs")
+    if code != 0:
+        sys.exit(f"`{' '.join(words)}` ended with {code}")
+
+
 def run(program, folder, ratio, depth, friction):
     mass, text = scene_of(ratio, depth, friction)
     out = os.path.join(folder, f"slot_{ratio:g}")
@@ -69,8 +80,7 @@ def run(program, folder, ratio, depth, friction):
         path = out + ".toml"
         with open(path, "w") as file:
             file.write(text)
-        subprocess.run([program, "movie", path, "--no-film", "--quiet", "--threads", "1", "--out", out, "--force"],
-                       check=True, stdout=subprocess.DEVNULL)
+        call(program, "movie", path, "--no-film", "--quiet", "--threads", "1", "--out", out, "--force")
     left = []
     with open(os.path.join(out, "outflow.csv")) as file:
         for row in csv.DictReader(file):

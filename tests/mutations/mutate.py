@@ -225,14 +225,14 @@ def run_all(options):
     if problems:
         raise Mistake("\n".join(problems))
     wanted = [m for m in everything if not options.only or options.only in f"{m.title} {m.file}"]
+    if not wanted:
+        raise Mistake(f"no mutation holds '{options.only}'")
     if options.list:
         for m in wanted:
             print(f"{m.number:10}  {m.title}\n            {m.file}; {m.program} {m.tests}")
     if options.list or options.check:
         print(f"{len(wanted)} mutations; each text stands in its file once")
         return 0
-    if not wanted:
-        raise Mistake(f"no mutation holds '{options.only}'")
     tree = options.tree.resolve()
     if tree.is_dir() and any(tree.iterdir()) and not (tree / HEADER).is_file():
         raise Mistake(f"{tree} is in use for something else; name a new folder")

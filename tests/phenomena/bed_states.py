@@ -83,7 +83,6 @@ def main():
 
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("runs", type=Path, nargs="+", metavar="RUN")
-    parser.add_argument("--area", type=float, default=0.03 * 0.0135, help="of the floor, m2 [4.05e-4]")
     parser.add_argument("--profiles", action="store_true", help="write shallow_N.dat of each run, of N grains, for gnuplot")
     options = parser.parse_args()
     print("grains,coherence,least_expansion,most_expansion,least_solid,most_solid,densest_slice,state")
@@ -91,13 +90,21 @@ def main():
         run, trajectory = Finished(folder), Fields(folder / "trajectory.nc")
         coherent = coherence(run, 1)
         expansion, solid = over_the_cycle(run, "bed_expansion", 1), over_the_cycle(run, "bed_solid_fraction", 1)
-        cycle = profiles(trajectory, 0.002, options.area, 1)
+        cycle = profiles(trajectory, 0.002, floor_area(folder), 1)
         densest = max(max(row) for row in cycle)
         count = trajectory.shape("radius")[1]
         print(f"{count},{coherent:.3f},{min(expansion):.2f},{max(expansion):.2f},{min(solid):.3f},{max(solid):.3f},"
               f"{densest:.3f},{state(coherent, solid, densest)}", flush=True)
         if options.profiles:
             write_profiles(f"shallow_{count}.dat", cycle)
+
+
+def floor_area(run):
+    """Of a run in a box, m2."""
+    import tomllib
+
+    container = tomllib.loads((run / "scene.toml").read_text(encoding="utf-8"))["container"]
+    return container["width"] * container["depth"]
 
 
 def write_profiles(name, cycle):

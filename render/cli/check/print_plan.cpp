@@ -12,6 +12,7 @@ namespace grainreel {
 namespace {
 
 std::string start_text(const Scene& scene) {
+    if (scene.start.packs() && scene.grains_at_start() == 0) return "empty; all grains come by [[feed]]";
     const std::string settling =
         fmt::format("then settling for {} at most", span_text(scene.start.settle_limit));
     switch (scene.start.method) {

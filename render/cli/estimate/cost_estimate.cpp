@@ -53,7 +53,7 @@ double scene_cost(const Scene& scene, const Plan& plan) {
 
 // In steps of a shaken bed.
 double packing_steps(const Scene& scene, const Plan& plan) {
-    if (!scene.start.packs()) return 0;
+    if (!scene.start.packs() || scene.grains_at_start() == 0) return 0;
     const bool rains = scene.start.method == Start::Method::rain;
     const double settling = settling_time / plan.clock.step;
     // On average half of the grains are there while it rains.

@@ -220,10 +220,11 @@ class StudyVerb final : public Verb {
                 return r.state == MemberResult::State::complete && std::isnan(r.values[i]);
             });
             if (gaps > 0)
-                reporter.warning(
-                    fmt::format("{} has no value in {} complete members (a threshold that is not reached, "
-                                "no row in the window); means leave these out",
-                                study.measures[i].name, gaps));
+                reporter.warning(fmt::format(
+                    "{} has no value in {} complete members, and means leave these out; either its "
+                    "column is empty there, or its window has no row, or its threshold is not "
+                    "reached",
+                    study.measures[i].name, gaps));
         }
     }
 
