@@ -38,6 +38,24 @@ rate = 30
 playback = 0.5
 )";
 
+// All grains come while the run goes on.
+inline constexpr const char* fed_scene_text = R"([[species]]
+name = "glass"
+diameter = "4 mm"
+density = "2.5 g/cm3"
+[container]
+shape = "box"
+width = "40 mm"
+depth = "20 mm"
+height = "80 mm"
+[start]
+method = "rain"
+[[feed]]
+rate = "200 1/s"
+[run]
+duration = "0.2 s"
+)";
+
 inline std::filesystem::path write_small_scene(const std::filesystem::path& folder) {
     const std::filesystem::path path = folder / "fifty.toml";
     std::ofstream(path) << small_scene_text;

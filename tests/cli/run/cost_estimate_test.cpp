@@ -51,6 +51,14 @@ TEST(CostEstimate, EngineAndFilmTakeTurnsOrDoNot) {
     EXPECT_NEAR(together.total_seconds, rest + std::max(turns.engine_seconds, turns.film_seconds), 1e-12);
 }
 
+TEST(CostEstimate, ABoxThatIsOnlyFedIsNotPacked) {
+    EXPECT_GT(cost_of(scene_with({}), in_turn, machine).packing_seconds, 0);
+    const CostEstimate fed = cost_of(read_scene_text(fed_scene_text, "fed.toml", {}), in_turn, machine);
+    EXPECT_EQ(fed.packing_seconds, 0);
+    EXPECT_EQ(fed.packing_share, 0);
+    EXPECT_GT(fed.engine_seconds, 0);
+}
+
 // A picture of eight moments is drawn eight times and encoded once.
 TEST(CostEstimate, CountsWhatAnExposureDraws) {
     const CostEstimate open = cost_of(

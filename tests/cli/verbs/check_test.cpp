@@ -52,6 +52,13 @@ TEST_F(CheckProgram, ReadsAPipe) {
     EXPECT_THAT(ended.out, HasSubstr("Fifty grains"));
 }
 
+TEST_F(CheckProgram, ABoxThatIsOnlyFedIsNotPacked) {
+    write_text(here / "fed.toml", fed_scene_text);
+    const Ended ended = check({"fed.toml"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("start        empty; all grains come by [[feed]]\n"));
+}
+
 // Held in the middle of its work by a pipe that says nothing; had the signal not ended it, the closed pipe
 // would, with a complaint about an empty scene.
 class SignalledCheck : public CheckProgram, public testing::WithParamInterface<int> {};
