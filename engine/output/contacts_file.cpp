@@ -185,6 +185,11 @@ std::size_t ContactsReader::rows_of_first(std::size_t frames) const {
                                     all.begin());
 }
 
+bool ContactsReader::has_all(std::size_t frame) const {
+    const std::vector<int>& frames = impl_->frame_of;
+    return !impl_->cut_off || (!frames.empty() && static_cast<int>(frame) < frames.back());
+}
+
 bool ContactsReader::cut_off() const {
     return impl_->cut_off;
 }
@@ -198,6 +203,7 @@ bool ContactsReader::has_checksums() const {
 }
 
 std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
+    if (!has_all(frame)) return {};
     const std::vector<int>& frames = impl_->frame_of;
     const auto [low, high] = std::equal_range(frames.begin(), frames.end(), static_cast<int>(frame));
     // With one row more on each side: damage to a number of a frame may have moved a row to its neighbour.

@@ -41,9 +41,12 @@ class ContactsReader {
     explicit ContactsReader(const std::filesystem::path& path);
     ~ContactsReader();
 
-    // Those of a frame of the trajectory, as they were written; none beyond the last frame. Throws UserError,
-    // with the row, when one of them is damaged.
+    // Those of a frame of the trajectory, as they were written; none where has_all() is false. Throws
+    // UserError, with the row, when one of them is damaged.
     std::vector<Touch> touches(std::size_t frame) const;
+    // False for the frames of a file that was cut off from the last one on that has rows: rows of it may be
+    // missing.
+    bool has_all(std::size_t frame) const;
     // How many rows the trajectory's first `frames` have.
     std::size_t rows_of_first(std::size_t frames) const;
     // Whether the end of the file is missing, so that the last frames lack contacts.

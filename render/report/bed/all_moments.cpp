@@ -36,7 +36,11 @@ AllMoments::AllMoments(const RecordedRun& run, bool with_contacts)
     }
     try {
         if (!is_there(keys)) return;
-        key_contacts_.emplace(run.folder() / kKeyContacts);
+        const fs::path contacts = run.folder() / kKeyContacts;
+        if (key_contacts_.emplace(contacts).cut_off())
+            news_.push_back(
+                fmt::format("{}: was cut off; the forces of the last key moments are not on the page",
+                            contacts.string()));
         merge(keys_.emplace(keys), &Place::key, keys.string());
     } catch (const UserError& problem) {
         keys_.reset();
@@ -83,12 +87,12 @@ Frame AllMoments::grains(std::size_t index) const {
 
 bool AllMoments::has_touches(std::size_t index) const {
     const Place& place = places_.at(index);
-    return place.key || (place.trajectory && with_contacts_);
+    return (place.key && key_contacts_->has_all(*place.key)) || (place.trajectory && with_contacts_);
 }
 
 std::optional<std::vector<Touch>> AllMoments::touches(std::size_t index) const {
     const Place& place = places_.at(index);
-    if (place.key) return key_contacts_->touches(*place.key);
+    if (place.key && key_contacts_->has_all(*place.key)) return key_contacts_->touches(*place.key);
     if (place.trajectory && with_contacts_) return run_.frame(*place.trajectory).touches;
     return std::nullopt;
 }

@@ -127,6 +127,13 @@ TEST_F(ReportProgram, ForcesOfKeyMomentsAreKept) {
     for (std::size_t k = 0; k < keys.size(); ++k)
         EXPECT_EQ(bed["forces"]["pairs"][k].get<std::size_t>(), contacts.touches(k).size());
     EXPECT_TRUE(bed["contacts"]);
+    // Of the last one some are missing.
+    fs::resize_file(here / "run/key_contacts.nc", fs::file_size(here / "run/key_contacts.nc") - 4);
+    const Ended cut = program({"report", "run"});
+    EXPECT_THAT(cut.err,
+                HasSubstr("key_contacts.nc: was cut off; the forces of the last key moments are not"));
+    EXPECT_EQ(facts_of(text_of(here / "run/report.html"))["bed"]["forces"]["moments"].size(),
+              keys.size() - 1);
     // A run without a page keeps none, and its page says nothing of them.
     ASSERT_EQ(program({"movie", "fifty.toml", "--out", "other", "--no-report"}).status, 0);
     EXPECT_FALSE(fs::exists(here / "other/key_moments.nc"));

@@ -518,5 +518,25 @@ TEST(ContactsFile, IsReadFrameByFrame) {
     EXPECT_THROW(ContactsReader(here / "none.nc"), UserError);
 }
 
+// Half of a frame's contacts would look like all of them.
+TEST(ContactsFile, OfAFileThatWasCutOffTheLastFrameHasNone) {
+    const TemporaryFolder here;
+    {
+        ContactsWriter writer(here / "c.nc", "A test", "1.2.3");
+        for (const int frame : {0, 1, 2})
+            writer.write(frame, {{frame, 7, 1, vector_of(0), vector_of(0)}, {frame, -3, 8, {}, {}}});
+    }
+    EXPECT_TRUE(ContactsReader(here / "c.nc").has_all(2));
+    test::write_old_text(
+        here / "c.nc", test::text_of(here / "c.nc").substr(0, std::filesystem::file_size(here / "c.nc") - 4));
+    const ContactsReader reader(here / "c.nc");
+    EXPECT_TRUE(reader.cut_off());
+    EXPECT_EQ(reader.touches(1).size(), 2u);
+    EXPECT_TRUE(reader.has_all(1));
+    EXPECT_TRUE(reader.touches(2).empty());
+    EXPECT_FALSE(reader.has_all(2));
+    EXPECT_EQ(reader.rows_of_first(3), 5u);
+}
+
 }  // namespace
 }  // namespace grainreel
