@@ -9,9 +9,9 @@ set xrange [0:100]
 set yrange [0:100]
 set xlabel "mm"
 unset colorbox
-set cbrange [-1:1]
-set title "odd periods: single peaks (±1 mm)"
+set cbrange [-3:3]
+set title "odd periods: single peaks (±3 mm)"
 plot "hexagons_odd.dat" matrix using ($1*1.515+0.76):($2*1.515+0.76):3 with image notitle
-set cbrange [-2:2]
-set title "even periods: single holes (±2 mm)"
+set cbrange [-4:4]
+set title "even periods: single holes (±4 mm)"
 plot "hexagons_even.dat" matrix using ($1*1.515+0.76):($2*1.515+0.76):3 with image notitle
