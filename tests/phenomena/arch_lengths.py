@@ -9,8 +9,8 @@ being the width: side walls allow these. Prints for the frames from that time on
   rms         root mean square of the lower face about its mean
   mean        wavelength of the mean wave number, 2 W sum(P)/sum(m P)
   most        wavelength that has the largest power
-  shares      of the power: in waves longer than a third of the width, between that and 60 mm, and below 60 mm
-Waves shorter than four columns are left out.
+  arches      mean number in a frame, of stretches of four columns or more that are more than 1 mm above the floor
+Waves shorter than two columns are left out.
 """
 import argparse
 import math
@@ -39,24 +39,38 @@ def powers(face, most):
     return [0.5 * a * a for a in amplitude]
 
 
-def spectrum(run, start, column):
+def arches(face):
+    """Stretches that the floor does not carry; the layer as a whole may be in the air, and is one then."""
+    count, length = 0, 0
+    for height in [*face, 0.0]:
+        if height > 0.001:
+            length += 1
+        else:
+            count += length >= 4
+            length = 0
+    return count
+
+
+def look_at(run, start, column):
+    """The width, the mean power of each mode and the mean number of arches."""
     container = tomllib.loads((run / "scene.toml").read_text(encoding="utf-8"))["container"]
     width = container["width"]
     columns = round(width / column)
     trajectory = Fields(run / "trajectory.nc")
     grains, times = trajectory.shape("radius")[1], trajectory.values("time")
     places, radii, floor = (trajectory.values(name) for name in ("coordinates", "radius", "floor_offset"))
-    sums, frames = [0.0] * (columns // 2), 0
+    sums, count, frames = [0.0] * columns, 0, 0
     for k, time in enumerate(times):
         if time < start:
             continue
         face = lower_face(places[3 * k * grains:3 * (k + 1) * grains], radii[k * grains:(k + 1) * grains],
                           floor[3 * k + 2], width, columns)
         sums = [one + more for one, more in zip(sums, powers(face, len(sums)))]
+        count += arches(face)
         frames += 1
     if frames == 0:
         raise SystemExit(f"{run}: has no frame from {start} s on")
-    return width, [one / frames for one in sums]
+    return width, [one / frames for one in sums], count / frames
 
 
 def main():
@@ -65,16 +79,13 @@ def main():
     parser.add_argument("--from", dest="start", type=float, default=0.7, help="frames from this time on, s [0.7]")
     parser.add_argument("--column", type=float, default=0.003, help="width of a column, m [0.003]")
     options = parser.parse_args()
-    print("run,rms_mm,mean_mm,most_mm,share_longer,share_between,share_below_60_mm")
+    print("run,rms_mm,mean_mm,most_mm,arches")
     for run in options.runs:
-        width, power = spectrum(run, options.start, options.column)
+        width, power, count = look_at(run, options.start, options.column)
         total = sum(power)
         mean = 2 * width * total / sum(m * p for m, p in enumerate(power, 1))
         most = 2 * width / (1 + power.index(max(power)))
-        longer = sum(p for m, p in enumerate(power, 1) if 2 * width / m > width / 3) / total
-        below = sum(p for m, p in enumerate(power, 1) if 2 * width / m < 0.06) / total
-        print(f"{run.name},{1000 * math.sqrt(total):.2f},{1000 * mean:.0f},{1000 * most:.0f},{longer:.2f},"
-              f"{1 - longer - below:.2f},{below:.2f}", flush=True)
+        print(f"{run.name},{1000 * math.sqrt(total):.2f},{1000 * mean:.0f},{1000 * most:.0f},{count:.1f}", flush=True)
 
 
 if __name__ == "__main__":
