@@ -25,9 +25,9 @@ def lower_face(places, radii, floor, width, columns):
     for i, radius in enumerate(radii):
         column = min(columns - 1, max(0, int((places[3 * i + 1] / width + 0.5) * columns)))
         face[column] = min(face[column], places[3 * i + 2] - radius - floor)
-    for column, height in enumerate(face):  # one without grains is as high as the one before it
-        if height == math.inf:
-            face[column] = face[column - 1]
+    if math.inf in face:  # a column without grains is as high as the nearest one that has some
+        known = [column for column, height in enumerate(face) if height < math.inf]
+        face = [face[min(known, key=lambda other: abs(other - column))] for column in range(columns)]
     return face
 
 
