@@ -53,6 +53,7 @@ struct Moment {
     // Of a run; null for a state that was put together by hand.
     const Surroundings* around = nullptr;
     const StepLoop* loop = nullptr;
+    std::span<const std::int64_t> fed = {};  // how many grains each of the scene's feeds has given
 
     double floor_height() const { return pose.offset.z(); }  // m
     // Whether there is anything to segregate.

@@ -91,7 +91,7 @@ PressureProfile::PressureProfile(const Scene& scene) {
         fields_.fields.push_back({"pressure_" + names[f],
                                   "pressure on " + faces[f].name,
                                   "Pa",
-                                  "mean normal force over area, of every step since the drive started",
+                                  "mean normal force over area, of every step of the record",
                                   {"height"}});
         faces_.push_back(f);
         area_.push_back(std::move(area));

@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
-#include "engine/scene/diameters.hpp"
+#include "engine/start/fed_grain.hpp"
 #include "engine/start/free_places.hpp"
 
 namespace grainreel {
@@ -33,18 +33,6 @@ std::int64_t Feeder::next_look(std::int64_t step) const {
     return (step / kStepsPerLook + 1) * kStepsPerLook;
 }
 
-NewGrain Feeder::next_of(std::size_t feed) const {
-    const Feed& from = scene_.feeds[feed];
-    const Species& species = scene_.species[from.species];
-    Random random(scene_.run.seed, Stream::feed_sizes, {static_cast<std::int64_t>(feed), given_[feed]});
-    NewGrain grain;
-    grain.species = static_cast<std::int32_t>(from.species);
-    grain.radius = 0.5 * draw_diameter(species.diameter, random);
-    grain.density = species.density;
-    grain.velocity = from.velocity;
-    return grain;
-}
-
 std::vector<NewGrain> Feeder::take(std::int64_t step, const Grains& grains) {
     const double time = clock_.time(step);
     std::vector<NewGrain> more;
@@ -56,7 +44,7 @@ std::vector<NewGrain> Feeder::take(std::int64_t step, const Grains& grains) {
         FreePlaces free(around_, around_.motion.at(step), grains, feed.low, feed.high, largest);
         for (const NewGrain& other : more) free.add({other.position, other.radius});
         for (; given_[k] < due; ++given_[k]) {
-            NewGrain grain = next_of(k);
+            NewGrain grain = fed_grain(scene_, k, given_[k]);
             Random random(scene_.run.seed, Stream::feed_places,
                           {static_cast<std::int64_t>(k), given_[k], step});
             const auto place = free.take(grain.radius, random);

@@ -30,7 +30,6 @@ class Feeder {
     void set_given(std::vector<std::int64_t> given) { given_ = std::move(given); }
 
   private:
-    NewGrain next_of(std::size_t feed) const;
     void check_patience(std::size_t feed, double time) const;
 
     const Scene& scene_;

@@ -47,7 +47,8 @@ Moment Simulation::Impl::moment() {
             around.faces,
             wall_sums ? &*wall_sums : nullptr,
             &around,
-            loop.get()};
+            loop.get(),
+            feeder.given()};
 }
 
 ShowContacts Simulation::Impl::contacts() const {

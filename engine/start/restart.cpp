@@ -21,7 +21,7 @@ namespace grainreel {
 namespace {
 
 constexpr std::string_view kName = "grainrs";  // of every version, whose digit follows
-constexpr char kVersion = 'a';
+constexpr char kVersion = 'b';
 
 template <class Grain, class Each>
 void transfer_grains(Grain& g, const Each& each) {

@@ -25,11 +25,10 @@ std::array<double, motion_width> motion_of(const FieldGrain& grain) {
 }
 
 // Force times branch, row by row.
-std::array<double, contact_width> product_of(const FieldContact& contact) {
+std::array<double, contact_width> product_of(const Vec3& force, const Vec3& branch) {
     std::array<double, contact_width> all{};
     for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b)
-            all[static_cast<std::size_t>(3 * a + b)] = contact.force[a] * contact.branch[b];
+        for (int b = 0; b < 3; ++b) all[static_cast<std::size_t>(3 * a + b)] = force[a] * branch[b];
     return all;
 }
 
@@ -74,7 +73,7 @@ bool CoarseGraining::is_inside(const Vec3& place) const {
 }
 
 void CoarseGraining::add_grain(const FieldGrain& grain, double* motion) {
-    const std::span<const CellWeight> cells = footprint_.of_point(grain.position);
+    const std::span<const CellWeight> cells = footprint_.of_point(grain.position, grain.radius);
     const std::array<double, motion_width> numbers = motion_of(grain);
     double inside = 0;
     for (const CellWeight& cell : cells) {
@@ -94,13 +93,23 @@ void CoarseGraining::add_grain(const FieldGrain& grain, double* motion) {
 void CoarseGraining::add(const FieldState& state, int phase) {
     double* const motion = motion_.at(static_cast<std::size_t>(phase)).data();
     for (const FieldGrain& grain : state.grains) add_grain(grain, motion);
-    for (const FieldContact& contact : state.contacts) {
-        const std::array<double, contact_width> product = product_of(contact);
-        for (const CellWeight& cell : footprint_.of_line(contact.begin, contact.branch))
-            add_to(contact_.data() + static_cast<std::size_t>(cell.cell) * contact_width, product,
-                   cell.weight);
-    }
+    for (const FieldContact& contact : state.contacts) add_contact(contact);
     ++moments_;
+}
+
+void CoarseGraining::add_contact(const FieldContact& contact) {
+    const auto at = [&](std::int64_t cell) {
+        return contact_.data() + static_cast<std::size_t>(cell) * contact_width;
+    };
+    if (footprint_.differ(contact.radius, contact.other_radius)) {
+        for (const CellWay& cell :
+             footprint_.of_changing_line(contact.begin, contact.branch, contact.radius, contact.other_radius))
+            add_to(at(cell.cell), product_of(contact.force, cell.way), 1);
+        return;
+    }
+    const std::array<double, contact_width> product = product_of(contact.force, contact.branch);
+    for (const CellWeight& cell : footprint_.of_line(contact.begin, contact.branch, contact.radius))
+        add_to(at(cell.cell), product, cell.weight);
 }
 
 void CoarseGraining::save(std::ostream& out) const {

@@ -12,6 +12,16 @@
 // second's, or at a wall to the point of contact (Weinhart, Thornton, Luding & Bokhove 2012, Granul. Matter
 // 14, 289). Stresses count pressure as positive; the first index is that of force or momentum.
 //
+// W has the width that the fields ask for, but the kernel W_i of a grain is never narrower than the grain's
+// radius (kernel_width() in kernel.hpp): else a large grain has a solid fraction above 1. Where two grains in
+// contact have kernels of different widths, Goldhirsch's line becomes a line along which the kernel W_s
+// changes its width w_s evenly, and in place of b stands the velocity that its parts have then:
+//
+//   contact stress     < sum over contacts  f x integral over s of W_s (b + (r - r_i - s b) d(ln w_s)/ds) >
+//
+// By continuity the divergence of the integral is W_i - W_j, so that the balance of momentum holds as it does
+// with one width; and its integral over space is b.
+//
 // Density and solid fraction take the kernel that is clipped at the walls: it is scaled for each grain so
 // that all of it lies inside, and the sum of density x inside share x cell volume is the mass of the grains.
 // All else takes the whole kernel, for which balances of mass and momentum hold.
@@ -64,6 +74,7 @@ class CoarseGraining {
 
   private:
     void add_grain(const FieldGrain& grain, double* motion);
+    void add_contact(const FieldContact& contact);
     bool is_inside(const Vec3& place) const;
 
     FieldGrid grid_;

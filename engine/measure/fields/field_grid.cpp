@@ -43,7 +43,8 @@ FieldGrid make_field_grid(const Scene& scene, const FieldOutput& fields) {
     const bool has_walls = scene.container.shape != Container::Shape::none;
     FieldGrid grid;
     grid.axes[0].resolved = fields.grid == FieldOutput::Grid::xyz;
-    const FieldKernel kernel(fields.kernel, fields.width, grid.axes[0].resolved ? 3 : 2);
+    const FieldKernel kernel(fields.kernel, kernel_width(fields.width, 0.5 * largest_diameter(scene)),
+                             grid.axes[0].resolved ? 3 : 2);
     for (int k = 0; k < 3; ++k) {
         const bool resolved = grid.axes[k].resolved;
         const double length = extent.high[k] - extent.low[k];

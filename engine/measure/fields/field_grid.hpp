@@ -36,8 +36,8 @@ struct FieldGrid {
     int dimensions() const;
 };
 
-// The outermost cells inside end at the container's walls, and beyond each wall
-// there are as many more as the kernel reaches: stress is spread beyond the walls, too.
+// The outermost cells inside end at the container's walls, and beyond each wall there are as many more as the
+// kernel of the largest grain reaches: stress is spread beyond the walls, too.
 FieldGrid make_field_grid(const Scene& scene, const FieldOutput& fields);
 
 // How much of each cell is inside the container at rest, 0 to 1. Where the floor alone moves, the container

@@ -1,11 +1,15 @@
 #include "engine/measure/fields/field_record.hpp"
 
+#include "engine/scene/bed.hpp"
+
 namespace grainreel {
 
 namespace {
 
-std::vector<double> settings_of(const FieldOutput& fields, const FieldTimes& times) {
-    return {static_cast<double>(fields.grid),
+std::vector<double> settings_of(const Scene& scene, const FieldTimes& times) {
+    const FieldOutput& fields = scene.output.fields;
+    return {kernel_width(fields.width, 0.5 * largest_diameter(scene)),
+            static_cast<double>(fields.grid),
             static_cast<double>(fields.kernel),
             fields.width,
             fields.cell,
@@ -28,9 +32,7 @@ void for_each_grid(CoarseFields& fields, const Each& each) {
 }  // namespace
 
 FieldRecord::FieldRecord(const Scene& scene, const FieldTimes& times)
-    : times_(times),
-      settings_(settings_of(scene.output.fields, times)),
-      sums_(scene, static_cast<int>(times.phases)) {}
+    : times_(times), settings_(settings_of(scene, times)), sums_(scene, static_cast<int>(times.phases)) {}
 
 void FieldRecord::start(std::int64_t step, const FieldState& state) {
     sums_.clear();

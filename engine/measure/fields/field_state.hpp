@@ -14,6 +14,7 @@ struct FieldGrain {
     double mass;    // kg
     double volume;  // m3
     std::int32_t species;
+    double radius = 0;  // m, below which no kernel spreads it; 0: as a point
 };
 
 // A contact of a grain with another grain or a wall.
@@ -21,6 +22,7 @@ struct FieldContact {
     Vec3 begin;   // m, the grain's centre
     Vec3 branch;  // m, from there to the other grain's centre, or to the point of the wall that it touches
     Vec3 force;   // N, on the other body
+    double radius = 0, other_radius = 0;  // m, of both grains; at a wall the grain's twice
 };
 
 struct FieldState {

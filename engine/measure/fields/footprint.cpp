@@ -37,13 +37,13 @@ Footprint::Range Footprint::range_of(std::size_t k, double low, double high) con
     return {floor_of((low - axis.low) * cells), floor_of((high - axis.low) * cells) + 1};
 }
 
-// Notes the cells within the cutoff of a box, and what each of them adds to an index of
-// the grid, axis by axis: -1 beyond the grid's edge.
+// Notes the cells of a box, and what each of them adds to an index of the grid, axis by axis: -1 beyond the
+// grid's edge.
 void Footprint::set_box(const Vec3& low, const Vec3& high) {
     std::int64_t stride = 1;
     for (std::size_t k = 0; k < 3; ++k) {
         const int axis = static_cast<int>(k);
-        box_[k] = range_of(k, low[axis] - kernel_.cutoff(), high[axis] + kernel_.cutoff());
+        box_[k] = range_of(k, low[axis], high[axis]);
         offsets_[k].resize(box_[k].size());
         std::int64_t cell = box_[k].begin;
         for (std::int64_t& offset : offsets_[k]) {
@@ -54,20 +54,28 @@ void Footprint::set_box(const Vec3& low, const Vec3& high) {
     }
 }
 
+// Of all cells that the kernel reaches from a point to another one.
+void Footprint::set_box(const Vec3& begin, const Vec3& end, double stretch, double end_stretch) {
+    const Vec3 reach = Vec3::Constant(stretch * kernel_.cutoff()),
+               end_reach = Vec3::Constant(end_stretch * kernel_.cutoff());
+    set_box((begin - reach).cwiseMin(end - end_reach), (begin + reach).cwiseMax(end + end_reach));
+}
+
 // Calls each(z, other, begin, end, value) for each row of cells within the cutoff of a point: indices in the
-// box, and value(k) is the kernel's value in cell k of the row.
+// box, and value(k) is the kernel's value in cell k of the row. The kernel is `stretch` times as wide.
 template <class Each>
-void Footprint::each_near(const Vec3& middle, const Each& each) {
+void Footprint::each_near(const Vec3& middle, double stretch, const Each& each) {
     std::array<std::size_t, 3> first{};
+    const double reach = stretch * kernel_.cutoff(), shrink = 1 / stretch;
     for (std::size_t k = 0; k < 3; ++k) {
         const double at = middle[static_cast<int>(k)];
         const GridAxis& axis = grid_.axes[k];
-        const Range near = range_of(k, at - kernel_.cutoff(), at + kernel_.cutoff());
+        const Range near = range_of(k, at - reach, at + reach);
         first[k] = static_cast<std::size_t>(near.begin - box_[k].begin);
         squares_[k].resize(near.size());
         std::int64_t cell = near.begin;
         for (double& square : squares_[k]) {
-            const double away = axis.resolved ? axis.middle(cell) - at : 0;
+            const double away = axis.resolved ? shrink * (axis.middle(cell) - at) : 0;
             square = away * away;
             ++cell;
         }
@@ -120,21 +128,27 @@ std::span<const CellWeight> Footprint::listed(const Rows& rows) {
     return found;
 }
 
-std::span<const CellWeight> Footprint::of_point(const Vec3& point) {
-    set_box(point, point);
-    return listed([&](const auto& add) { each_near(point, add); });
+std::span<const CellWeight> Footprint::of_point(const Vec3& point, double radius) {
+    const double stretch = stretch_of(radius);
+    set_box(point, point, stretch, stretch);
+    return listed([&](const auto& add) { each_near(point, stretch, add); });
 }
 
-std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& branch) {
-    const Vec3 end = begin + branch;
-    set_box(begin.cwiseMin(end), begin.cwiseMax(end));
+// How many stretches a line is divided into.
+int Footprint::stretches_of(const Vec3& branch, double stretch) const {
+    const double longest = longest_stretch * stretch * kernel_.width();
+    return std::max(1, static_cast<int>(std::ceil(branch.norm() / longest)));
+}
+
+std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& branch, double radius) {
+    const double stretch = stretch_of(radius);
+    set_box(begin, begin + branch, stretch, stretch);
     const std::size_t width = offsets_[along_].size(), rows = offsets_[across_].size();
     values_.assign(width * rows * offsets_[2].size(), 0);
-    const int stretches =
-        std::max(1, static_cast<int>(std::ceil(branch.norm() / (longest_stretch * kernel_.width()))));
+    const int stretches = stretches_of(branch, stretch);
     for (int n = 0; n < stretches; ++n)
         for (const auto& [at, share] : quadrature)
-            each_near(begin + (n + at) / stretches * branch,
+            each_near(begin + (n + at) / stretches * branch, stretch,
                       [&, share = share](std::size_t z, std::size_t other, std::size_t first,
                                          std::size_t last, const auto& value) {
                           double* const row = values_.data() + (z * rows + other) * width;
@@ -147,6 +161,70 @@ std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& br
                 add(z, other, 0, width, [row](std::size_t k) { return row[k]; });
             }
     });
+}
+
+// A kernel of another width is the first one drawn out about its middle, so each part of it goes from
+// begin + x to begin + branch + x w_1 / w_0 in a straight line. As much of W_s flows through a place as the
+// continuity equation asks for: with the velocity branch + x d(ln w_s)/ds, x from the middle.
+std::span<const CellWay> Footprint::of_changing_line(const Vec3& begin, const Vec3& branch, double radius,
+                                                     double other_radius) {
+    const double stretch = stretch_of(radius), growth = stretch_of(other_radius) - stretch;
+    set_box(begin, begin + branch, stretch, stretch + growth);
+    const std::array<std::size_t, 3> size{offsets_[0].size(), offsets_[1].size(), offsets_[2].size()};
+    const std::size_t cells = size[0] * size[1] * size[2], rows = size[across_];
+    values_.assign(cells, 0);
+    drifts_.assign(3 * cells, 0);
+    const int stretches = stretches_of(branch, std::min(stretch, stretch + growth));
+    for (int n = 0; n < stretches; ++n)
+        for (const auto& [at, share] : quadrature) {
+            const double s = (n + at) / stretches, here = stretch + s * growth;
+            const Vec3 middle = begin + s * branch;
+            const double part = share * std::pow(here, -grid_.dimensions());
+            const auto from_middle = [&](std::size_t axis, std::size_t k) {
+                const GridAxis& of = grid_.axes[axis];
+                const auto cell = box_[axis].begin + static_cast<std::int64_t>(k);
+                return of.resolved ? of.middle(cell) - middle[static_cast<int>(axis)] : 0.0;
+            };
+            each_near(middle, here,
+                      [&](std::size_t z, std::size_t other, std::size_t first, std::size_t last,
+                          const auto& value) {
+                          const std::size_t row = (z * rows + other) * size[along_];
+                          Vec3 away = Vec3::Zero();
+                          away[2] = from_middle(2, z);
+                          away[static_cast<int>(across_)] = from_middle(across_, other);
+                          for (std::size_t k = first; k < last; ++k) {
+                              const double weight = part * value(k);
+                              away[static_cast<int>(along_)] = from_middle(along_, k);
+                              values_[row + k] += weight;
+                              Eigen::Map<Vec3>(&drifts_[3 * (row + k)]) += weight * growth / here * away;
+                          }
+                      });
+        }
+    return listed_ways(branch);
+}
+
+// Scaled so that the sum of the weights times volume is 1, and that of the drifts 0, which it would be in
+// cells without size.
+std::span<const CellWay> Footprint::listed_ways(const Vec3& branch) {
+    double sum = 0;
+    Vec3 drift = Vec3::Zero();
+    for (std::size_t c = 0; c < values_.size(); ++c) {
+        sum += values_[c];
+        drift += Eigen::Map<const Vec3>(&drifts_[3 * c]);
+    }
+    const double scale = 1 / (sum * grid_.cell_volume());
+    const Vec3 mean = branch - drift / sum;
+    ways_.clear();
+    std::size_t c = 0;
+    for (const std::int64_t z : offsets_[2])
+        for (const std::int64_t other : offsets_[across_])
+            for (const std::int64_t along : offsets_[along_]) {
+                if (values_[c] > 0 && (z | other | along) >= 0)
+                    ways_.push_back({z + other + along,
+                                     scale * (values_[c] * mean + Eigen::Map<const Vec3>(&drifts_[3 * c]))});
+                ++c;
+            }
+    return ways_;
 }
 
 }  // namespace grainreel

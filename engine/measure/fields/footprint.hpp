@@ -17,20 +17,35 @@ struct CellWeight {
     double weight;      // 1/m3
 };
 
+struct CellWay {
+    std::int64_t cell;
+    Vec3 way;  // 1/m2
+};
+
 // The weights are the kernel's values at the middles of the cells, scaled so that the sum of weight times
 // volume is 1 over all cells that the kernel reaches, those beyond the edge of the grid counted. So what is
-// spread is kept to rounding, whatever the size of the cells. The answer is good until the next question.
+// spread is kept to rounding, whatever the size of the cells. The kernel's width is that of kernel_width(),
+// for the radius (m) that is given. The answer is good until the next question.
 class Footprint {
   public:
     Footprint(const FieldGrid& grid, const FieldKernel& kernel)
         : grid_(grid), kernel_(kernel), along_(grid.axes[0].resolved ? 0 : 1), across_(1 - along_) {}
 
     // Of the kernel about a point.
-    std::span<const CellWeight> of_point(const Vec3& point);
+    std::span<const CellWeight> of_point(const Vec3& point, double radius = 0);
     // Of the kernel's mean along a straight line: the integral over s from 0 to 1 of W(r - begin - s branch),
     // by Gauss-Legendre quadrature of four points in each stretch of at most 2.5 widths. That leaves an error
     // below 1e-4 of the kernel's largest value, but where the Gaussian is cut off, at 1 % of that value.
-    std::span<const CellWeight> of_line(const Vec3& begin, const Vec3& branch);
+    std::span<const CellWeight> of_line(const Vec3& begin, const Vec3& branch, double radius = 0);
+    // Likewise of a line along which the kernel W_s changes its width w_s evenly, from that of the one radius
+    // to that of the other: integral over s of W_s (branch + (r - begin - s branch) d(ln w_s)/ds). Its
+    // divergence is the kernel at the beginning less that at the end. Its sum times volume is the branch.
+    std::span<const CellWay> of_changing_line(const Vec3& begin, const Vec3& branch, double radius,
+                                              double other_radius);
+    // Whether grains of these radii have kernels of different widths.
+    bool differ(double radius, double other_radius) const {
+        return stretch_of(radius) != stretch_of(other_radius);
+    }
 
   private:
     struct Range {
@@ -38,11 +53,16 @@ class Footprint {
         std::size_t size() const { return static_cast<std::size_t>(end - begin); }
     };
     Range range_of(std::size_t axis, double low, double high) const;
+    // How much wider than the kernel that of a grain is.
+    double stretch_of(double radius) const { return kernel_width(kernel_.width(), radius) / kernel_.width(); }
     void set_box(const Vec3& low, const Vec3& high);
+    void set_box(const Vec3& begin, const Vec3& end, double stretch, double end_stretch);
+    int stretches_of(const Vec3& branch, double stretch) const;
     template <class Each>
-    void each_near(const Vec3& middle, const Each& each);
+    void each_near(const Vec3& middle, double stretch, const Each& each);
     template <class Rows>
     std::span<const CellWeight> listed(const Rows& rows);
+    std::span<const CellWay> listed_ways(const Vec3& branch);
 
     const FieldGrid& grid_;
     FieldKernel kernel_;
@@ -53,7 +73,9 @@ class Footprint {
     std::vector<double> values_;                  // of the box, row by row
     std::array<std::vector<double>, 3> squares_;  // m2, distances along an axis
     std::vector<double> factors_;                 // of a kernel that is a product, along a row
+    std::vector<double> drifts_;                  // m times these: x, y, z of each cell
     std::vector<CellWeight> cells_;
+    std::vector<CellWay> ways_;
 };
 
 }  // namespace grainreel

@@ -4,6 +4,7 @@
 // footprint (footprint.hpp) scales the values to a sum of one over the cells of its grid.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/scene/field_output.hpp"
@@ -14,6 +15,16 @@ namespace grainreel {
 // Gaussian: exp(-r2 / 2 w2), with its cutoff at 3 w (Weinhart, Hartkamp, Thornton & Luding 2013, Phys. Fluids
 // 25, 070605). Lucy (1977, Astron. J. 82, 1013): (1 + 3 q)(1 - q)^3.
 double kernel_value(FieldOutput::Kernel kind, double q);
+
+// m, of the kernel that a grain of this radius is spread with, where the fields ask for `width`: its own
+// radius at least. A narrower kernel has more in its middle than the grain's volume has room for, and a solid
+// fraction above 1. From half a diameter on fields hardly depend on the width (Goldenberg, Atman, Claudin,
+// Combe & Goldhirsch 2006, Phys. Rev. Lett. 96, 168001; Weinhart, Hartkamp, Thornton & Luding 2013), so that
+// each grain has a kernel of that size: what adaptive kernels are in density estimation (Silverman 1986,
+// Density Estimation, section 5.3).
+inline double kernel_width(double width, double radius) {
+    return std::max(width, radius);
+}
 
 class FieldKernel {
   public:

@@ -22,17 +22,23 @@ inline Vec3 field_place(const Moment& moment, std::size_t grain) {
 inline FieldGrain field_grain(const Moment& moment, std::size_t grain) {
     const std::int32_t species = moment.grains.species[grain];
     const double mass = moment.grains.mass(grain);
-    return {field_place(moment, grain), moment.grains.motion[grain].velocity - seen_from(moment).velocity,
-            mass, mass / moment.scene.species[static_cast<std::size_t>(species)].density, species};
+    return {field_place(moment, grain),
+            moment.grains.motion[grain].velocity - seen_from(moment).velocity,
+            mass,
+            mass / moment.scene.species[static_cast<std::size_t>(species)].density,
+            species,
+            moment.grains.place[grain].radius};
 }
 
 // At a wall the branch ends on the wall's face.
 inline FieldContact field_contact(const Moment& moment, const ContactView& contact) {
     const auto first = static_cast<std::size_t>(contact.first);
-    double length = moment.grains.place[first].radius - contact.overlap;
-    if (contact.second >= 0) length += moment.grains.place[static_cast<std::size_t>(contact.second)].radius;
+    const double radius = moment.grains.place[first].radius;
+    double length = moment.grains.place[first].radius - contact.overlap, other = radius;
+    if (contact.second >= 0)
+        length += other = moment.grains.place[static_cast<std::size_t>(contact.second)].radius;
     return {field_place(moment, first), length * contact.normal,
-            contact.normal_force * contact.normal + contact.tangential};
+            contact.normal_force * contact.normal + contact.tangential, radius, other};
 }
 
 }  // namespace grainreel

@@ -38,7 +38,7 @@ const KeyTable<FieldOutput>& field_table() {
         choice("kernel", &F::kernel, field_kernel_words, initial(), "What a grain is spread with.")
             .useless_for(without_fields),
         quantity("width", &F::width, Dimension::length, positive, note("half of the grains' mean diameter"),
-                 "Standard deviation of the kernel along one axis.")
+                 "Standard deviation of the kernel along one axis; of a grain's own, its radius at least.")
             .useless_for(without_fields)
             .usually([](F& fields, const Scene& scene) { fields.width = 0.5 * mean_diameter(scene); }),
         quantity("cell", &F::cell, Dimension::length, positive, note("`width`; twice that with xyz"),

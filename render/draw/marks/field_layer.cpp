@@ -41,7 +41,8 @@ void FieldLayer::gather(const Frame& frame) {
         if (std::isnan(values[i])) continue;
         const double volume = 4.0 / 3 * std::numbers::pi * std::pow(frame.radius[i], 3);
         const double mass = volume * scene_.species[static_cast<std::size_t>(frame.species[i])].density;
-        for (const CellWeight& cell : footprint_.of_point(frame.position[i] - frame.container().place)) {
+        const Vec3 place = frame.position[i] - frame.container().place;
+        for (const CellWeight& cell : footprint_.of_point(place, frame.radius[i])) {
             const auto c = static_cast<std::size_t>(cell.cell);
             solid_[c] += cell.weight * volume;
             mass_[c] += cell.weight * mass;

@@ -42,7 +42,7 @@ FieldState field_state_of(const Scene& scene, const Frame& frame, bool period) {
         const double density = scene.species[static_cast<std::size_t>(frame.species[i])].density;
         state.grains.push_back({frame.position[i] - frame.container().place,
                                 period ? Vec3(frequency * frame.displacement[i]) : frame.velocity[i],
-                                density * volume, volume, frame.species[i]});
+                                density * volume, volume, frame.species[i], frame.radius[i]});
     }
     return state;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/observers/walls/wall_forces.hpp"
 #include "engine/output/contacts_file.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "engine/output/trajectory.hpp"
@@ -57,6 +58,12 @@ std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
     return steps;
 }
 
+bool keeps_fields(const Scene& scene) {
+    const std::vector<std::string>& wanted = scene.output.instruments;
+    return scene.output.fields.wanted() ||
+           std::find(wanted.begin(), wanted.end(), observers::WallForces::instrument) != wanted.end();
+}
+
 void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& plan) {
     const auto need = [&](const char* name, bool wanted) {
         if (wanted && !is_there(run / name))
@@ -66,7 +73,7 @@ void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& pla
     need("measures.csv", true);
     need("trajectory.nc", plan.trajectory_every > 0);
     need("contacts.nc", plan.trajectory_every > 0 && scene.output.contacts);
-    need("fields.nc", scene.output.fields.wanted());
+    need("fields.nc", keeps_fields(scene));
     need("outflow.csv", plan.opens && !scene.container.tray);
     if (!read_measures(run / "measures.csv"))
         throw UserError(fmt::format("{}: cannot be read, so the run cannot go on; run its scene.toml again",

@@ -12,6 +12,9 @@ namespace grainreel {
 
 bool is_there(const std::filesystem::path& file);
 
+// Whether the run has a fields.nc: of fields on a grid, or of the pressures on walls.
+bool keeps_fields(const Scene& scene);
+
 // Steps of a trajectory's frames, up to the first that is damaged; none where there is no such file.
 std::vector<std::int64_t> steps_in_trajectory(const std::filesystem::path& file);
 // Of the rows of measures.csv; likewise.

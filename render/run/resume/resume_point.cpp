@@ -91,7 +91,7 @@ std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, 
     try {
         if (const auto label = label_of_checkpoint(one.file)) {
             check_same_files(label->scene, scene, plan);
-            if (scene.output.fields.wanted() && is_former_end(one, *label, scene, plan)) return std::nullopt;
+            if (keeps_fields(scene) && is_former_end(one, *label, scene, plan)) return std::nullopt;
         }
         return Simulation::at_checkpoint(scene, plan, one.file, threads);
     } catch (const UserError& error) {

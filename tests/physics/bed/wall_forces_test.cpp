@@ -164,10 +164,61 @@ TEST(WallForcesAtRest, AWedgeCarriesAGrainOnBothSides) {
     ASSERT_NE(slant, set.fields.end());
     const std::vector<double>& pressure =
         fields.at(0).at(static_cast<std::size_t>(slant - set.fields.begin()));
-    // The mean since the start, so that the fall of 0.08 mm shows.
-    EXPECT_NEAR(pressure[0], push / (0.02 * 0.008 / std::cos(angle)), 0.02 * pressure[0]);
+    EXPECT_NEAR(pressure[0], push / (0.02 * 0.008 / std::cos(angle)), of_rounding(1e-9, 1e-5) * pressure[0]);
     EXPECT_EQ(pressure[1], 0);
     EXPECT_TRUE(std::isnan(pressure[3])) << "above the slant";
+}
+
+// Nine records of 0.1 s. In the fifth one the grain is taken away.
+TEST(WallForcesOfRuns, PressureIsTheMeanOfItsRecord) {
+    const test::TemporaryFolder here;
+    std::string text = kOneGrain;
+    text.replace(text.find("\"3 mm\", \"-5 mm\""), 15, "\"3 mm\", \"13 mm\"");
+    Scene scene = scene_of(text, {"gravity=[0, 9.81, 0]"});
+    const Plan plan = make_plan(scene);
+    const double weight = mass(scene) * 9.81, slice = 0.016 / 4;
+    Simulation run(scene, plan, 1);
+    run.pack();
+    const auto of_right_wall = [&](const Simulation& of) {
+        const FieldSet& set = *of.field_sets().at(0);
+        for (std::size_t f = 0; f < set.fields.size(); ++f)
+            if (set.fields[f].name == "pressure_right_wall") {
+                double sum = 0;
+                for (const double pressure : of.fields().at(0).at(f)) sum += pressure;
+                return sum;
+            }
+        return -1.0;
+    };
+    run.advance(4 * plan.fields.record);
+    EXPECT_NEAR(of_right_wall(run), weight / (0.02 * slice), of_rounding(1e-9, 1e-5) * of_right_wall(run));
+    run.advance(4 * plan.fields.record + plan.fields.record / 2);
+    run.save_checkpoint(here / "half.grs");
+    run.remove({0});
+    run.advance(5 * plan.fields.record);
+    EXPECT_NEAR(of_right_wall(run), 0.5 * weight / (0.02 * slice), 1e-3 * of_right_wall(run));
+    run.advance(6 * plan.fields.record);
+    EXPECT_EQ(of_right_wall(run), 0);
+
+    Simulation again = Simulation::at_checkpoint(scene, plan, here / "half.grs", 1);
+    again.remove({0});
+    again.advance(5 * plan.fields.record);
+    EXPECT_NEAR(of_right_wall(again), 0.5 * weight / (0.02 * slice), 1e-3 * of_right_wall(again));
+    again.save_checkpoint(here / "end.grs");  // before the record is written
+    const double written = of_right_wall(again);
+    EXPECT_EQ(of_right_wall(Simulation::at_checkpoint(scene, plan, here / "end.grs", 1)), written);
+
+    // Of a record whose beginning was not seen nothing is known.
+    Scene without = scene;
+    without.output.instruments.clear();
+    Simulation blind(without, plan, 1);
+    blind.pack();
+    blind.advance(2 * plan.fields.record + 7);
+    blind.save_checkpoint(here / "blind.grs");
+    Simulation late = Simulation::at_checkpoint(scene, plan, here / "blind.grs", 1);
+    late.advance(3 * plan.fields.record);
+    EXPECT_TRUE(std::isnan(of_right_wall(late)));
+    late.advance(4 * plan.fields.record);
+    EXPECT_NEAR(of_right_wall(late), weight / (0.02 * slice), of_rounding(1e-9, 1e-5) * of_right_wall(late));
 }
 
 std::vector<double> later_row(Simulation& run, const Plan& plan, int row) {

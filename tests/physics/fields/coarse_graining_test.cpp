@@ -144,10 +144,13 @@ TEST_P(Fields, ContactStressKeepsTheVirial) {
     FieldState state;
     Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
     for (int c = 0; c < 50; ++c) {
-        state.contacts.push_back({2 * vector() + Vec3(0, 0, 2.5), 0.5 * vector(), vector()});
+        const double radius = 0.4 + 0.2 * c / 50, other = c % 3 == 0 ? radius : 0.8;
+        state.contacts.push_back({2 * vector() + Vec3(0, 0, 2.5), 0.5 * vector(), vector(), radius, other});
         virial += state.contacts.back().force * state.contacts.back().branch.transpose();
     }
-    CoarseGraining by(box({5, 5, 5}, 0.5, 0.5), 1);
+    Scene scene = box({5, 5, 5}, 0.5, 0.5);
+    scene.species[0].diameter.largest = 1.6;
+    CoarseGraining by(scene, 1);
     by.add(state, 0);
     const CoarseFields fields = by.mean();
     for (int a = 0; a < 3; ++a)
@@ -183,6 +186,79 @@ TEST_P(Fields, StackCarriesItsWeight) {
         above += weight;
     }
     EXPECT_GT(above, 0.7 * count * gravity);
+}
+
+// Likewise with small and large spheres in turn, whose kernels are as wide as they are.
+TEST_P(Fields, StackOfTwoSizesCarriesItsWeight) {
+    constexpr int count = 6;
+    constexpr double gravity = 10, small = 0.5, large = 1;
+    FieldState state;
+    double height = 0, above = 0, all = 0;
+    for (int i = count - 1; i >= 0; --i)
+        all += 4.0 / 3 * std::numbers::pi * std::pow(i % 2 ? large : small, 3);
+    double rest = all;
+    for (int i = 0; i < count; ++i) {
+        const double radius = i % 2 ? large : small, other = i % 2 ? small : large;
+        state.grains.push_back(sphere(Vec3(0, 0, height + radius), radius, 1));
+        const double branch = i > 0 ? radius + other : radius;
+        state.contacts.push_back({state.grains.back().position, Vec3(0, 0, -branch),
+                                  Vec3(0, 0, -gravity * rest), radius, i > 0 ? other : radius});
+        rest -= state.grains.back().mass;
+        height += 2 * radius;
+    }
+    Scene scene = box({8, 8, 14}, 0.5, 0.25);
+    scene.species[0].diameter.largest = 2 * large;
+    CoarseGraining by(scene, 1);
+    by.add(state, 0);
+    const CoarseFields fields = by.mean();
+    const auto& [x, y, z] = by.grid().axes;
+    const std::int64_t layer = x.count * y.count;
+    for (std::int64_t k = z.count - 1; z.middle(k) > 3.2; --k) {
+        double weight = 0, carried = 0;  // of the layer of cells, N
+        for (std::int64_t cell = k * layer; cell < (k + 1) * layer; ++cell) {
+            weight += gravity * by.grid().cell_volume() * fields.density[static_cast<std::size_t>(cell)];
+            carried +=
+                by.grid().cell_volume() / z.cell * fields.contact_stress[8][static_cast<std::size_t>(cell)];
+        }
+        EXPECT_NEAR(carried, above + weight / 2, 3e-3 * gravity * all) << z.middle(k);
+        above += weight;
+    }
+    EXPECT_GT(above, 0.6 * gravity * all);
+}
+
+// Small spheres that fill a box, and in their middle a large one in place of those that it would meet: no
+// place is fuller than spheres can be packed. Where the large one is there is its own volume.
+TEST_P(Fields, SolidFractionAroundAnIntruderIsThatOfAPacking) {
+    constexpr double intruder = 1.5, spheres = std::numbers::pi / 6;  // of what a cubic packing fills
+    const Vec3 middle(0, 0, 4.5);
+    for (const bool periodic : {false, true}) {
+        FieldState state;
+        double volume = 0;
+        for (int i = 0; i < 729; ++i) {
+            const Vec3 place(i % 9 - 4, i / 9 % 9 - 4, i / 81 + 0.5);
+            if ((place - middle).norm() > intruder + 0.5) state.grains.push_back(sphere(place, 0.5, 1));
+        }
+        state.grains.push_back(sphere(middle, intruder, 1));
+        for (const FieldGrain& grain : state.grains) volume += grain.volume;
+        Scene scene = box({9, 9, 9}, 0.5, 0.5);
+        scene.species[0].diameter.largest = 2 * intruder;
+        scene.container.periodic_depth = periodic;
+        CoarseGraining by(scene, 1);
+        by.add(state, 0);
+        const CoarseFields fields = by.mean();
+        EXPECT_NEAR(integral(by, fields.solid_fraction[0]) / volume, 1, 1e-10);
+        for (std::size_t cell = 0; cell < fields.density.size(); ++cell) {
+            if (by.shares()[cell] > 0) {
+                EXPECT_LT(fields.solid_fraction[0][cell], std::numbers::pi / std::sqrt(18)) << cell;
+            }
+            EXPECT_EQ(std::isnan(fields.velocity[0][cell]),
+                      by.shares()[cell] <= 0 || fields.density[cell] == 0);
+        }
+        const auto& axes = by.grid().axes;
+        const auto centre = static_cast<std::size_t>(
+            by.grid().index(axes[0].count / 2, axes[1].count / 2, axes[2].count / 2));
+        EXPECT_GT(fields.solid_fraction[0][centre], 0.3 * spheres);
+    }
 }
 
 // The wall's part reaches from the lowest centre down to the floor, and no further than the kernel.

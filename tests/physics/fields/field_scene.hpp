@@ -25,7 +25,7 @@ inline Scene field_box(const Vec3& size, FieldOutput::Grid grid, double width, d
 inline FieldGrain sphere(const Vec3& position, double radius, double density,
                          const Vec3& velocity = Vec3::Zero(), std::int32_t species = 0) {
     const double volume = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
-    return {position, velocity, density * volume, volume, species};
+    return {position, velocity, density * volume, volume, species, radius};
 }
 
 // Spheres of diameter 1 and mass 1, five a side, that fill a box of side 5.

@@ -82,6 +82,15 @@ TEST(FieldCells, BeginAtTheWallsAndReachAsFarBeyondAsTheKernel) {
     }
 }
 
+TEST(FieldCells, ReachAsFarBeyondAsTheKernelOfTheLargestGrain) {
+    Scene scene = field_box({4, 10, 12}, Grid::yz, 0.5, 0.37);
+    scene.species[0].diameter.largest = 3;
+    const FieldGrid grid = make_field_grid(scene, scene.output.fields);
+    const double cutoff = FieldKernel(scene.output.fields.kernel, 1.5, 2).cutoff();
+    EXPECT_LE(grid.axes[1].low, -5 - cutoff);
+    EXPECT_GT(grid.axes[1].low, -5 - cutoff - 0.37);
+}
+
 // A grain that is out has no density inside, near as it may be to the wall; the whole kernel has its mass.
 TEST(FieldCells, GrainsOutsideHaveNoDensity) {
     for (const Vec3& place : {Vec3(0, 5.3, 6), Vec3(0, 0, -0.2), Vec3(0, 0, 12.4), Vec3(0, 4.9, 1)}) {

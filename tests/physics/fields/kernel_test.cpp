@@ -47,6 +47,37 @@ TEST_P(Kernels, LineIsTheMeanOverItsPoints) {
     }
 }
 
+// What flows through planes across the grid, along the line, is what of the kernel at the beginning lies
+// before them less what of that at the end does; across the line nothing flows on the whole.
+TEST_P(Kernels, AChangingLineCarriesTheOneKernelIntoTheOther) {
+    for (const auto grid_of : {FieldOutput::Grid::xyz, FieldOutput::Grid::yz}) {
+        Scene scene = field_box({8, 8, 8}, grid_of, 0.5, 0.125);
+        scene.species[0].diameter.largest = 2;
+        const FieldGrid grid = make_field_grid(scene, scene.output.fields);
+        Footprint footprint(grid, FieldKernel(GetParam(), 0.5, grid.dimensions()));
+        const Vec3 begin(0.1, -0.3, 3.2), branch(0.2, 0.4, 1.6);
+        const GridAxis& z = grid.axes[2];
+        const std::int64_t layer = grid.axes[0].count * grid.axes[1].count;
+        std::vector<double> flow(static_cast<std::size_t>(z.count)), gain(flow);
+        const auto at = [&](std::int64_t cell) { return static_cast<std::size_t>(cell / layer); };
+        Vec3 sum = Vec3::Zero();
+        for (const CellWay& cell : footprint.of_changing_line(begin, branch, 0.6, 1)) {
+            flow[at(cell.cell)] += cell.way.z() * grid.cell_volume() / z.cell;
+            sum += grid.cell_volume() * cell.way;
+        }
+        EXPECT_LT((sum - branch).norm(), 1e-12);
+        for (const CellWeight& cell : footprint.of_point(begin, 0.6))
+            gain[at(cell.cell)] += cell.weight * grid.cell_volume();
+        for (const CellWeight& cell : footprint.of_point(begin + branch, 1))
+            gain[at(cell.cell)] -= cell.weight * grid.cell_volume();
+        double before = 0;
+        for (std::size_t k = 0; k < flow.size(); ++k) {
+            EXPECT_NEAR(flow[k], before + gain[k] / 2, 4e-3) << k;
+            before += gain[k];
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, Kernels,
                          ::testing::Values(FieldOutput::Kernel::gaussian, FieldOutput::Kernel::lucy));
 

@@ -21,6 +21,7 @@ struct BedByHand {
     double period = 0;  // m, of x
     Vec3 gravity{0, 0, -10};
     std::optional<WallSums> walls;
+    std::vector<std::int64_t> given;  // by feeds
     std::function<void(const std::function<void(const ContactView&)>&)> contacts = [](const auto&) {};
 
     explicit BedByHand(const std::string& instrument = "") {
@@ -59,7 +60,10 @@ struct BedByHand {
                 0,
                 traffic,
                 {},
-                walls ? &*walls : nullptr};
+                walls ? &*walls : nullptr,
+                nullptr,
+                nullptr,
+                given};
     }
     void start() { observers().start(moment(0), contacts); }
     void gather(std::int64_t step) { observers().gather(moment(step), contacts); }

@@ -8,6 +8,7 @@
 #include "engine/measure/flow/drift.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/text/reader.hpp"
+#include "engine/start/fed_grain.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
@@ -104,8 +105,46 @@ TEST(OutflowInstrument, WeighsWhatHasLeft) {
     bed.gather(625);
     EXPECT_NEAR(bed.look(625, "emptied_s"), 0.5, 1e-12);
     EXPECT_NEAR(bed.look(625, "outflow_rate"), 0, 1e-9);
-    bed.traffic.came = 1;
+    bed.traffic.came = 1;  // of no feed
     EXPECT_TRUE(std::isnan(bed.look(625, "outflow_kg")));
+}
+
+// A hundred grains from a feed, of sizes that differ, and one that was there before. What of them is inside
+// tells what is out, to the last grain.
+TEST(OutflowInstrument, CountsWhatAFeedHasGiven) {
+    Bed bed("outflow");
+    bed.scene.feeds.resize(1);
+    bed.scene.feeds[0].species = 1;
+    bed.scene.species[1].diameter = {SizeSpread::Kind::uniform, 0.5, 1.5, 1, 0};
+    bed.scene.species[1].density = 2;
+    std::vector<double> mass{1};  // kg, of each; the first is small
+    bed.add(0, {0, 0, 1}, 0.5, 6 / std::numbers::pi);
+    const auto inside = [&](std::size_t from, std::int64_t given) {
+        bed.given = {given};
+        bed.traffic.came = given;
+        bed.grains = {};
+        if (from == 0) bed.grains.add(0, 0, {0, 0, 1}, 0.5, 6 / std::numbers::pi);
+        for (std::int64_t k = std::max<std::int64_t>(0, static_cast<std::int64_t>(from) - 1); k < given;
+             ++k) {
+            const NewGrain grain = fed_grain(bed.scene, 0, k);
+            bed.grains.add(static_cast<std::int32_t>(k + 1), 1, {0, 0, 5}, grain.radius, grain.density);
+        }
+    };
+    bed.start();
+    double out = 1;
+    inside(0, 40), bed.gather(125);
+    EXPECT_EQ(bed.look(125, "outflow_kg"), 0);
+    EXPECT_EQ(bed.look(125, "outflow_rate"), 0);
+    for (int k = 0; k < 29; ++k)
+        out += 2 * 4.0 / 3 * std::numbers::pi * std::pow(fed_grain(bed.scene, 0, k).radius, 3);
+    inside(30, 100), bed.gather(250);
+    EXPECT_NEAR(bed.look(250, "outflow_kg"), out, 1e-12 * out);
+    EXPECT_NEAR(bed.look(250, "outflow_rate"), out / 0.125, 1e-9 * out);
+    EXPECT_NEAR(bed.look(250, "small_outflow"), 1 / out, 1e-12);
+    EXPECT_NEAR(bed.look(250, "big_outflow"), 1 - 1 / out, 1e-12);
+    EXPECT_TRUE(std::isnan(bed.look(250, "emptied_s")));
+    inside(101, 100), bed.gather(375);
+    EXPECT_NEAR(bed.look(375, "emptied_s"), 0.375, 1e-12);
 }
 
 // The floor is at 0.3 now, and the lower grain has fallen below it into the tray.

@@ -5,14 +5,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/measure/flow/fed_mass.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
 
 namespace grainreel::observers {
 
-// What has left is what there was when the drive started less what is there. That is not known by species
-// once other grains come in: then all is NaN. A grain that has fallen below the floor into a tray has left.
+// What has left is what there was when the drive started, and what feeds have given since, less what is
+// there. Where grains have come from elsewhere that is not known: then all is NaN. A grain that has fallen
+// below the floor into a tray has left.
 class Outflow final : public Observer {
   public:
     static constexpr const char* instrument = "outflow";
@@ -28,75 +30,86 @@ class Outflow final : public Observer {
                  "share of a species in the mass that has flowed out"});
         groups.push_back({{{"emptied_s", "time to empty", Dimension::time}},
                           "s",
-                          "when fewer than 1 % of the mass at the start was left; NaN until then"});
+                          "when less than 1 % of the most that was inside was left; NaN until then"});
         return groups;
     }
 
-    Outflow(const Scene&, const Plan& plan) : rows_(plan) {}
+    Outflow(const Scene& scene, const Plan& plan) : rows_(plan), fed_(scene) {}
 
     std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
     void start(const Moment& m) override {
-        at_start_ = masses(m);
+        double largest = largest_mass(m.scene);
+        for (std::size_t i = 0; i < m.grains.size(); ++i) largest = std::max(largest, m.grains.mass(i));
+        quantum_ = mass_quantum(largest);
+        at_start_ = inside(m);
+        const MassCounts& came = fed_.of(m.fed, quantum_);
+        for (std::size_t s = 0; s < came.size(); ++s) at_start_[s] -= came[s];
+        most_ = total(inside(m));
         before_ = last_ = {m.step, 0};
     }
     void gather(const Moment& m) override {
         before_ = last_;
-        last_ = {m.step, left(m)};
-        if (std::isnan(emptied_) && left(m) > 0.99 * total(at_start_)) emptied_ = m.clock.time(m.step);
+        last_ = {m.step, total(gone(m))};
+        const WideInt now = total(inside(m));
+        most_ = std::max(most_, now);
+        if (std::isnan(emptied_) && most_ > 0 && 100 * now < most_) emptied_ = m.clock.time(m.step);
     }
     void look(const Moment& m, std::vector<double>& row) override {
-        if (m.traffic.came > 0) return add_no_values(row, 3 + m.scene.species.size());
+        const std::int64_t fed = std::accumulate(m.fed.begin(), m.fed.end(), std::int64_t{0});
+        if (m.traffic.came > fed) return add_no_values(row, 3 + m.scene.species.size());
         const Noted& from = last_.step < m.step ? last_ : before_;
-        const double gone = left(m);
-        row.insert(row.end(), {gone, (gone - from.left) / m.clock.time(m.step - from.step)});
-        const std::vector<double> now = masses(m);
-        for (std::size_t s = 0; s < now.size(); ++s) row.push_back((at_start_[s] - now[s]) / gone);
+        const MassCounts left = gone(m);
+        const auto kilograms = [&](WideInt counts) { return quantum_ * static_cast<double>(counts); };
+        const double all = kilograms(total(left));
+        row.insert(row.end(), {all, kilograms(total(left) - from.gone) / m.clock.time(m.step - from.step)});
+        for (const WideInt species : left) row.push_back(kilograms(species) / all);
         row.push_back(emptied_);
     }
-    void save(std::ostream& out) const override {
-        const Writing each{out};
-        each(at_start_), each(before_), each(last_), each(emptied_);
-    }
+    void save(std::ostream& out) const override { name_all(*this, Writing{out}); }
     void load(const Moment& m, Bytes& in) override {
-        const Reading each{in};
-        each(at_start_), each(before_), each(last_), each(emptied_);
-        const auto is_mass = [](double mass) { return std::isfinite(mass) && mass >= 0; };
+        name_all(*this, Reading{in});
         if (at_start_.size() != m.scene.species.size() || before_.step > last_.step || last_.step > m.step ||
-            before_.step < 0 || !std::all_of(at_start_.begin(), at_start_.end(), is_mass))
+            before_.step < 0 || !(quantum_ > 0 && std::isfinite(quantum_)) || !are_sound(at_start_) ||
+            !are_sound({before_.gone, last_.gone, most_}))
             in.fail();
     }
 
   private:
     struct Noted {
         std::int64_t step = 0;
-        double left = 0;  // kg
+        WideInt gone = 0;
     };
+    // Member by member: there is a gap in between, whose bytes could be anything.
+    template <class Self, class Each>
+    static void name_all(Self& self, const Each& each) {
+        each(self.quantum_), each(self.at_start_), each(self.most_), each(self.emptied_);
+        for (auto* noted : {&self.before_, &self.last_}) each(noted->step), each(noted->gone);
+    }
 
-    // kg, of each species. Summed by mass alone, so that the order of the grains does not show.
-    static std::vector<double> masses(const Moment& m) {
-        std::vector<std::vector<double>> of(m.scene.species.size());
+    MassCounts inside(const Moment& m) const {
+        MassCounts sums(m.scene.species.size(), 0);
         for (std::size_t i = 0; i < m.grains.size(); ++i)
             if (!is_in_tray(m, i))
-                of[static_cast<std::size_t>(m.grains.species[i])].push_back(m.grains.mass(i));
-        std::vector<double> sums;
-        for (std::vector<double>& all : of) {
-            std::sort(all.begin(), all.end());
-            sums.push_back(total(all));
-        }
+                sums[static_cast<std::size_t>(m.grains.species[i])] += mass_count(m.grains.mass(i), quantum_);
         return sums;
+    }
+    MassCounts gone(const Moment& m) {
+        const MassCounts now = inside(m), &came = fed_.of(m.fed, quantum_);
+        MassCounts left = at_start_;
+        for (std::size_t s = 0; s < left.size(); ++s) left[s] += came[s] - now[s];
+        return left;
     }
     static bool is_in_tray(const Moment& m, std::size_t i) {
         return m.scene.container.tray && m.grains.place[i].position.z() < m.floor_height();
     }
-    static double total(const std::vector<double>& masses) {
-        return std::accumulate(masses.begin(), masses.end(), 0.0);
-    }
-    double left(const Moment& m) const { return total(at_start_) - total(masses(m)); }
 
     const Rows rows_;
-    std::vector<double> at_start_;  // kg, by species
-    Noted before_, last_;           // at the last two rows
-    double emptied_ = kNoValue;     // s
+    FedMass fed_;
+    double quantum_ = 1;         // kg
+    MassCounts at_start_;        // less what feeds had given by then
+    WideInt most_ = 0;           // that was inside at a row
+    Noted before_, last_;        // at the last two rows
+    double emptied_ = kNoValue;  // s
 };
 
 }  // namespace grainreel::observers

@@ -1,5 +1,6 @@
 // What each wall takes: the mean force on it and its moment, the weight that it carries, and the pressure
-// against height. The forces are summed at every step, so that no impact is missed.
+// against height. The forces are summed at every step, so that no impact is missed. Forces are means between
+// two rows of measures.csv, pressures between two ends of records of fields.nc.
 //
 // Between the steps n1 < n2 the impulse on a face is dt (C(n2) - C(n1)) with C(n) = F_1 + ... + F_n - (1 - s)
 // F_n, where s is the share of a step's force that the grains have felt by its end: 1/2 with velocity Verlet.
@@ -8,8 +9,9 @@
 // velocities by other weights and keeps this to the order of its step only.
 #pragma once
 
-#include <limits>
+#include <algorithm>
 
+#include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
 #include "engine/measure/wall_faces.hpp"
@@ -36,20 +38,29 @@ class WallForces final : public Observer {
         return groups;
     }
 
-    WallForces(const Scene& scene, const Plan& plan) : rows_(plan), profile_(scene) {}
+    WallForces(const Scene& scene, const Plan& plan) : rows_(plan), records_(plan.fields), profile_(scene) {}
 
     bool needs_wall_sums() const override { return true; }
     const FieldSet* fields() const override { return &profile_.fields(); }
-    std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
+    std::int64_t gathers_after(std::int64_t step) const override {
+        return std::min(rows_.after(step), records_.next_end(step + 1));
+    }
 
+    // Where a run goes on without what was gathered before, a record has no pressures from its middle on.
     void start(const Moment& m) override {
         last_ = before_ = {m.step, m.wall_sums->faces};
-        begin_ = m.step;
-        slices_ = m.wall_sums->slices;
+        record_ = {m.step, {}};
+        if (m.step == 0 || records_.ends_record(m.step)) record_.slices = m.wall_sums->slices;
+        record_before_ = {m.step, {}};
     }
     void gather(const Moment& m) override {
-        before_ = std::move(last_);
-        last_ = {m.step, m.wall_sums->faces};
+        if (rows_.after(m.step - 1) == m.step) {
+            before_ = std::move(last_);
+            last_ = {m.step, m.wall_sums->faces};
+        }
+        if (!records_.ends_record(m.step)) return;
+        record_before_ = std::move(record_);
+        record_ = {m.step, m.wall_sums->slices};
     }
     void look(const Moment& m, std::vector<double>& row) override {
         const Noted& from = last_.step < m.step ? last_ : before_;
@@ -70,26 +81,25 @@ class WallForces final : public Observer {
         }
     }
     FieldValues look_at_fields(const Moment& m) override {
-        std::vector<double> normal;
-        const double per_step = m.wall_sums->scale.force / static_cast<double>(m.step - begin_);
-        for (std::size_t s = 0; s < slices_.size(); ++s)
-            normal.push_back(per_step * static_cast<double>(m.wall_sums->slices[s] - slices_[s]));
+        const Record& from = record_.step < m.step ? record_ : record_before_;
+        std::vector<double> normal(m.wall_sums->slices.size(), kNoValue);
+        const double per_step = m.wall_sums->scale.force / static_cast<double>(m.step - from.step);
+        for (std::size_t s = 0; s < from.slices.size(); ++s)
+            normal[s] = per_step * static_cast<double>(m.wall_sums->slices[s] - from.slices[s]);
         return profile_.pressures(normal);
     }
 
-    void save(std::ostream& out) const override {
-        const Writing each{out};
-        each(begin_), each(slices_), each(last_.step), each(last_.faces), each(before_.step),
-            each(before_.faces);
-    }
+    void save(std::ostream& out) const override { name_all(*this, Writing{out}); }
     void load(const Moment& m, Bytes& in) override {
-        const Reading each{in};
-        each(begin_), each(slices_), each(last_.step), each(last_.faces), each(before_.step),
-            each(before_.faces);
-        if (begin_ < 0 || begin_ > before_.step || before_.step > last_.step || last_.step > m.step ||
-            slices_.size() != m.wall_sums->slices.size() || last_.faces.size() != m.faces.size() ||
-            before_.faces.size() != m.faces.size() || !are_sound(slices_) || !are_sound(last_.faces) ||
-            !are_sound(before_.faces))
+        name_all(*this, Reading{in});
+        const auto are_slices = [&](const Record& record) {
+            return record.slices.empty() ||
+                   (record.slices.size() == m.wall_sums->slices.size() && are_sound(record.slices));
+        };
+        if (record_before_.step < 0 || record_before_.step > record_.step || record_.step > m.step ||
+            before_.step < 0 || before_.step > last_.step || last_.step > m.step ||
+            !are_slices(record_before_) || !are_slices(record_) || last_.faces.size() != m.faces.size() ||
+            before_.faces.size() != m.faces.size() || !are_sound(last_.faces) || !are_sound(before_.faces))
             in.fail();
     }
 
@@ -98,6 +108,15 @@ class WallForces final : public Observer {
         std::int64_t step = 0;
         std::vector<FaceSums> faces;
     };
+    struct Record {
+        std::int64_t step = 0;
+        std::vector<WideInt> slices;  // none: not known
+    };
+    template <class Self, class Each>
+    static void name_all(Self& self, const Each& each) {
+        for (auto* noted : {&self.last_, &self.before_}) each(noted->step), each(noted->faces);
+        for (auto* record : {&self.record_, &self.record_before_}) each(record->step), each(record->slices);
+    }
 
     static std::vector<MeasureColumn> of_axes(const std::string& name, const std::string& unit,
                                               const std::string& label, Dimension dimension) {
@@ -123,10 +142,10 @@ class WallForces final : public Observer {
     }
 
     const Rows rows_;
+    const FieldTimes records_;
     PressureProfile profile_;
-    std::int64_t begin_ = 0;       // step
-    std::vector<WideInt> slices_;  // at that step
-    Noted last_, before_;          // at the last two rows
+    Noted last_, before_;            // at the last two rows
+    Record record_, record_before_;  // at the last two ends of records
 };
 
 }  // namespace grainreel::observers
