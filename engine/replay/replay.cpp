@@ -82,8 +82,13 @@ Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {
 
 Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
                     int threads, const ReplayWatcher& watcher) {
-    constexpr std::chrono::duration<double> stretch(0.1);
     Simulation simulation = nearest_checkpoint(run, kept, step, threads);
+    replay_on(simulation, step, watcher);
+    return simulation;
+}
+
+void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher) {
+    constexpr std::chrono::duration<double> stretch(0.1);
     const std::int64_t from = simulation.step();
     std::int64_t steps = 8;  // at a time
     while (simulation.step() < step) {
@@ -95,7 +100,6 @@ Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept
         if (!watcher(static_cast<double>(simulation.step() - from) / static_cast<double>(step - from)))
             throw RunError("stopped before the moment was reached");
     }
-    return simulation;
 }
 
 }  // namespace grainreel

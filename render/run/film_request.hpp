@@ -37,7 +37,8 @@ struct RenderRequest {
     std::filesystem::path run;  // its folder
     Assignments sets;           // other values for keys of its film
     std::optional<double> from, to, at;
-    int every = 1;
+    std::optional<int> every;  // kept frames of the trajectory, one of so many; none: the film's pictures
+    bool replay = true;        // what was not kept is brought back
 };
 
 // What is to be shown side by side.
@@ -45,6 +46,9 @@ struct CompareRequest {
     std::vector<std::filesystem::path> inputs;  // scene files and folders of runs
     Assignments sets;                           // for every scene
     std::optional<std::string> captions;        // one a panel, bars between them
+    std::optional<std::string> vary;  // "drive.g_level=2,4": a panel for each value of one scene's key
+    std::optional<double> at;         // s: one picture in place of a film
+    bool replay = true;               // of finished runs what was not kept is brought back
 };
 
 }  // namespace grainreel

@@ -123,6 +123,7 @@ void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
     film.take_turns = threads_.take_turns;
     film.gl = request_.gl;
     film.pictures = pictures_planned_;
+    film.start = start_;
     frames_planned_ = pictures_planned_ + held_frames(scene.film);
     film.check_folder = [this] { folder_->lock().check_there(); };
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))

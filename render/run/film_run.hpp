@@ -80,6 +80,7 @@ class FilmRun {
     std::unique_ptr<FilmMaker> film_;
     std::int64_t frames_planned_ = 0;  // of the film: its pictures, and those that are held for captions
     std::int64_t pictures_planned_ = 0;
+    FramePtr start_;  // from which the film's start heights are counted; null: from its first picture
     FilmReport film_report_;
     FirstFailure failure_;
 

@@ -95,4 +95,12 @@ CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& i
         ->type_name("TIME");
 }
 
+void add_no_replay(CLI::App& verb, bool& replay) {
+    verb.add_flag_callback(
+        "--no-replay", [&replay] { replay = false; },
+        "Draw what finished runs kept alone, and say what is left out: moments that they did not keep\nare "
+        "else "
+        "brought back from their checkpoints");
+}
+
 }  // namespace grainreel

@@ -33,6 +33,8 @@ void add_sets(CLI::App& verb, Assignments& sets, const char* about);
 void add_picture_keys(CLI::App& verb, Assignments& sets);
 // --set, those of the film, --duration and --seed.
 void add_scene_keys(CLI::App& verb, Assignments& sets);
+// Of a single picture: a PNG file, whatever the scene's film is. Throws UserError for keys of a film's file.
+Assignments sets_for_still(Assignments sets);
 // SCENE, and those of its keys.
 void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets);
 
@@ -48,6 +50,9 @@ std::filesystem::path output_base();
 
 // An option that is a time of a finished run, s.
 CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about);
+
+// --no-replay: of finished runs nothing is brought back that they did not keep.
+void add_no_replay(CLI::App& verb, bool& replay);
 
 // --port and --watch-host: where a run is shown live.
 void add_watch_port(CLI::App& verb, WatchPlace& place);

@@ -1,7 +1,11 @@
 // Options that give keys of the scene another value.
+#include <algorithm>
+#include <array>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/error.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/film/purposes.hpp"
 #include "render/cli/options/option_groups.hpp"
@@ -45,7 +49,25 @@ void add_file_keys(CLI::App& verb, Assignments& sets) {
         "Alpha in place of the background; of png and ffv1");
 }
 
+// Keys of a film's file, which a single picture does not have.
+constexpr std::array of_film_file = {"film.format", "film.quality", "film.preset", "film.max_size",
+                                     "film.sheet"};
+
 }  // namespace
+
+Assignments sets_for_still(Assignments sets) {
+    bool clear = false;
+    for (const Assignment& set : sets) {
+        if (std::find(of_film_file.begin(), of_film_file.end(), set.key()) != of_film_file.end())
+            throw UserError(
+                fmt::format("{}: is of a film, and --at draws one PNG file; leave it out", set.place()));
+        clear = clear || set.key() == "film.transparent";
+    }
+    if (!clear) return sets;
+    sets.push_back({"film.format=png", "--at"});
+    sets.push_back({"film.max_size=none", "--at"});
+    return sets;
+}
 
 void add_sets(CLI::App& verb, Assignments& sets, const char* about) {
     verb.add_option_function<std::vector<std::string>>(

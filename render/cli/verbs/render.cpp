@@ -1,19 +1,33 @@
-// The verb `render`: a finished run is drawn again, as a film or as one picture. Nothing is run.
+// The verb `render`: a finished run is drawn again, as a film or as one picture. What it did not keep is
+// brought back from its checkpoints; the run itself stays as it is.
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
+#include "engine/base/error.hpp"
 #include "render/cli/options/option_groups.hpp"
 #include "render/cli/report/film_report.hpp"
 #include "render/cli/report/record.hpp"
 #include "render/cli/report/result.hpp"
 #include "render/cli/verbs/verb.hpp"
-#include "render/run/frames/recorded_run.hpp"
+#include "render/run/frames/revisited_run.hpp"
 #include "render/run/redraw_run.hpp"
 #include "render/run/still.hpp"
 
 namespace grainreel {
 namespace {
+
+constexpr int signal_base = 128;
+
+// Frames of the trajectory have a pace of their own.
+void check_no_segments(const Assignments& sets) {
+    for (const Assignment& set : sets)
+        if (set.key().rfind("film.segment", 0) == 0)
+            throw UserError(
+                fmt::format("{}: --every draws the frames of the trajectory one after the other, "
+                            "without segments; leave one of the two out",
+                            set.place()));
+}
 
 class Render final : public Verb {
   public:
@@ -32,14 +46,16 @@ class Render final : public Verb {
                  "or --set species.big.colour=orange; may be repeated");
         add_picture_keys(parser, request_.sets);
         CLI::Option* from =
-            add_time(parser, "--from", request_.from, "First moment to draw [the run's first]");
-        CLI::Option* to = add_time(parser, "--to", request_.to, "Last moment to draw [the run's last]");
+            add_time(parser, "--from", request_.from, "First moment to draw [the film's first]");
+        CLI::Option* to = add_time(parser, "--to", request_.to, "Last moment to draw [the film's last]");
         CLI::Option* every =
-            parser.add_option("--every", request_.every, "Draw one of so many frames of the trajectory [1]")
+            parser
+                .add_option("--every", request_.every,
+                            "Draw one of so many frames of the trajectory, in place of the film's pictures")
                 ->check(CLI::Range(1, 1000000000))
                 ->type_name("N");
-        CLI::Option* at = add_time(parser, "--at", request_.at,
-                                   "Draw the frame nearest to this moment alone, to a PNG file");
+        CLI::Option* at = add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file");
+        add_no_replay(parser, request_.replay);
         add_film(
             parser, film_,
             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
@@ -52,17 +68,23 @@ class Render final : public Verb {
     int run(Reporter& reporter) override {
         film_.command = command;
         film_.program = program_info();
-        RecordedRun record(request_.run, request_.sets);
-        if (request_.at) {
-            print_result(draw_still(film_, *request_.at, reporter, record).string() + "\n");
-            return 0;
-        }
-        record.leave_out_damaged();
-        RedrawRun redraw(film_, request_, reporter, record);
+        if (request_.at) return draw_one(reporter);
+        if (request_.every) check_no_segments(request_.sets);
+        RevisitedRun source(request_.run, request_.sets, request_.replay);
+        source.leave_out_damaged();
+        RedrawRun redraw(film_, request_, reporter, source);
         return tell_folder(redraw.run(), film_);
     }
 
   private:
+    int draw_one(Reporter& reporter) const {
+        RevisitedRun source(request_.run, sets_for_still(request_.sets), request_.replay);
+        const auto file = draw_still(film_, *request_.at, reporter, source);
+        if (!file) return signal_base + reporter.stop_signal();
+        print_result(file->string() + "\n");
+        return 0;
+    }
+
     RenderRequest request_;
     FilmRequest film_;
 };

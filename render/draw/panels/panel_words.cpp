@@ -66,6 +66,26 @@ WordBlock playback_block(const Writer& measure) {
             }};
 }
 
+// What all scenes say at that time, in a row of its own.
+WordBlock captions_block(const Writer& measure, const Film& film, double width) {
+    constexpr int lines = 3;
+    const double inner = width - 2 * measure.type.margin;
+    double height = 0;
+    for (const FilmCaption& caption : film.captions)
+        height = std::max(
+            height,
+            write_in_middle(measure, caption.text, measure.main(), measure.palette.ink, inner, lines).height);
+    return {{inner, height},
+            true,
+            [captions = film.captions, inner](const Writer& on, double x, double y, const Frame& frame,
+                                              const std::string&) {
+                for (const FilmCaption& caption : captions)
+                    if (shows_caption(caption, frame.time))
+                        on.write(x, y, caption.text, {on.main().size, on.main().bold, true}, on.palette.ink,
+                                 inner, lines);
+            }};
+}
+
 }  // namespace
 
 std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
@@ -73,6 +93,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
     Scene scene = panels.front().scene;
     scene.drive.present = common.clock;
     std::vector<WordBlock> blocks;
+    if (common.captions) blocks.push_back(captions_block(measure, scene.film, width));
     blocks.push_back({clock_block(measure, scene, widest_frame(), 0, 0), true,
                       [scene](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
                           clock_block(on, scene, frame, x, y);

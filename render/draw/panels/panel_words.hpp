@@ -21,8 +21,8 @@ struct WordBlock {
     double x = 0, y = 0;  // pixels, of the top left corner; where flow() has put it
 };
 
-// Clock, dial, playback, drive, legend, colour bar, what marks mean, and scale bar, as far as they are
-// common. scale: pixels a metre; 0 where panels have their own.
+// Captions of time, clock, dial, playback, drive, legend, colour bar, what marks mean, and scale bar, as far
+// as they are common. scale: pixels a metre; 0 where panels have their own.
 std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
                                      const Common& common, double scale, double width);
 

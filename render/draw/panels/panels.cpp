@@ -95,12 +95,20 @@ Common common_of(const std::vector<Panel>& panels) {
         common.marks.rings =
             common.marks.rings && x.highlighted == y.highlighted && x.highlight_if == y.highlight_if;
         common.playback = common.playback && panel.playback == panels.front().playback;
+        common.captions =
+            common.captions && !scene.film.captions.empty() && scene.film.captions == first.film.captions;
         common.exaggerated = common.exaggerated && scene.film.exaggerate == first.film.exaggerate;
         common.species =
             common.species && std::equal(scene.species.begin(), scene.species.end(), first.species.begin(),
                                          first.species.end(), same_species);
     }
     return common;
+}
+
+std::vector<Panel> without_common(std::vector<Panel> panels, const Common& common) {
+    if (common.captions)
+        for (Panel& panel : panels) panel.scene.film.captions.clear();
+    return panels;
 }
 
 void share_colours(std::vector<Panel>& panels) {

@@ -33,8 +33,12 @@ struct Common {
     bool colours = true;      // one colour bar, or none
     MarkKinds marks;          // that mean the same; arrows only where a metre is equally long, too
     bool playback = true;
+    bool captions = true;  // of time (film.caption), with at least one
 };
 Common common_of(const std::vector<Panel>& panels);
+
+// Without what is common and written in the panels otherwise: captions of time.
+std::vector<Panel> without_common(std::vector<Panel> panels, const Common& common);
 
 // What tells the scenes apart, shortest first: frequency, g level or amplitude of their drives; or their
 // titles, with the drives where these differ too; or their names.

@@ -67,10 +67,11 @@ PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film) {
     // Again, since words wrap at the width that panels get, until that is no narrower. scales: of each its
     // own.
     bool scales = false;
+    const std::vector<Panel> own = without_common(panels, common);
     for (double width = film.width, foot_width = film.width;;) {
         words.caption = caption_height(measure, panels, width);
         words.pace = pace_height(measure, panels, common, width);
-        words.note = notes_height(measure, panels, width);
+        words.note = notes_height(measure, own, width);
         words.foot = foot_height(measure, panels, common, scales, foot_width);
         PanelLayout layout = plan_panels(panels, film, words);
         if (layout.places.empty()) return layout;
@@ -121,8 +122,9 @@ SideBySide::Impl::Impl(const std::vector<Panel>& panels, const Film& film, int r
       plots(panels, layout, type, palette),
       picture(film.width, film.height) {
     GRAINREEL_CHECK(layout.places.size() == panels.size());
+    const std::vector<Panel> own = without_common(panels, common);
     for (std::size_t i = 0; i < panels.size(); ++i) {
-        const Scene scene = panel_scene(panels[i], layout.places[i], film);
+        const Scene scene = panel_scene(own[i], layout.places[i], film);
         scenes.push_back(scene);
         playback.push_back(panels[i].playback);
         renderers.push_back(
@@ -130,7 +132,10 @@ SideBySide::Impl::Impl(const std::vector<Panel>& panels, const Film& film, int r
     }
     const Writer measure{nullptr, type, palette};
     std::vector<Panel> drawn = panels;
-    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].scene = scenes[i];
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        drawn[i].scene = scenes[i];
+        drawn[i].scene.film.captions = panels[i].scene.film.captions;
+    }
     blocks = common_blocks(measure, drawn, common, layout.scale, film.width);
     flow(blocks, type, film.width);
     write_still_words(panels, film);

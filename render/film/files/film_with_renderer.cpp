@@ -9,7 +9,9 @@ namespace {
 class RendererDrawer final : public Drawer {
   public:
     RendererDrawer(const Scene& scene, const FilmOptions& options)
-        : renderer_(with_orbit(scene, options), options.raster_threads, options.gl), rate_(scene.film.rate) {}
+        : renderer_(with_orbit(scene, options), options.raster_threads, options.gl), rate_(scene.film.rate) {
+        if (options.start) renderer_.start_from(*options.start);
+    }
     void draw(const Frames& frames, const std::string& playback, Picture& into) override {
         renderer_.draw_into(into, *frames.front(), playback, static_cast<double>(drawn_++) / rate_);
     }

@@ -27,6 +27,7 @@ struct FilmOptions {
     int encoder_threads = 1;
     bool take_turns = false;  // with who calls take(), which then waits while queued pictures are made
     gl::Provider gl = gl::Provider::automatic;
+    FramePtr start;             // from which start heights are counted; null: the first picture's frame
     std::int64_t pictures = 0;  // planned; what an orbit that lasts all the film needs to know
     // Called before a file is made in the folder or replaced there; throws RunError when that may not be.
     std::function<void()> check_folder = [] {};

@@ -5,9 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/error.hpp"
 #include "render/draw/camera/camera_path.hpp"
+#include "render/draw/panels/side_by_side.hpp"
+#include "render/film/files/picture_files.hpp"
 #include "render/film/production/side_by_side_drawer.hpp"
 #include "render/run/compare/comparison_words.hpp"
+#include "render/run/still.hpp"
 #include "render/run/together.hpp"
 
 namespace grainreel {
@@ -15,6 +19,9 @@ namespace grainreel {
 CompareRun::CompareRun(const FilmRequest& request, RunListener& listener, Comparison all)
     : FilmRun(request, listener), all_(std::move(all)) {
     threads_ = all_.threads;
+    if (!all_.still) check_film(all_.film, all_.film_pictures);
+    if (all_.still && request.to_stdout)
+        throw UserError("--out -: with --at there is no film; name a folder");
     make_folder({all_.film.name, request.base, request.out, request.force});
 }
 
@@ -42,29 +49,57 @@ bool CompareRun::work() {
     if (!for_all(Stage::packing, frames, pack)) return false;
     mark_begun();
     for (const auto& member : all_.members) member->start(all_.pictures);
+    for (Panel& panel : all_.panels)
+        settle_orbit(panel.scene.film.camera, static_cast<double>(all_.film_pictures) / all_.film.film.rate);
+    return (all_.still ? draw_still(frames) : draw_film(frames)) && finish(frames);
+}
+
+// The same in each panel's own thread.
+bool CompareRun::next(Frames& frames) {
+    return for_all(Stage::pictures, frames, [this](Member& member, FramePtr& frame) {
+        frame = member.next(go_on());
+        return frame != nullptr;
+    });
+}
+
+// What remains of the runs.
+bool CompareRun::finish(Frames& frames) {
+    return for_all(Stage::pictures, frames, [this](Member& member, FramePtr&) {
+        member.next(go_on());
+        return listener_.stop_signal() == 0;
+    });
+}
+
+bool CompareRun::draw_still(Frames& frames) {
+    const Instant moment = all_.pictures.instants.front();
+    stage_ = Stopwatch();
+    if (!next(frames)) return false;
+    SideBySide drawer(all_.panels, all_.film.film, threads_.raster, request_.gl);
+    if (const std::string note = drawer.gl_note(); !note.empty()) listener_.info(note);
+    record_.gl = drawer.gl_description();
+    const auto segment = static_cast<std::size_t>(moment.segment);
+    const Picture& picture = drawer.draw(frames, segment, all_.reference, *all_.still);
+    still_ = fmt::format("still-{}s.png", seconds_in_names(moment.time));
+    write_png(folder_->path() / still_, picture,
+              texts_of(all_.film.name, all_.film.title, *frames[all_.reference], ""),
+              all_.film.film.transparent);
+    return true;
+}
+
+bool CompareRun::draw_film(Frames& frames) {
     const std::vector<Instant>& instants = all_.pictures.instants;
     pictures_planned_ = static_cast<std::int64_t>(instants.size());
-    for (Panel& panel : all_.panels)
-        settle_orbit(panel.scene.film.camera, static_cast<double>(pictures_planned_) / all_.film.film.rate);
     std::vector<std::size_t> segment_of;
     for (const Instant& instant : instants) segment_of.push_back(static_cast<std::size_t>(instant.segment));
     open_film(all_.film, side_by_side_drawer(all_.panels, all_.film.film, threads_.raster, request_.gl,
                                              all_.reference, segment_of));
     stage_ = Stopwatch();
-    const auto next = [this](Member& member, FramePtr& frame) {
-        frame = member.next(go_on());
-        return frame != nullptr;
-    };
     for (const std::size_t segment : segment_of) {
-        if (!for_all(Stage::pictures, frames, next)) return false;
+        if (!next(frames)) return false;
         const auto timer = times_.during("waiting for the film");
         film_->take(frames, playback_of_all(all_.panels, segment));
     }
-    const auto finish = [this](Member& member, FramePtr&) {
-        member.next(go_on());
-        return listener_.stop_signal() == 0;
-    };
-    return for_all(Stage::pictures, frames, finish);
+    return true;
 }
 
 const char* CompareRun::name_of(Stage stage) const {
@@ -91,7 +126,7 @@ bool CompareRun::for_all(Stage stage, Frames& frames, const Work& work) {
 
 void CompareRun::show_progress(Stage stage) {
     if (all_.all_recorded()) {
-        if (stage == Stage::pictures) show_drawing();
+        if (stage == Stage::pictures && film_) show_drawing();
         return;
     }
     Progress progress;
@@ -124,6 +159,7 @@ void CompareRun::conclude() {
 }
 
 std::string CompareRun::stopped_text() const {
+    if (all_.still) return "stopped";
     return fmt::format("stopped at frame {} of {}", film_report_.frames, frames_planned_);
 }
 
@@ -137,8 +173,8 @@ void CompareRun::report_written() {
     }
     const std::string runs =
         folders.empty() ? "" : fmt::format("{} (each a run), ", fmt::join(folders, ", "));
-    listener_.info(
-        fmt::format("wrote {}: {}{}run.json, log.txt", folder_->path().string(), film_files_text(), runs));
+    listener_.info(fmt::format("wrote {}: {}{}run.json, log.txt", folder_->path().string(),
+                               all_.still && !still_.empty() ? still_ + ", " : film_files_text(), runs));
     listener_.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s", duration_text(watch_.seconds()),
                                all_.members.size(), all_.pictures.instants.front().time,
                                all_.pictures.instants.back().time));

@@ -22,6 +22,10 @@ class CompareRun final : public FilmRun {
     void report_written() override;
 
     void begin();
+    bool next(Frames& frames);
+    bool finish(Frames& frames);
+    bool draw_film(Frames& frames);
+    bool draw_still(Frames& frames);
     // Does the same for every panel at once, and shows how far they are; false when asked to stop.
     enum class Stage { packing, pictures };
     using Work = std::function<bool(Member&, FramePtr&)>;
@@ -32,6 +36,7 @@ class CompareRun final : public FilmRun {
 
     Comparison all_;
     Stopwatch stage_;
+    std::string still_;  // its file, once it is there
 };
 
 }  // namespace grainreel

@@ -13,14 +13,9 @@ namespace grainreel {
 
 namespace {
 
-bool of_schedule(const Comparison& all) {
-    return std::all_of(all.members.begin(), all.members.end(),
-                       [](const auto& member) { return member->source().supply().any_moment; });
-}
-
 // That the moments were chosen by.
 const Clock& schedule_clock(const Comparison& all) {
-    return all.members[all.reference]->run()->plan().clock;
+    return all.members[all.reference]->clock();
 }
 
 }  // namespace
@@ -37,8 +32,8 @@ std::vector<std::string> playback_of(const FrameSource& source, const Comparison
         for (std::size_t i = 0; i < moments.size(); ++i)
             if (all.pictures.instants[i].segment == static_cast<int>(k)) inside.push_back(moments[i]);
         const bool as_planned =
-            of_schedule(all) && (segments[k].kind == FilmSegment::Kind::motion ||
-                                 (drive.present && drive.frequency == reference.frequency));
+            all.by_schedule && (segments[k].kind == FilmSegment::Kind::motion ||
+                                (drive.present && drive.frequency == reference.frequency));
         const double rate = all.film.film.rate;
         captions.push_back(as_planned
                                ? playback_caption(played(segments[k], rate, schedule_clock(all)), drive, rate)
@@ -48,7 +43,7 @@ std::vector<std::string> playback_of(const FrameSource& source, const Comparison
 }
 
 void warn_of_pace(Comparison& all) {
-    if (of_schedule(all)) return;
+    if (all.by_schedule) return;
     std::set<std::string> said;
     for (const auto& member : all.members) {
         const auto warning = pacing_warning(member->source().moments(all.pictures), member->scene().drive);
@@ -65,7 +60,7 @@ void warn_of_single_moments(Comparison& all) {
             warning && said.insert(*warning).second)
             all.warnings.push_back(*warning);
     }
-    if (of_schedule(all)) return;
+    if (all.by_schedule) return;
     for (const auto& member : all.members) {
         if (!member->run()) continue;
         for (std::string& line :
@@ -75,9 +70,14 @@ void warn_of_single_moments(Comparison& all) {
 }
 
 void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all) {
-    bool axes = false;
-    for (const auto& member : all.members) axes = axes || member->scene().film.axes;
+    bool axes = false, words = false;
+    for (const auto& member : all.members) {
+        axes = axes || member->scene().film.axes;
+        words = words || member->scene().film.words == WordPlace::none ||
+                member->scene().film.words == WordPlace::plates;
+    }
     if (axes) all.warnings.emplace_back("film.axes: films side by side have no axes");
+    if (words) all.warnings.emplace_back("film.words: films side by side have their words beside the panels");
     if (!layout.plots_fit)
         all.warnings.push_back(
             fmt::format("--size: {}x{} has no room for plots under {} panels; they are left out",

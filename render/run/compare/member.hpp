@@ -13,6 +13,7 @@
 #include "engine/output/run_json.hpp"
 #include "render/run/first_failure.hpp"
 #include "render/run/frames/frame_source.hpp"
+#include "render/run/frames/revisited_run.hpp"
 #include "render/run/scene_run.hpp"
 
 namespace grainreel {
@@ -22,12 +23,15 @@ class Member {
     using GoOn = FrameSource::GoOn;
 
     Member(const Scene& scene, const Plan& plan, int threads);
-    explicit Member(std::unique_ptr<FrameSource> record) : source_(std::move(record)) {}
+    explicit Member(std::unique_ptr<RevisitedRun> record)
+        : record_(record.get()), source_(std::move(record)) {}
 
     const FrameSource& source() const { return *source_; }
     const Scene& scene() const { return source_->scene(); }
     const FrameArchive* archive() const { return source_->archive(); }  // null for what is run
     const SceneRun* run() const { return run_; }                        // null for a record
+    const RevisitedRun* record() const { return record_; }              // null for what is run
+    const Clock& clock() const { return run_ ? run_->plan().clock : record_->clock(); }
     // Where its files are, as run.json of the whole tells it.
     std::string place() const;
 
@@ -49,8 +53,9 @@ class Member {
     double speed() const { return speed_; }  // particle-steps/s
 
   private:
+    SceneRun* run_ = nullptr;               // the source, when it is run
+    const RevisitedRun* record_ = nullptr;  // likewise, when it lies on disk
     std::unique_ptr<FrameSource> source_;
-    SceneRun* run_ = nullptr;           // the source, when it is run
     std::optional<FolderLock> folder_;  // of what is run, once it is made
     RunRecord report_;                  // likewise
     std::atomic<double> done_ = 0, speed_ = 0;

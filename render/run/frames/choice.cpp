@@ -16,7 +16,8 @@ std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive&
     std::vector<Frame> chosen;
     std::int64_t inside = 0;
     for (const Frame& moment : moments)
-        if (moment.time >= from && moment.time <= to && inside++ % what.every == 0) chosen.push_back(moment);
+        if (moment.time >= from && moment.time <= to && inside++ % what.every.value_or(1) == 0)
+            chosen.push_back(moment);
     if (chosen.empty())
         throw UserError(fmt::format("{}: no frame of the run lies there; they go from {:.6g} to {:.6g} s",
                                     what.from ? "--from" : "--to", moments.front().time,

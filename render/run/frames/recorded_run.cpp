@@ -28,7 +28,7 @@ constexpr const char* without_trajectory =
 
 }  // namespace
 
-RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, bool as_filmed)
+RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use use)
     : folder_(folder_of_run(folder)),
       scene_(scene_of_run(folder_, sets)),
       trajectory_(file_of_run(folder_, "trajectory.nc", without_trajectory)) {
@@ -41,21 +41,28 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, bool a
     if (clock_.step == 0 && scene_.run.step) clock_.step = *scene_.run.step;  // with one moment at step 0
     measures_ = read_measures(name_of("measures.csv"));
     check_same_run();
-    // The trajectory holds single moments alone, and of those its own.
-    for (std::string& line : single_moment_warnings(
-             scene_, "frames of a finished run are single moments; run the scene again with `movie`"))
-        news_.push_back(std::move(line));
     if (scene_.film.look.rotation && !trajectory_.info().orientation)
         throw UserError(
             fmt::format("{}: has no orientations, and the film shows rotation; run it with "
                         "output.orientation = true, or let film.rotation be false",
                         name));
-    if (!as_filmed) frame_what_is_reached();
-    if (needs_touches(scene_.film.shows)) read_contacts();
+    if (!use.as_filmed) frame_what_is_reached();
+    if (needs_touches(scene_.film.shows)) read_contacts(use);
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
     if (scene_.film.shows.outflow) read_outflow_of_run();
     find_periods();
     parts_.emplace(scene_, clock_, moments_.front().step);
+    if (use.alone) do_without_others();
+}
+
+// The trajectory holds single moments, and of those its own.
+void RecordedRun::do_without_others() {
+    if (needs_touches(scene_.film.shows) && !contacts_) read_contacts({});
+    for (std::string& line :
+         single_moment_warnings(scene_,
+                                "frames that a run kept are single moments; let them be brought back, "
+                                "or run the scene again with `movie`"))
+        news_.push_back(std::move(line));
     if (needs_displacement(scene_.film.shows)) look_for_earlier_frames();
 }
 
@@ -89,19 +96,21 @@ void RecordedRun::read_moments() {
     });
 }
 
-void RecordedRun::leave_out_damaged() {
+void RecordedRun::leave_out_damaged(bool brought_back) {
     std::vector<Frame> all = std::move(moments_);
     std::size_t next = 0;
     moments_.clear();
-    keep_those([&](std::size_t place) {
-        Frame& moment = all[next++];
-        trajectory_.read(place);
-        if (contacts_) contacts_->touches(place);
-        moments_.push_back(std::move(moment));
-    });
+    keep_those(
+        [&](std::size_t place) {
+            Frame& moment = all[next++];
+            trajectory_.read(place);
+            if (contacts_) contacts_->touches(place);
+            moments_.push_back(std::move(moment));
+        },
+        brought_back);
 }
 
-void RecordedRun::keep_those(const std::function<void(std::size_t)>& read) {
+void RecordedRun::keep_those(const std::function<void(std::size_t)>& read, bool brought_back) {
     std::vector<std::size_t> kept, damaged;
     std::string first;
     for (const std::size_t place : places_) {
@@ -120,11 +129,12 @@ void RecordedRun::keep_those(const std::function<void(std::size_t)>& read) {
     std::string others;
     for (std::size_t i = 1; i < std::min(damaged.size(), named); ++i)
         others += fmt::format(", {}", damaged[i]);
-    news_.push_back(fmt::format("{}; {} left out{}", first,
-                                damaged.size() == 1 ? "it is" : fmt::format("{} frames are", damaged.size()),
-                                damaged.size() == 1 ? ""
-                                                    : fmt::format(": {}{}{}", damaged.front(), others,
-                                                                  damaged.size() > named ? " ..." : "")));
+    news_.push_back(fmt::format(
+        "{}; {} {}{}", first, damaged.size() == 1 ? "it is" : fmt::format("{} frames are", damaged.size()),
+        brought_back ? "brought back" : "left out",
+        damaged.size() == 1
+            ? ""
+            : fmt::format(": {}{}{}", damaged.front(), others, damaged.size() > named ? " ..." : "")));
 }
 
 void RecordedRun::check_same_run() const {
@@ -142,7 +152,9 @@ void RecordedRun::frame_what_is_reached() {
         camera.reach = known_reach(trajectory_);
 }
 
-void RecordedRun::read_contacts() {
+void RecordedRun::read_contacts(const Use& use) {
+    std::error_code ignored;
+    if (!use.alone && !fs::exists(folder_ / "contacts.nc", ignored)) return;
     const fs::path file = file_of_run(folder_, "contacts.nc",
                                       "the run was not told to keep contacts (output.contacts = true); let "
                                       "film.colour.by be something else and film.force_chains false");

@@ -28,12 +28,22 @@ class RecordedRun final : public Record, private PartSupply {
     // kept none.
     //
     // Pictures are framed by how high the run's grains got (known_reach), or, as_filmed, as the run's own
-    // film was, which did not know that yet.
-    RecordedRun(const std::filesystem::path& folder, const Assignments& sets, bool as_filmed = false);
+    // film was, which did not know that yet. alone: what the kept frames lack is to be had nowhere else, and
+    // is complained of.
+    struct Use {
+        bool as_filmed = false;
+        bool alone = true;
+    };
+    RecordedRun(const std::filesystem::path& folder, const Assignments& sets, Use use);
+    RecordedRun(const std::filesystem::path& folder, const Assignments& sets, bool as_filmed = false)
+        : RecordedRun(folder, sets, Use{as_filmed, true}) {}
 
     // Reads all there is and leaves out the frames whose grains are damaged, with a line of news, so that no
     // damage shows up when half a film is made. Throws UserError when none is left, or contacts are damaged.
-    void leave_out_damaged();
+    // brought_back: their moments are had from elsewhere.
+    void leave_out_damaged(bool brought_back = false);
+    // From now on it is alone, and complains.
+    void do_without_others();
 
     const Scene& scene() const override { return scene_; }  // named after the folder
     Supply supply() const override;
@@ -54,6 +64,11 @@ class RecordedRun final : public Record, private PartSupply {
     const Clock& clock() const override { return clock_; }
     std::vector<KeptCheckpoint> checkpoints() const override { return kept_checkpoints(folder_); }
     Frame first() const override { return first_whole(); }
+    // Rows of measures.csv; null when there are none.
+    const std::shared_ptr<const MeasureTable>& measures() const { return measures_; }
+    // What pictures may take from it, and what adds that to them.
+    const PartSupply& of_parts() const { return *this; }
+    const PictureParts& parts() const { return *parts_; }
     // The row of measures.csv that is nearest to the moment; none without rows.
     std::optional<MeasuredRow> measured_near(std::size_t index) const override;
 
@@ -65,10 +80,10 @@ class RecordedRun final : public Record, private PartSupply {
 
     void read_moments();
     // Reads each of places_ and keeps those that are not damaged.
-    void keep_those(const std::function<void(std::size_t)>& read);
+    void keep_those(const std::function<void(std::size_t)>& read, bool brought_back = false);
     void check_same_run() const;
     void frame_what_is_reached();
-    void read_contacts();
+    void read_contacts(const Use& use);
     void leave_out_unfinished_contacts();
     void check_contacts_of_run() const;
     void read_measures_of_run();

@@ -65,6 +65,9 @@ Clock clock_of(const Scene& scene, const std::vector<Frame>& moments) {
     Clock clock;
     for (const Frame& moment : moments)
         if (moment.step != 0) clock.step = moment.time / static_cast<double>(moment.step);
+    // To the last bit, where both mean the same.
+    if (scene.run.step && std::abs(clock.step - *scene.run.step) <= 1e-12 * clock.step)
+        clock.step = *scene.run.step;
     if (!scene.drive.present || clock.step <= 0) return clock;
     return drive_clock(scene.drive, clock.step, std::llround(1 / (scene.drive.frequency * clock.step)));
 }

@@ -1,0 +1,55 @@
+// The grains of any moment of a run that lies on disk: from trajectory.nc or film_moments.nc where the moment
+// was kept, else brought back from a checkpoint.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/output/trajectory.hpp"
+#include "engine/replay/replayer.hpp"
+#include "render/run/frames/recorded_run.hpp"
+
+namespace grainreel {
+
+class ReachableMoments {
+  public:
+    // threads: of the engine; 0: nothing is brought back. Throws UserError when film_moments.nc is of another
+    // run.
+    ReachableMoments(const RecordedRun& run, int threads);
+
+    enum class Place { trajectory, film_moments, checkpoints, nowhere };
+    // touches: with the contacts of the moment.
+    Place place_of(std::int64_t step, bool touches) const;
+
+    struct Found {
+        Frame frame;
+        bool brought_back = false;  // then with its contacts
+    };
+    // From the first of these places where it is whole. Throws UserError where there is none, RunError when a
+    // replay fails or the watcher stops it.
+    Found at(std::int64_t step, bool touches, const ReplayWatcher& watcher);
+
+    // Whether a checkpoint leads to the run's first moment, and so to all of them.
+    bool brings_all_back() const;
+    // The kept moment that is nearest.
+    std::int64_t nearest_kept(std::int64_t step, bool touches) const;
+    // Which was found not to be as it should be.
+    const std::vector<std::string>& news() const { return news_; }
+
+  private:
+    void read_film_moments();
+    void check_film_moments() const;
+    std::optional<std::size_t> in_trajectory(std::int64_t step) const;
+    Frame film_moment(std::size_t index) const;
+
+    const RecordedRun& run_;
+    std::optional<TrajectoryReader> film_moments_;
+    std::map<std::int64_t, std::size_t> filmed_;  // places of its moments, by step
+    std::optional<Replayer> replayer_;
+    std::vector<std::string> news_;
+};
+
+}  // namespace grainreel
