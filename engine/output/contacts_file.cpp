@@ -64,21 +64,34 @@ struct ContactsWriter::Impl {
 };
 
 ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::string& title,
-                               const std::string& program_version)
+                               const std::string& program_version, const FileFacts& facts)
     : impl_(std::make_unique<Impl>(NetcdfFile::create(path, NetcdfFormat::cdf2))) {
     NetcdfFile& file = impl_->file;
     file.attribute(NC_GLOBAL, "title", title);
     file.attribute(NC_GLOBAL, "program", "grainreel");
     file.attribute(NC_GLOBAL, "programVersion", program_version);
+    for (const auto& [attribute, text] : facts.attributes) file.attribute(NC_GLOBAL, attribute, text);
     const int row = file.dimension("row", NC_UNLIMITED);
     const int spatial = file.dimension("spatial", 3);
-    impl_->frame = file.variable("frame", NC_INT, {row});
-    impl_->first = file.variable("first", NC_INT, {row});
-    impl_->second = file.variable("second", NC_INT, {row});
-    impl_->normal = file.variable("normal", NC_FLOAT, {row}, "newton");
-    impl_->tangential = file.variable("tangential", NC_FLOAT, {row, spatial}, "newton");
-    impl_->point = file.variable("point", NC_FLOAT, {row, spatial}, "meter");
-    impl_->checksum = file.variable("checksum", NC_INT, {row});
+    const auto define = [&](const char* name, int type, const char* units, const char* about,
+                            const std::string& comment, bool vector = false) {
+        const int variable =
+            file.variable(name, type, vector ? std::vector{row, spatial} : std::vector{row}, units);
+        file.attribute(variable, "long_name", about);
+        if (!comment.empty()) file.attribute(variable, "comment", comment);
+        return variable;
+    };
+    impl_->frame = define("frame", NC_INT, "1", "frame of the trajectory in which they touch",
+                          "from 0, of trajectory.nc; in key_contacts.nc of key_moments.nc");
+    impl_->first = define("first", NC_INT, "1", "number of the grain that pushes", "the grain's `id`");
+    impl_->second = define("second", NC_INT, "1", "number of the grain or wall that is pushed",
+                           "the grain's `id`, or below 0 a wall: -1 - its place among the faces" +
+                               (facts.walls.empty() ? "" : "; " + facts.walls));
+    impl_->normal = define("normal", NC_FLOAT, "N", "normal force", "0 or more: it pushes apart");
+    impl_->tangential =
+        define("tangential", NC_FLOAT, "N", "tangential force on the second one", "x, y, z", true);
+    impl_->point = define("point", NC_FLOAT, "m", "point of contact", "x, y, z in the room", true);
+    impl_->checksum = define("checksum", NC_INT, "1", "XXH32 of the row's other numbers", "for grainreel");
     file.end_definitions();
     file.sync(0);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "engine/output/file_facts.hpp"
 #include "engine/run/simulation.hpp"
 
 namespace grainreel {
@@ -19,7 +20,7 @@ class ContactsWriter {
   public:
     // Throws RunError when the file cannot be written.
     ContactsWriter(const std::filesystem::path& path, const std::string& title,
-                   const std::string& program_version);
+                   const std::string& program_version, const FileFacts& facts = {});
     // Goes on with a file that is there, behind the contacts of the trajectory's first `frames`; what comes
     // after them is cut off. Throws UserError where the file is damaged.
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);

@@ -69,15 +69,17 @@ void FieldsWriter::Impl::define_times() {
     const int two = file.dimension("two", 2);
     time = file.variable("time", NC_DOUBLE, {record}, "s");
     file.attribute(time, "long_name", "time since the drive started");
+    file.attribute(time, "comment", "the middle of the record; every field is a mean over the record");
     file.attribute(time, "axis", "T");
     file.attribute(time, "bounds", "time_bounds");
-    bounds = file.variable("time_bounds", NC_DOUBLE, {record, two});
+    bounds = file.variable("time_bounds", NC_DOUBLE, {record, two}, "s");
+    file.attribute(bounds, "long_name", "where the record begins and ends");
 }
 
 // Two variables of one number a record: VTK's reader would take one of two numbers for the grid to show.
 void FieldsWriter::Impl::define_checksum() {
     for (const std::size_t word : {0, 1}) {
-        checksum[word] = file.variable(word == 0 ? "checksum_high" : "checksum_low", NC_INT, {record});
+        checksum[word] = file.variable(word == 0 ? "checksum_high" : "checksum_low", NC_INT, {record}, "1");
         file.attribute(checksum[word], "long_name",
                        "half of the XXH64 of the record's numbers, chained in the order of the file");
     }
@@ -137,7 +139,8 @@ void FieldsWriter::Impl::find_fields(const FieldSet& set) {
 }
 
 FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
-                           const std::string& title, const std::string& program_version)
+                           const std::string& title, const std::string& program_version,
+                           const FileFacts& facts)
     : impl_(std::make_unique<Impl>(NetcdfFile::create(path, format_for(sets)))) {
     NetcdfFile& file = impl_->file;
     file.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
@@ -145,6 +148,7 @@ FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<
     file.attribute(NC_GLOBAL, "source", "grainreel " + program_version);
     file.attribute(NC_GLOBAL, "program", "grainreel");
     file.attribute(NC_GLOBAL, "programVersion", program_version);
+    for (const auto& [attribute, text] : facts.attributes) file.attribute(NC_GLOBAL, attribute, text);
     impl_->define_times();
     for (const FieldSet* const set : sets) {
         impl_->define_axes(*set);

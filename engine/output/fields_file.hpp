@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/measure/field.hpp"
+#include "engine/output/file_facts.hpp"
 
 namespace grainreel {
 
@@ -19,7 +20,7 @@ class FieldsWriter {
   public:
     // Throws RunError when the file cannot be made.
     FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
-                 const std::string& title, const std::string& program_version);
+                 const std::string& title, const std::string& program_version, const FileFacts& facts = {});
     // Goes on with a file that was written with these sets, behind the records that end before `time` (s);
     // what comes after them is cut off.
     FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets, double time);

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/no_value.hpp"
@@ -29,6 +30,8 @@ std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& p
     std::ifstream file(path);
     std::string line;
     if (!std::getline(file, line)) return nullptr;
+    drop_byte_order_mark(line);
+    if (line.ends_with('\r')) line.pop_back();
     const auto table = std::make_shared<MeasureTable>(cells_of(line));
     while (std::getline(file, line) && !file.eof()) {  // a last line without its end was cut off
         std::vector<double> row;

@@ -7,11 +7,12 @@
 // cell_lengths is 0 where nothing is periodic.
 //
 // docs/reference/scenes.md lists all dimensions and variables. Numbers of a frame that need 64 bits are
-// doubles: classic NetCDF has no such integer. A frame's grains fill the first places, the rest hold id -1
-// and the format's fill value, by which OVITO knows where a frame ends. In a file with traffic a grain keeps
-// its place when it has gone: id, type, radius and position stay what they were in its last frame, velocity
-// and spin are zero, and `present` is 0; programs that do not know of that show it where it was last. Every
-// frame has a checksum of its moment and pose and one of its grains.
+// doubles: classic NetCDF has no such integer. A frame's grains fill the first places, the rest hold id -1.
+// In a file with traffic a grain keeps its place, id and type when it has gone, and `present` is 0. Programs
+// that know neither of id -1 nor of `present` draw every place, so a place without a grain has a grain that
+// nobody sees: at rest in the container's lowest corner, with kAbsentRadius. Files of earlier versions have
+// fill values there, or the last place of a grain that has gone. Every frame has a checksum of its moment and
+// pose and one of its grains.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +22,13 @@
 
 #include "engine/base/error.hpp"
 #include "engine/frame.hpp"
+#include "engine/output/file_facts.hpp"
 
 namespace grainreel {
+
+// m, a nanometre: too small to be seen in any picture. Not 0, in whose place OVITO draws its usual radius
+// of 1.
+inline constexpr double kAbsentRadius = 1e-9;
 
 struct TrajectoryInfo {
     std::string title;
@@ -36,6 +42,7 @@ struct TrajectoryInfo {
     bool checksums = true;          // false in a file of an earlier version: there damage may look like data
     Vec3 cell_origin{0, 0, 0};      // m
     Vec3 periodic_length{0, 0, 0};  // m, 0 where nothing is periodic
+    FileFacts facts = {};           // written, not read
 };
 
 class TrajectoryWriter {

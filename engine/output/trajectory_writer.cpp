@@ -50,7 +50,7 @@ struct TrajectoryWriter::Impl {
     std::size_t places;  // for grains
     NetcdfFile file;
     std::size_t frames = 0;
-    Frame kept;                // with traffic: all grains that there were so far, as they were last
+    Frame kept;                // with traffic: all grains that there were so far
     std::vector<int> present;  // of these: whether they are there now
     std::map<std::string, int, std::less<>> dimensions, variables;  // by name
 };
@@ -64,14 +64,17 @@ void TrajectoryWriter::Impl::define() {
     file.attribute(NC_GLOBAL, "ConventionVersion", "1.0");
     file.attribute(
         NC_GLOBAL, "deviations",
-        std::string("SI units, see the units of each variable; time and coordinates are double; a "
-                    "place without a grain has id -1 and fill values") +
-            (info.traffic ? "; a grain that has gone stays where it was last, and `present` is 0" : ""));
+        std::string("SI units, see the units of each variable; time and coordinates are double; a place "
+                    "without a grain has id -1, a radius of 1e-9 and the container's lowest corner") +
+            (info.traffic ? "; the place of a grain that has gone keeps its id, and `present` is 0" : ""));
+    for (const auto& [attribute, text] : info.facts.attributes) file.attribute(NC_GLOBAL, attribute, text);
     define_dimensions();
     const int cell_angular = dimensions["cell_angular"];
     variables["spatial"] = file.variable("spatial", NC_CHAR, {dimensions["spatial"]});
     variables["cell_spatial"] = file.variable("cell_spatial", NC_CHAR, {dimensions["cell_spatial"]});
     variables["cell_angular"] = file.variable("cell_angular", NC_CHAR, {cell_angular, dimensions["label"]});
+    for (const TrajectoryLabel& label : label_variables)
+        file.attribute(variables[label.name], "long_name", label.about);
     for (const TrajectoryVariable& variable : frame_variables) define_variable(variable, nullptr);
     if (!info.planes.empty()) define_bodies();
     for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, "atom");
@@ -79,8 +82,15 @@ void TrajectoryWriter::Impl::define() {
     if (info.contact_numbers) define_variable(contact_number_variable, "atom");
     if (info.traffic) define_variable(present_variable, "atom");
     file.attribute(variables["type"], "species", fmt::format("{}", fmt::join(info.species, "\n")));
-    for (const char* sum : {frame_checksum, grain_checksum})
-        variables[sum] = file.variable(sum, NC_INT, {dimensions["frame"], dimensions["checksum"]});
+    if (!info.facts.densities.empty())
+        file.attribute(variables["type"], "density",
+                       fmt::format("{} kg m-3", fmt::join(info.facts.densities, " ")));
+    for (const auto& [sum, about] :
+         {std::pair{frame_checksum, frame_checksum_about}, {grain_checksum, grain_checksum_about}}) {
+        variables[sum] = file.variable(sum, NC_INT, {dimensions["frame"], dimensions["checksum"]}, "1");
+        file.attribute(variables[sum], "long_name", about);
+        file.attribute(variables[sum], "comment", checksum_comment);
+    }
     file.end_definitions();
 }
 
@@ -114,7 +124,7 @@ void TrajectoryWriter::Impl::find_variables() {
     find(grain_checksum);
 }
 
-// Where all grains were last that there have been: the frames of the file tell it.
+// Which grains there have been: the frames of the file tell it.
 void TrajectoryWriter::Impl::read_kept(const std::filesystem::path& path) {
     const TrajectoryReader before(path);
     for (std::size_t k = 0; k < frames; ++k) keep(before.read(k));
@@ -126,6 +136,8 @@ void TrajectoryWriter::Impl::define_variable(const TrajectoryVariable& variable,
     if (of != nullptr) shape.push_back(dimensions[of]);
     if (variable.dimension != nullptr) shape.push_back(dimensions[variable.dimension]);
     variables[variable.name] = file.variable(variable.name, variable.type, shape, variable.units);
+    file.attribute(variables[variable.name], "long_name", variable.about);
+    if (*variable.comment != 0) file.attribute(variables[variable.name], "comment", variable.comment);
 }
 
 void TrajectoryWriter::Impl::write_labels() {
@@ -181,43 +193,52 @@ void TrajectoryWriter::Impl::write_bodies(const Frame& frame, Checksum& sum) {
         3, [](const BodyPose& pose) -> const auto& { return pose.spin; });
 }
 
-// of(grain, component) gives the values; places without a grain get `fill`.
-template <class Value, class Of>
-std::vector<Value> rows_of(std::size_t places, std::size_t width, std::size_t grains, Value fill,
-                           const Of& of) {
-    std::vector<Value> rows(places * width, fill);
-    for (std::size_t i = 0; i < grains; ++i) {
-        for (std::size_t k = 0; k < width; ++k)
-            rows[i * width + k] = static_cast<Value>(of(i, static_cast<int>(k)));
-    }
+// of(grain, component) gives the values of those for which there(grain) holds; the others have those of
+// `absent`.
+template <class Value, class There, class Of>
+std::vector<Value> rows_of(std::size_t places, const std::vector<Value>& absent, std::size_t grains,
+                           const There& there, const Of& of) {
+    std::vector<Value> rows;
+    rows.reserve(places * absent.size());
+    for (std::size_t i = 0; i < places; ++i)
+        for (std::size_t k = 0; k < absent.size(); ++k)
+            rows.push_back(i < grains && there(i) ? static_cast<Value>(of(i, static_cast<int>(k)))
+                                                  : absent[k]);
     return rows;
 }
 
 void TrajectoryWriter::Impl::write_grains(const Frame& f) {
     Checksum sum = begin_sum();
     const TrajectoryVariable* variable = grain_variables.data();
-    const auto put = [&](std::size_t width, auto fill, const auto& of) {
-        const auto rows = rows_of(places, width, f.size(), fill, of);
+    const auto is_here = [&](std::size_t i) { return !info.traffic || present[i] != 0; };
+    const auto has_been = [](std::size_t) { return true; };
+    const auto put = [&](const auto& absent, const auto& there, const auto& of) {
+        const auto rows = rows_of(places, absent, f.size(), there, of);
         std::vector<std::size_t> start{frames, 0}, size{1, places};
-        if (width > 1) start.push_back(0), size.push_back(width);
+        if (absent.size() > 1) start.push_back(0), size.push_back(absent.size());
         file.put(variables[variable->name], start, size, rows.data());
         sum.add(rows.data(), rows.size());
         ++variable;
     };
-    put(1, -1, [&](std::size_t i, int) { return f.id[i]; });
-    put(1, -1, [&](std::size_t i, int) { return f.species[i] + 1; });
-    put(1, NC_FILL_DOUBLE, [&](std::size_t i, int) { return f.radius[i]; });
-    put(3, NC_FILL_DOUBLE, [&](std::size_t i, int k) { return f.position[i][k]; });
-    put(3, NC_FILL_FLOAT, [&](std::size_t i, int k) { return f.velocity[i][k]; });
-    put(3, NC_FILL_FLOAT, [&](std::size_t i, int k) { return f.spin[i][k]; });
+    using Ints = std::vector<int>;
+    using Floats = std::vector<float>;
+    using Doubles = std::vector<double>;
+    const Vec3& corner = info.cell_origin;
+    put(Ints{-1}, has_been, [&](std::size_t i, int) { return f.id[i]; });
+    put(Ints{-1}, has_been, [&](std::size_t i, int) { return f.species[i] + 1; });
+    put(Doubles{kAbsentRadius}, is_here, [&](std::size_t i, int) { return f.radius[i]; });
+    put(Doubles(corner.begin(), corner.end()), is_here,
+        [&](std::size_t i, int k) { return f.position[i][k]; });
+    put(Floats{0, 0, 0}, is_here, [&](std::size_t i, int k) { return f.velocity[i][k]; });
+    put(Floats{0, 0, 0}, is_here, [&](std::size_t i, int k) { return f.spin[i][k]; });
     GRAINREEL_CHECK(variable == grain_variables.data() + grain_variables.size());
     variable = &orientation_variable;
     if (info.orientation)
-        put(4, NC_FILL_FLOAT, [&](std::size_t i, int k) { return f.orientation[i].coeffs()[k]; });
+        put(Floats{0, 0, 0, 1}, is_here, [&](std::size_t i, int k) { return f.orientation[i].coeffs()[k]; });
     variable = &contact_number_variable;
-    if (info.contact_numbers) put(1, 0, [&](std::size_t i, int) { return f.contact_number[i]; });
+    if (info.contact_numbers) put(Ints{0}, is_here, [&](std::size_t i, int) { return f.contact_number[i]; });
     variable = &present_variable;
-    if (info.traffic) put(1, 0, [&](std::size_t i, int) { return present[i]; });
+    if (info.traffic) put(Ints{0}, has_been, [&](std::size_t i, int) { return present[i]; });
     write_sum(grain_checksum, sum);
 }
 
@@ -235,11 +256,6 @@ void TrajectoryWriter::Impl::keep(const Frame& frame) {
         if (info.orientation) kept.orientation[at] = frame.orientation[i];
         if (info.contact_numbers) kept.contact_number[at] = frame.contact_number[i];
         present[at] = 1;
-    }
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-        if (present[k] != 0) continue;
-        kept.velocity[k] = kept.spin[k] = Vec3(0, 0, 0);
-        if (info.contact_numbers) kept.contact_number[k] = 0;
     }
 }
 

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
 
@@ -143,6 +144,7 @@ Frame read_grain_table(const std::filesystem::path& path) {
     if (!file)
         throw UserError(fmt::format("{}: cannot be opened; give the final.csv of a run", path.string()));
     std::getline(file, line);
+    drop_byte_order_mark(line);
     if (line.ends_with('\r')) line.pop_back();
     const std::optional<TableForm> form = form_of(line);
     if (!form) {

@@ -182,7 +182,8 @@ void MovieRun::report_segregation() {
     const Scene& scene = run_.scene();
     const RunFiles& files = *run_.files();
     if (scene.species.size() < 2 || !files.last_measures()) return;
-    const std::string text = segregation_text(scene, *files.first_measures(), *files.last_measures());
+    const LateMeans& late = files.late_measures();
+    const std::string text = segregation_text(scene, *files.first_measures(), late.means(), late.over());
     if (!text.empty()) listener_.info(text);
 }
 

@@ -29,6 +29,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
     info.contact_numbers = true;
     info.cell_origin = extent_of(scene).low;
     if (scene.container.periodic_depth) info.periodic_length.x() = scene.container.depth;
+    info.facts = file_facts(scene);
     return info;
 }
 
@@ -61,14 +62,16 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
       clock_(plan.clock),
       field_times_(plan.fields),
       measures_(folder / "measures.csv", simulation.measured()),
-      departed_(scene) {
+      departed_(scene),
+      late_(plan.clock, scene.run.duration) {
     if (plan.opens && !scene.container.tray) outflow_.emplace(folder / "outflow.csv");
     if (needs_measures(scene.film.shows)) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (const auto sets = simulation.field_sets(); !sets.empty())
-        fields_.emplace(folder / "fields.nc", sets, scene.title, program_version);
+        fields_.emplace(folder / "fields.nc", sets, scene.title, program_version, file_facts(scene, true));
     if (plan.trajectory_every == 0) return;
     trajectory_.emplace(folder / "trajectory.nc", info_);
-    if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", scene.title, program_version);
+    if (scene.output.contacts)
+        contacts_.emplace(folder / "contacts.nc", scene.title, program_version, info_.facts);
 }
 
 RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
@@ -79,7 +82,8 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
       clock_(plan.clock),
       field_times_(plan.fields),
       measures_(folder / "measures.csv", simulation.measured(), simulation.step()),
-      departed_(scene) {
+      departed_(scene),
+      late_(plan.clock, scene.run.duration) {
     const double now = plan.clock.time(simulation.step());
     if (plan.opens) {
         outflow_.emplace(folder / "outflow.csv", now);
@@ -109,6 +113,7 @@ void RunFiles::take_over_rows(const Simulation& simulation) {
             values.push_back(rows->values(k, row, row + 1).front());
         if (table_) table_->add(values);
         last_ = Measures(names, std::move(values));
+        late_.add(*last_);
         if (!first_) first_ = last_;
     }
 }
@@ -123,7 +128,7 @@ void RunFiles::keep_film_moments() {
 
 void RunFiles::keep_key_moments() {
     key_moments_.emplace(folder_ / kKeyMoments, info_);
-    key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_);
+    key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_, info_.facts);
 }
 
 std::string RunFiles::keep_key_moments_from(std::int64_t step) {
@@ -188,6 +193,7 @@ void RunFiles::add_measures(const Measures& measures) {
     if (table_) table_->add(measures.values());
     if (!first_) first_ = measures;
     last_ = measures;
+    late_.add(measures);
 }
 
 }  // namespace grainreel

@@ -16,6 +16,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/run/late_means.hpp"
 #include "render/run/moments/outflow_record.hpp"
 
 namespace grainreel {
@@ -71,6 +72,7 @@ class RunFiles {
     bool has_contacts() const { return contacts_.has_value(); }
     const std::optional<Measures>& first_measures() const { return first_; }
     const std::optional<Measures>& last_measures() const { return last_; }
+    const LateMeans& late_measures() const { return late_; }
 
   private:
     void take_over_rows(const Simulation& simulation);
@@ -88,6 +90,7 @@ class RunFiles {
     OutflowRecord departed_;
     std::shared_ptr<MeasureTable> table_;
     std::optional<Measures> first_, last_;
+    LateMeans late_;
 };
 
 // Contact numbers of the frame, from all contacts that carry force then.

@@ -9,7 +9,15 @@
 
 namespace grainreel {
 
-std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to) {
+namespace {
+
+// Of two indices that are 0 when segregated and 1 when mixed.
+constexpr double wide_apart = 0.25;
+
+}  // namespace
+
+std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to,
+                             const std::string& over) {
     const BigAndSmall kinds = big_and_small(scene.species);
     const std::string &big = scene.species[kinds.big].name, &small = scene.species[kinds.small].name;
     std::vector<std::string> parts;
@@ -27,7 +35,10 @@ std::string segregation_text(const Scene& scene, const Measures& from, const Mea
         false);
     say("unlike neighbours over chance", "unlike_neighbours", " (1 is mixed)", false);
     say("Lacey mixing index", "lacey", " (1 is mixed)", false);
-    return parts.empty() ? "" : fmt::format("segregation: {}", fmt::join(parts, "; "));
+    if (parts.empty()) return "";
+    const bool differ = std::abs(to.at("unlike_neighbours") - to.at("lacey")) > wide_apart;
+    return fmt::format("segregation, from the start to the mean over {}: {}{}", over, fmt::join(parts, "; "),
+                       differ ? "; neighbours and samples of 32 grains disagree on how mixed it is" : "");
 }
 
 }  // namespace grainreel

@@ -8,8 +8,10 @@
 
 namespace grainreel {
 
-// Of a scene with two species or more. Indices that are not defined at both moments are left out; empty where
-// none is.
-std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to);
+// Of a scene with two species or more. to: means over the rows that `over` names. Indices that are not
+// defined at the start and then are left out; empty where none is. Where the two that are 1 in a mixture
+// disagree, it says so.
+std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to,
+                             const std::string& over);
 
 }  // namespace grainreel

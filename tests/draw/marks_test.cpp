@@ -1,10 +1,14 @@
 // Plots, arrows, trails, and grains that are left out or ringed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
+#include "engine/measure/column_axis.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/measure/measure_table.hpp"
+#include "engine/scene/bed.hpp"
 #include "render/draw/grains/shown_grains.hpp"
 #include "render/draw/marks/trails.hpp"
 #include "render/draw/plots/plot.hpp"
@@ -116,6 +120,97 @@ TEST(Plots, LimitsOnlyGrowAndDependOnTheRowsAlone) {
     Plot early(any_plot(), type, palette);
     early.take(frame_with_rows(rows));
     EXPECT_EQ(early.y_of(3.05), step_by_step.y_of(3.05));
+}
+
+TEST(Plots, KnowWhatColumnsCannotBeNegative) {
+    Scene scene = wedge(1280, 720);
+    scene.container.height = 0.3;
+    std::vector<std::string> names;
+    for (const MeasureColumn& column : measure_columns(scene)) names.push_back(column.name);
+    for (const std::string& column : columns_from_zero())
+        EXPECT_EQ(std::count(names.begin(), names.end(), column), 1) << column;
+    FilmPlot plot;
+    plot.column = column_part(scene.species[0].name) + "_height_m";
+    EXPECT_EQ(std::count(names.begin(), names.end(), plot.column), 1);
+    EXPECT_TRUE(plot_frame(scene, plot).from_zero);
+    EXPECT_EQ(plot_frame(scene, plot).expected, 0.3);
+    plot.column = "height_difference";
+    EXPECT_FALSE(plot_frame(scene, plot).from_zero);
+    plot.column = "outflow_kg";
+    EXPECT_EQ(plot_frame(scene, plot).expected, total_mass(scene));
+}
+
+// Of a measure that cannot be negative, whatever comes first.
+TEST(Plots, AxesOfWhatCannotBeNegativeBeginAtZero) {
+    const Scene scene = wedge(1280, 720);
+    const TypeScale type = type_scale(scene.film);
+    for (const auto& rows : {std::vector<std::array<double, 2>>{{0, 0}, {1, 0}, {2, 0.02}, {3, 0.04}},
+                             {{0, 0.04}, {1, 0.02}, {2, 0.03}},
+                             {{0, 5}, {1, 5.1}},
+                             {{0, 0}}}) {
+        PlotFrame frame = any_plot();
+        frame.from_zero = true;
+        Plot plot(frame, type, make_palette(scene.film.background));
+        plot.take(frame_with_rows(rows));
+        ASSERT_TRUE(plot.limits());
+        EXPECT_EQ((*plot.limits())[0], 0);
+        for (const auto& [time, value] : rows) EXPECT_GE((*plot.limits())[1], value);
+        EXPECT_LE((*plot.limits())[1], 2 * rows.back()[1] + 0.1);
+    }
+}
+
+// The title with its unit is the same from the first row on where the size is known.
+TEST(Plots, TheUnitIsThatOfWhatIsExpected) {
+    const Scene scene = wedge(1280, 720);
+    const TypeScale type = type_scale(scene.film);
+    const auto title = [&](double expected, const std::vector<std::array<double, 2>>& rows) {
+        PlotFrame frame = any_plot();
+        frame.dimension = Dimension::mass;
+        frame.from_zero = true;
+        frame.expected = expected;
+        Plot plot(frame, type, make_palette(scene.film.background));
+        plot.take(frame_with_rows(rows));
+        const CairoSurface surface = blank_surface({0, 0, 300, 160}, {1, 1, 1});
+        plot.draw(CairoContext(cairo_create(surface.get())).get(), 0, 0);
+        Picture picture(300, 160);
+        copy_surface(surface.get(), {0, 0, 300, 160}, picture);
+        std::vector<int> pixels;
+        for (int y = 0; y < 14; ++y)
+            for (int x = 0; x < 300; ++x) pixels.push_back(picture.pixel(x, y)[0]);
+        return pixels;
+    };
+    const auto late = title(0.05, {{0, 0}, {1, 0.02}});
+    EXPECT_EQ(title(0.05, {{0, 0}}), late);
+    EXPECT_EQ(title(0.05, {{0, 0}, {1, 2e-8}}), late);
+    EXPECT_NE(title(0, {{0, 0}, {1, 2e-8}}), late) << "not known";
+}
+
+// Four rows a period that swing by 1 about the number of the period.
+TEST(Plots, MeansOfAPeriodHaveNoSwing) {
+    const Scene scene = wedge(1280, 720);
+    PlotFrame shown = any_plot();
+    shown.smooth = true;
+    shown.range = std::array<double, 2>{-1, 3};
+    Plot plot(shown, type_scale(scene.film), make_palette(scene.film.background));
+    const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "cycles", "lacey"});
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (int k = 0; k <= 40; ++k) table->add({0.25 * k, 0.25 * k, k == 31 ? none : k % 2 == 0 ? 2 : 0});
+    Frame frame = frame_of({});
+    frame.measures = table;
+    const auto now = [&](std::size_t rows) {
+        frame.measure_rows = rows;
+        plot.take(frame);
+        const CairoSurface surface = blank_surface({0, 0, 300, 160}, {1, 1, 1});
+        plot.draw(CairoContext(cairo_create(surface.get())).get(), 0, 0);
+        Picture picture(300, 160);
+        copy_surface(surface.get(), {0, 0, 300, 160}, picture);
+        return marker(picture, {0, 0, 300, 160}, make_palette(scene.film.background).accent);
+    };
+    EXPECT_TRUE(std::isnan(now(3).y())) << "not one period";
+    for (const std::size_t rows : {5u, 6u, 7u, 20u, 40u}) {
+        EXPECT_NEAR(now(rows).y(), plot.y_of(1), 0.6) << rows;
+        EXPECT_NEAR(now(rows).x(), plot.x_of(0.25 * static_cast<double>(rows - 1)), 0.6) << rows;
+    }
 }
 
 // They have no scale yet: their axis says 0 and nothing else, and no label runs out of the plot.

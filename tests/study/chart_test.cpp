@@ -127,6 +127,11 @@ TEST(StudyReference, IsReadRowByRow) {
         write_text(folder / "points.csv", text);
         return read_reference(folder / "points.csv");
     };
+    const std::vector<ReferencePoint> from_spreadsheet = read(
+        "\xef\xbb\xbf"
+        "1,2\r\n3,4\r\n");
+    ASSERT_EQ(from_spreadsheet.size(), 2u);
+    EXPECT_EQ(from_spreadsheet[0].x, 1);
     const std::vector<ReferencePoint> points = read("# Knight 1993\r\nx,y,error\r\n1,2,0.5\r\n 3 , 4\r\n");
     ASSERT_EQ(points.size(), 2u);
     EXPECT_EQ(points[0].error, 0.5);

@@ -170,33 +170,32 @@ std::span<const CellWay> Footprint::of_changing_line(const Vec3& begin, const Ve
                                                      double other_radius) {
     const double stretch = stretch_of(radius), growth = stretch_of(other_radius) - stretch;
     set_box(begin, begin + branch, stretch, stretch + growth);
-    const std::array<std::size_t, 3> size{offsets_[0].size(), offsets_[1].size(), offsets_[2].size()};
-    const std::size_t cells = size[0] * size[1] * size[2], rows = size[across_];
-    values_.assign(cells, 0);
-    drifts_.assign(3 * cells, 0);
+    const std::size_t width = offsets_[along_].size(), rows = offsets_[across_].size();
+    flows_.assign(4 * width * rows * offsets_[2].size(), 0);
     const int stretches = stretches_of(branch, std::min(stretch, stretch + growth));
     for (int n = 0; n < stretches; ++n)
         for (const auto& [at, share] : quadrature) {
-            const double s = (n + at) / stretches, here = stretch + s * growth;
+            const double s = (n + at) / stretches, here = stretch + s * growth, drift = growth / here;
             const Vec3 middle = begin + s * branch;
             const double part = share * std::pow(here, -grid_.dimensions());
-            const auto from_middle = [&](std::size_t axis, std::size_t k) {
+            // of a cell: how fast it drifts along an axis.
+            const auto drift_at = [&](std::size_t axis, std::size_t k) {
                 const GridAxis& of = grid_.axes[axis];
                 const auto cell = box_[axis].begin + static_cast<std::int64_t>(k);
-                return of.resolved ? of.middle(cell) - middle[static_cast<int>(axis)] : 0.0;
+                return of.resolved ? drift * (of.middle(cell) - middle[static_cast<int>(axis)]) : 0.0;
             };
             each_near(middle, here,
                       [&](std::size_t z, std::size_t other, std::size_t first, std::size_t last,
                           const auto& value) {
-                          const std::size_t row = (z * rows + other) * size[along_];
-                          Vec3 away = Vec3::Zero();
-                          away[2] = from_middle(2, z);
-                          away[static_cast<int>(across_)] = from_middle(across_, other);
-                          for (std::size_t k = first; k < last; ++k) {
-                              const double weight = part * value(k);
-                              away[static_cast<int>(along_)] = from_middle(along_, k);
-                              values_[row + k] += weight;
-                              Eigen::Map<Vec3>(&drifts_[3 * (row + k)]) += weight * growth / here * away;
+                          Eigen::Array4d flow;
+                          flow << 0, 0, drift_at(2, z), 1;
+                          flow[static_cast<int>(across_)] = drift_at(across_, other);
+                          const double step = drift * grid_.axes[along_].cell;
+                          double along = first < last ? drift_at(along_, first) : 0;
+                          double* const row = flows_.data() + 4 * (z * rows + other) * width;
+                          for (std::size_t k = first; k < last; ++k, along += step) {
+                              flow[static_cast<int>(along_)] = along;
+                              Eigen::Map<Eigen::Array4d>(row + 4 * k) += part * value(k) * flow;
                           }
                       });
         }
@@ -206,25 +205,22 @@ std::span<const CellWay> Footprint::of_changing_line(const Vec3& begin, const Ve
 // Scaled so that the sum of the weights times volume is 1, and that of the drifts 0, which it would be in
 // cells without size.
 std::span<const CellWay> Footprint::listed_ways(const Vec3& branch) {
-    double sum = 0;
-    Vec3 drift = Vec3::Zero();
-    for (std::size_t c = 0; c < values_.size(); ++c) {
-        sum += values_[c];
-        drift += Eigen::Map<const Vec3>(&drifts_[3 * c]);
-    }
-    const double scale = 1 / (sum * grid_.cell_volume());
-    const Vec3 mean = branch - drift / sum;
-    ways_.clear();
-    std::size_t c = 0;
+    const std::size_t cells = flows_.size() / 4;
+    Eigen::Array4d sum = Eigen::Array4d::Zero();
+    for (std::size_t c = 0; c < cells; ++c) sum += Eigen::Map<const Eigen::Array4d>(&flows_[4 * c]);
+    const double scale = 1 / (grid_.cell_volume() * sum[3]);
+    const Vec3 mean = branch - sum.head<3>().matrix() / sum[3];
+    ways_.resize(std::max(ways_.size(), cells));
+    CellWay* next = ways_.data();
+    const double* flow = flows_.data();
     for (const std::int64_t z : offsets_[2])
         for (const std::int64_t other : offsets_[across_])
             for (const std::int64_t along : offsets_[along_]) {
-                if (values_[c] > 0 && (z | other | along) >= 0)
-                    ways_.push_back({z + other + along,
-                                     scale * (values_[c] * mean + Eigen::Map<const Vec3>(&drifts_[3 * c]))});
-                ++c;
+                if (flow[3] > 0 && (z | other | along) >= 0)
+                    *next++ = {z + other + along, scale * (flow[3] * mean + Eigen::Map<const Vec3>(flow))};
+                flow += 4;
             }
-    return ways_;
+    return {ways_.data(), next};
 }
 
 }  // namespace grainreel

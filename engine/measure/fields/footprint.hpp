@@ -73,7 +73,7 @@ class Footprint {
     std::vector<double> values_;                  // of the box, row by row
     std::array<std::vector<double>, 3> squares_;  // m2, distances along an axis
     std::vector<double> factors_;                 // of a kernel that is a product, along a row
-    std::vector<double> drifts_;                  // m times these: x, y, z of each cell
+    std::vector<double> flows_;  // of each cell of the box: x, y, z of the drift, and the weight
     std::vector<CellWeight> cells_;
     std::vector<CellWay> ways_;
 };

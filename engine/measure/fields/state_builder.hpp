@@ -33,12 +33,11 @@ inline FieldGrain field_grain(const Moment& moment, std::size_t grain) {
 // At a wall the branch ends on the wall's face.
 inline FieldContact field_contact(const Moment& moment, const ContactView& contact) {
     const auto first = static_cast<std::size_t>(contact.first);
+    const bool pair = contact.second >= 0;
     const double radius = moment.grains.place[first].radius;
-    double length = moment.grains.place[first].radius - contact.overlap, other = radius;
-    if (contact.second >= 0)
-        length += other = moment.grains.place[static_cast<std::size_t>(contact.second)].radius;
-    return {field_place(moment, first), length * contact.normal,
-            contact.normal_force * contact.normal + contact.tangential, radius, other};
+    const double other = pair ? moment.grains.place[static_cast<std::size_t>(contact.second)].radius : 0;
+    return {field_place(moment, first), (radius - contact.overlap + other) * contact.normal,
+            contact.normal_force * contact.normal + contact.tangential, radius, pair ? other : radius};
 }
 
 }  // namespace grainreel

@@ -60,7 +60,7 @@ struct FilmPlot {
     Dimension dimension = Dimension::number;
     ProfileOf profile = ProfileOf::nothing;  // in place of a column
     bool across = false;                     // of a profile: against the place across, else against height
-    bool period = false;                     // of velocities: over the last period of the drive
+    bool period = false;  // velocities or a column: means over the last period of the drive
     bool is_profile() const { return profile != ProfileOf::nothing; }
     bool of_velocity() const {
         return profile == ProfileOf::horizontal_velocity || profile == ProfileOf::vertical_velocity;

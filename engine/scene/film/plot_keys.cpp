@@ -80,6 +80,7 @@ void read_range(Document& document, const Scene&, const std::string& path, FilmP
 const KeyTable<FilmPlot>& plot_table() {
     using P = FilmPlot;
     static const Words<bool> directions{{"height", false}, {"width", true}};
+    static const Words<bool> smoothings{{"none", false}, {"period", true}};
     static const KeyTable<P> table{
         bound_by<P>(
             of_choices(
@@ -102,6 +103,12 @@ const KeyTable<FilmPlot>& plot_table() {
                     [](const P& plot, const Scene&) { return plot.is_profile() ? "" : quoted(plot.column); })
             .useless_for([](const P& plot) {
                 return plot.is_profile() ? "a plot with a 'profile' shows that" : nullptr;
+            }),
+        choice(
+            "smooth", &P::period, smoothings, initial(),
+            "Of a column: its rows as they are, or at each row the mean over the last period of the drive.")
+            .useless_for([](const P& plot) {
+                return plot.is_profile() ? "a 'profile' is of one moment, or says 'of'" : nullptr;
             }),
         text("label", &P::label, note("by the column"), "Above the plot."),
         bound_by<P>(
@@ -164,9 +171,11 @@ const KeyTable<FilmTrails>& trail_table() {
     return table;
 }
 
-void check_period(const Document& document, const Scene& scene, const std::string& path, bool period) {
+void check_period(const Document& document, const Scene& scene, const std::string& path, bool period,
+                  const char* instead = "now") {
     if (period && !scene.drive.present)
-        document.fail(path, "is \"period\", but nothing oscillates; add [drive] or write \"now\"");
+        document.fail(
+            path, fmt::format("is \"period\", but nothing oscillates; add [drive] or write \"{}\"", instead));
 }
 
 // Arrows or streamlines.
@@ -206,9 +215,14 @@ void read_plots(Document& document, Scene& scene) {
                                                count, most_plots));
     for (std::size_t i = 0; i < count; ++i) {
         const std::string path = fmt::format("film.plot[{}]", i);
-        const FilmPlot& plot = scene.film.shows.plots.emplace_back();
-        plot_table().read(document, scene, path, scene.film.shows.plots.back());
-        check_period(document, scene, path + ".of", plot.period);
+        FilmPlot& plot = scene.film.shows.plots.emplace_back();
+        plot_table().read(document, scene, path, plot);
+        if (plot.is_profile()) {
+            check_period(document, scene, path + ".of", plot.period);
+        } else {
+            check_period(document, scene, path + ".smooth", plot.period, "none");
+            if (plot.period && !document.has(path + ".label")) plot.label += ", mean of a period";
+        }
         if (plot.is_profile() && !plot.range && !(usual_profile_range(scene, plot)[1] > 0))
             document.fail(path, "needs a 'range': this scene gives no scale for it");
     }

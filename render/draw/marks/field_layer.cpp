@@ -41,8 +41,7 @@ void FieldLayer::gather(const Frame& frame) {
         if (std::isnan(values[i])) continue;
         const double volume = 4.0 / 3 * std::numbers::pi * std::pow(frame.radius[i], 3);
         const double mass = volume * scene_.species[static_cast<std::size_t>(frame.species[i])].density;
-        const Vec3 place = frame.position[i] - frame.container().place;
-        for (const CellWeight& cell : footprint_.of_point(place, frame.radius[i])) {
+        for (const CellWeight& cell : footprint_.of_point(frame.position[i] - frame.container().place)) {
             const auto c = static_cast<std::size_t>(cell.cell);
             solid_[c] += cell.weight * volume;
             mass_[c] += cell.weight * mass;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/measure/column_axis.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -9,6 +11,16 @@ namespace {
 std::string quantity_of(const FilmPlot& plot) {
     return plot.is_profile() ? std::to_string(static_cast<int>(plot.profile)) + (plot.period ? "p" : "")
                              : plot.column;
+}
+
+// SI: of all panels, so that they tell the quantity in one unit.
+double expected_of(const std::vector<Panel>& panels, const std::string& quantity) {
+    double largest = 0;
+    for (const Panel& panel : panels)
+        for (const FilmPlot& plot : panel.scene.film.shows.plots)
+            if (!plot.is_profile() && quantity_of(plot) == quantity)
+                largest = std::max(largest, axis_of_column(panel.scene, plot.column).expected);
+    return largest;
 }
 
 }  // namespace
@@ -24,8 +36,9 @@ PanelPlots::PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layo
         for (std::size_t k = 0; k < places.size(); ++k) {
             const Scene& scene = panels[i].scene;
             const FilmPlot& plot = scene.film.shows.plots[k];
-            plots_.push_back({make_side_plot(scene, plot, places[k], end, small, palette), quantity_of(plot),
-                              places[k], i});
+            plots_.push_back({make_side_plot(scene, plot, places[k], end, small, palette,
+                                             expected_of(panels, quantity_of(plot))),
+                              quantity_of(plot), places[k], i});
         }
     }
 }

@@ -7,7 +7,9 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/measure/column_axis.hpp"
 #include "engine/measure/measure_table.hpp"
+#include "engine/measure/no_value.hpp"
 #include "engine/scene/film/grain_values.hpp"
 #include "render/draw/plots/axis_drawing.hpp"
 #include "render/draw/plots/ticks.hpp"
@@ -35,6 +37,10 @@ PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot) {
     frame.dimension = plot.dimension;
     frame.time = {0, scene.run.duration};
     frame.range = plot.range;
+    frame.smooth = plot.period;
+    const ColumnAxis axis = axis_of_column(scene, plot.column);
+    frame.from_zero = axis.from_zero;
+    frame.expected = axis.expected;
     return frame;
 }
 
@@ -67,6 +73,7 @@ std::vector<Plot::TimeTick> Plot::time_ticks() const {
 
 void Plot::forget() {
     rows_ = 0;
+    period_.clear();
     any_ = false;
     gap_ = true;
     limits_ = frame_.range.value_or(std::array<double, 2>{0, 1});
@@ -94,10 +101,26 @@ bool Plot::take(const Frame& frame) {
         return frame.measures->values(static_cast<std::size_t>(found - columns.begin()), rows_,
                                       frame.measure_rows);
     };
-    const std::vector<double> times = column("time_s"), values = column(frame_.column);
+    const std::vector<double> times = column("time_s");
+    std::vector<double> values = column(frame_.column);
+    if (frame_.smooth) {
+        const std::vector<double> cycles = column("cycles");
+        for (std::size_t i = 0; i < times.size(); ++i) values[i] = mean_of_period(cycles[i], values[i]);
+    }
     for (std::size_t i = 0; i < times.size(); ++i) add(times[i], values[i]);
     rows_ = frame.measure_rows;
     return true;
+}
+
+// Of this row and those since a period ago, without the one of then. None before a period has passed.
+double Plot::mean_of_period(double cycles, double value) {
+    constexpr double hair = 1e-3;  // of a period: rows are whole steps
+    period_.push_back({cycles, value});
+    while (period_.front()[0] <= cycles - 1 + hair) period_.pop_front();
+    double sum = 0, count = 0;
+    for (const auto& [at, one] : period_)
+        if (std::isfinite(one)) sum += one, ++count;
+    return cycles >= 1 - hair && count > 0 ? sum / count : kNoValue;
 }
 
 void Plot::add(double time, double value) {
@@ -120,7 +143,8 @@ void Plot::widen(double value) {
     const double high = any_ ? std::max(limits_[1], value) : value;
     // The first value alone: room for a change by a tenth.
     const double room = any_ ? 0 : std::max(0.1 * std::abs(value), least_room);
-    const std::array<double, 2> wide = round_limits(low - room, high + room, most_ticks + 1);
+    const std::array<double, 2> wide =
+        round_limits(frame_.from_zero ? 0 : low - room, high + room, most_ticks + 1);
     limits_ = {any_ ? std::min(limits_[0], wide[0]) : wide[0],
                any_ ? std::max(limits_[1], wide[1]) : wide[1]};
 }
@@ -131,7 +155,7 @@ void Plot::draw_axes() {
     const TextStyle minor{type_.minor, false};
     const double pen = std::max(1.0, type_.main / 20), tick = 0.3 * type_.minor;
     const auto& [low, high] = span();
-    const double largest = std::max(std::abs(low), std::abs(high));
+    const double largest = std::max({std::abs(low), std::abs(high), frame_.expected});
     const std::string unit = fitting_unit(largest, frame_.dimension);
     const double size = unit_size(unit, frame_.dimension);
     const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);

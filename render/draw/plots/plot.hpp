@@ -4,6 +4,7 @@
 #include <cairo.h>
 
 #include <array>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,7 +27,10 @@ struct PlotFrame {
     Dimension dimension = Dimension::number;
     std::array<double, 2> time{0, 1};            // s, of the whole run
     std::optional<std::array<double, 2>> range;  // SI
-    int width = 0, height = 0;                   // pixels
+    bool smooth = false;        // means over the last period of the drive in place of the rows
+    bool from_zero = false;     // the values' axis begins at 0
+    double expected = 0;        // SI, of which size the values' unit is at least
+    int width = 0, height = 0;  // pixels
 };
 // Of a plot that the scene's film shows, without its size.
 PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot);
@@ -65,6 +69,7 @@ class Plot final : public SidePlot {
     const std::array<double, 2>& span() const { return shown_ ? *shown_ : limits_; }
     void forget();
     void add(double time, double value);
+    double mean_of_period(double cycles, double value);
     void widen(double value);
     void draw_axes();
     void draw_curve(cairo_t* on) const;
@@ -77,6 +82,7 @@ class Plot final : public SidePlot {
     std::optional<std::array<double, 2>> drawn_;  // limits of the axes as they are drawn
     std::shared_ptr<const MeasureTable> table_;
     std::size_t rows_ = 0;
+    std::deque<std::array<double, 2>> period_;  // periods and values of the last rows
     bool any_ = false;
     bool gap_ = true;                             // the last row has no value
     std::array<double, 2> limits_{0, 1};          // SI, of the rows

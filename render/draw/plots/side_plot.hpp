@@ -28,8 +28,10 @@ class SidePlot {
     virtual void draw(cairo_t* on, int x, int y) = 0;
 };
 
-// place: only its size counts. end: s, of the axis of time.
+// place: only its size counts. end: s, of the axis of time. expected: SI, of which size the unit of a
+// column's values is at least, beside what the scene says of it.
 std::unique_ptr<SidePlot> make_side_plot(const Scene& scene, const FilmPlot& plot, const Rectangle& place,
-                                         double end, const TypeScale& type, const Palette& palette);
+                                         double end, const TypeScale& type, const Palette& palette,
+                                         double expected = 0);
 
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/text/scene_file.hpp"
@@ -47,7 +48,7 @@ std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {
     bool may_be_heading = true;
     std::size_t number = 0;
     for (std::string line; std::getline(text, line);) {
-        ++number;
+        if (++number == 1) drop_byte_order_mark(line);
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.empty() || line.front() == '#') continue;
         const std::vector<Cell> cells = cells_of(line);

@@ -171,7 +171,8 @@ Frame frame_with(const std::vector<std::int32_t>& ids, int number) {
     return frame;
 }
 
-// Who has gone keeps its place and stays there; who comes gets the next one.
+// Who has gone keeps its place in the file; who comes gets the next one. A place without a grain is in the
+// container's lowest corner, too small to be seen.
 TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
     const TemporaryFolder here;
     const std::vector<Frame> frames{frame_with({0, 1, 2, 5}, 0), frame_with({0, 2, 5}, 1),
@@ -193,6 +194,7 @@ TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
     std::array<std::array<int, 6>, 5> present{}, id{};
     std::array<std::array<double, 18>, 5> x{};
     std::array<std::array<float, 18>, 5> v{};
+    std::array<std::array<double, 6>, 5> radius{};
     ASSERT_EQ(nc_inq_varid(file, "present", &variable), NC_NOERR);
     ASSERT_EQ(nc_get_var_int(file, variable, present[0].data()), NC_NOERR);
     ASSERT_EQ(nc_inq_varid(file, "id", &variable), NC_NOERR);
@@ -201,6 +203,8 @@ TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
     ASSERT_EQ(nc_get_var_double(file, variable, x[0].data()), NC_NOERR);
     ASSERT_EQ(nc_inq_varid(file, "velocities", &variable), NC_NOERR);
     ASSERT_EQ(nc_get_var_float(file, variable, v[0].data()), NC_NOERR);
+    ASSERT_EQ(nc_inq_varid(file, "radius", &variable), NC_NOERR);
+    ASSERT_EQ(nc_get_var_double(file, variable, radius[0].data()), NC_NOERR);
     nc_close(file);
     EXPECT_THAT(present[0], testing::ElementsAre(1, 1, 1, 1, 0, 0));
     EXPECT_THAT(present[1], testing::ElementsAre(1, 0, 1, 1, 0, 0));
@@ -209,10 +213,49 @@ TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
     EXPECT_THAT(present[4], testing::ElementsAre(0, 0, 0, 0, 0, 1));
     EXPECT_THAT(id[1], testing::ElementsAre(0, 1, 2, 5, -1, -1));
     EXPECT_THAT(id[4], testing::ElementsAre(0, 1, 2, 5, 6, 8));
-    for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(x[4][3 + k], frames[0].position[1][static_cast<int>(k)]) << "where grain 1 was last";
-        EXPECT_EQ(v[4][3 + k], 0);
-        EXPECT_EQ(x[1][12 + k], NC_FILL_DOUBLE) << "nobody has been there yet";
+    for (std::size_t frame = 0; frame < 5; ++frame)
+        for (std::size_t place = 0; place < 6; ++place) {
+            const bool here_now = present[frame][place] != 0;
+            EXPECT_EQ(radius[frame][place] == kAbsentRadius, !here_now) << frame << " " << place;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const bool corner = x[frame][3 * place + k] == info.cell_origin[static_cast<int>(k)];
+                EXPECT_EQ(corner, !here_now) << frame << " " << place;
+                if (!here_now) EXPECT_EQ(v[frame][3 * place + k], 0);
+            }
+        }
+}
+
+// Files of earlier versions have fill values where no grain has been, and a grain that has gone where it was
+// last.
+TEST(Trajectory, FilesOfEarlierVersionsAreRead) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(4);
+    info.traffic = true;
+    const std::vector<Frame> frames{frame_with({0, 1, 2}, 0), frame_with({0, 2}, 1)};
+    {
+        TrajectoryWriter writer(here / "t.nc", info);
+        for (Frame frame : frames) writer.write(frame);
+    }
+    int file = -1, variable = -1;
+    ASSERT_EQ(nc_open((here / "t.nc").c_str(), NC_WRITE, &file), NC_NOERR);
+    for (const char* name : {"coordinates", "radius"}) {
+        const std::size_t width = *name == 'c' ? 3 : 1;
+        ASSERT_EQ(nc_inq_varid(file, name, &variable), NC_NOERR);
+        const std::vector<double> fill(2 * width, NC_FILL_DOUBLE);
+        const std::array<std::size_t, 3> never{1, 3, 0}, gone{1, 1, 0}, count{1, 1, width};
+        ASSERT_EQ(nc_put_vara_double(file, variable, never.data(), count.data(), fill.data()), NC_NOERR);
+        const std::vector<double> last(width, 0.004);
+        ASSERT_EQ(nc_put_vara_double(file, variable, gone.data(), count.data(), last.data()), NC_NOERR);
+    }
+    // Their own sums would be right; these are not, and a file without any is read as it is.
+    ASSERT_EQ(nc_inq_varid(file, "grain_checksum", &variable), NC_NOERR);
+    ASSERT_EQ(nc_rename_var(file, variable, "grain_nothing"), NC_NOERR);
+    nc_close(file);
+    const TrajectoryReader reader(here / "t.nc");
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        Frame wanted = frames[i];
+        wanted.orientation.clear();
+        expect_same(reader.read(i), wanted);
     }
 }
 
@@ -231,8 +274,7 @@ TEST(Trajectory, FlagsThatDoNotMatchTheCountAreDamage) {
     EXPECT_THROW(TrajectoryReader(here / "t.nc").read(0), DamagedFrame);
 }
 
-// By the trailing fill values OVITO knows how many grains a frame has.
-TEST(Trajectory, PlacesWithoutAGrainHoldFillValues) {
+TEST(Trajectory, PlacesWithoutAGrainAreInTheLowestCorner) {
     const TemporaryFolder here;
     TrajectoryWriter(here / "t.nc", made_info(3)).write(made_frame(2, 0));
     int file = -1, variable = -1;
@@ -242,7 +284,7 @@ TEST(Trajectory, PlacesWithoutAGrainHoldFillValues) {
     ASSERT_EQ(nc_get_var_double(file, variable, x.data()), NC_NOERR);
     for (std::size_t k = 0; k < 6; ++k)
         EXPECT_EQ(x[k], made_frame(2, 0).position[k / 3][static_cast<int>(k % 3)]);
-    for (std::size_t k = 6; k < 9; ++k) EXPECT_EQ(x[k], NC_FILL_DOUBLE);
+    for (std::size_t k = 6; k < 9; ++k) EXPECT_EQ(x[k], made_info(3).cell_origin[static_cast<int>(k % 3)]);
     std::array<int, 3> id{};
     ASSERT_EQ(nc_inq_varid(file, "id", &variable), NC_NOERR);
     ASSERT_EQ(nc_get_var_int(file, variable, id.data()), NC_NOERR);

@@ -54,6 +54,28 @@ TEST(GrainTable, ReadsBackBitByBit) {
     }
 }
 
+// "CSV UTF-8" of a spreadsheet begins with a mark and ends its lines as Windows does.
+TEST(GrainTable, IsReadAsASpreadsheetSavesIt) {
+    const TemporaryFolder here;
+    const Frame frame = made_frame(3, 4);
+    write_grain_table(here / "final.csv", frame);
+    std::string text = text_of(here / "final.csv");
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+    for (const std::string& saved : {"\xef\xbb\xbf" + text_of(here / "final.csv"), "\xef\xbb\xbf" + text}) {
+        write_text(here / "saved.csv", saved);
+        EXPECT_EQ(read_grain_table(here / "saved.csv").position, frame.position);
+    }
+}
+
+TEST(MeasuresCsv, IsReadAsASpreadsheetSavesIt) {
+    const TemporaryFolder here;
+    write_text(here / "measures.csv", "\xef\xbb\xbfstep,time_s\r\n1,0.5\r\n2,1\r\n");
+    const auto table = read_measures(here / "measures.csv");
+    ASSERT_TRUE(table);
+    EXPECT_EQ(table->columns(), (std::vector<std::string>{"step", "time_s"}));
+    EXPECT_EQ(table->values(1, 0, 2), (std::vector<double>{0.5, 1}));
+}
+
 std::string reading_error(const std::string& text) {
     const TemporaryFolder here;
     write_text(here / "final.csv", text);

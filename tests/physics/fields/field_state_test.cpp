@@ -67,6 +67,11 @@ TEST(FieldState, BranchesEndAtACentreOrOnAFace) {
     const FieldContact wall = field_contact(moved.moment(), touch(-1, {0, 0, -1}, 0.05));
     EXPECT_LT((wall.branch - Vec3(0, 0, -0.35)).norm(), 1e-12);
     EXPECT_LT((wall.force - Vec3(0.5, 0, -6)).norm(), 1e-12);
+    // Each end has its grain's own kernel; at a wall both have that of the grain.
+    EXPECT_EQ(pair.radius, 0.4);
+    EXPECT_EQ(pair.other_radius, 0.5);
+    EXPECT_EQ(wall.radius, 0.4);
+    EXPECT_EQ(wall.other_radius, 0.4);
 }
 
 // Two moments in each of two periods of 40 steps.
