@@ -48,12 +48,12 @@ std::vector<std::string> start_warnings(const Scene& scene, const Plan& plan, co
     }
     if (most.share > alarming_share) {
         const char *name = most.hertz ? "modulus" : "stiffness", *unit = most.hertz ? "Pa" : "N/m";
-        warnings.add("start.file",
-                     fmt::format("the {0} follows from the file and is {1:.3g} {2}, while impacts of {3:.3g} "
-                                 "m/s want {4:.3g} {2} for overlaps of {5:.2g} %; write contact.{0} = "
-                                 "\"{4:.3g} {2}\" to have that",
-                                 name, most.there, unit, bed.impact_speed, most.stiffness,
-                                 100 * scene.run.overlap));
+        warnings.add(
+            "start.file",
+            fmt::format("the {0} follows from the file and is {1:.3g} {2}, while impacts of {3:.3g} "
+                        "m/s want {4:.3g} {2} for overlaps of {5:.2g} %; write contact.{0} = "
+                        "\"{4:.3g} {2}\" to have that",
+                        name, most.there, unit, bed.impact_speed, most.stiffness, 100 * scene.run.overlap));
     }
     return warnings.take();
 }

@@ -37,7 +37,8 @@ Plan plan_to_look(const Scene& scene) {
 double effective_radius(const BedInFile& bed, const Surroundings& around, const ContactView& c) {
     const double first = bed.grains.place[c.first].radius;
     if (c.second < 0 && c.glued < 0) return first;
-    const double second = c.second >= 0 ? bed.grains.place[c.second].radius : around.glued.place[c.glued].radius;
+    const double second =
+        c.second >= 0 ? bed.grains.place[c.second].radius : around.glued.place[c.glued].radius;
     return first * second / (first + second);
 }
 

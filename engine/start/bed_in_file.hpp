@@ -21,18 +21,19 @@ struct BedInFile {
     // Two bodies that overlap.
     struct Overlap {
         std::size_t first;
-        int second;            // index of a grain, or -1 - face
-        bool glued;            // at a grain that is glued to this face
-        double depth;          // m
-        double radius;         // m, effective
-        double carries;        // m: how much of the weights' moment a force of 1 N at this contact carries
+        int second;      // index of a grain, or -1 - face
+        bool glued;      // at a grain that is glued to this face
+        double depth;    // m
+        double radius;   // m, effective
+        double carries;  // m: how much of the weights' moment a force of 1 N at this contact carries
     };
     std::vector<Overlap> overlaps;
     double moment_of_weights = 0;  // J
 
-    // What keeps the bed from resting in this scene; empty when it rests. At rest means: a mean kinetic energy a
-    // grain of at most 1e-4 m g d, none above 0.05 m g d, at least every other grain touches something, and
-    // gravity and what is touched are those of the run that the file is from, as far as it is known.
+    // What keeps the bed from resting in this scene; empty when it rests. At rest means: a mean kinetic
+    // energy a grain of at most 1e-4 m g d, none above 0.05 m g d, at least every other grain touches
+    // something, and gravity and what is touched are those of the run that the file is from, as far as it is
+    // known.
     std::string moves_because;
     double fastest = 0;  // m/s
     double falls = 0;    // m/s, that a grain may have when it has fallen to the lowest one

@@ -71,8 +71,8 @@ class HeldHistories {
         const ContactGroup& there = rules_there_.groups[found->second.group];
         if (group.law->history_size != there.law->history_size) return false;
         const int size = there.history_size();
-        const double* from = kept_[found->second.group].history.data() +
-                             static_cast<std::ptrdiff_t>(found->second.at) * size;
+        const double* from =
+            kept_[found->second.group].history.data() + static_cast<std::ptrdiff_t>(found->second.at) * size;
         for (int k = 0; k < group.history_size(); ++k) {
             to[k] = k < size ? from[k] : 0;
             if (found->second.turned && group.turns(k)) to[k] = -to[k];

@@ -16,8 +16,8 @@ namespace grainreel {
 // s: no bed needs longer that comes to rest by changes of its overlaps alone.
 constexpr double kRelaxLimit = 2;
 
-// Steps before the first one of settle(): a drag that stops whatever a step sets in motion, and becomes weaker by
-// and by. So overlaps find the forces that carry the weight, and nothing jumps.
+// Steps before the first one of settle(): a drag that stops whatever a step sets in motion, and becomes
+// weaker by and by. So overlaps find the forces that carry the weight, and nothing jumps.
 std::int64_t braking_steps(const Plan& plan);
 
 // Runs with still walls and the scene's own laws: braking, then settle() with the plan's limit. settled is

@@ -20,15 +20,16 @@ struct StartOrigin {
     // Whether its container, or a part of it, had moved from its rest position or was moving.
     bool walls_moved() const;
     WallParts parts() const {
-        return {static_cast<std::int32_t>(around.faces.size()), static_cast<std::int32_t>(around.glued.size())};
+        return {static_cast<std::int32_t>(around.faces.size()),
+                static_cast<std::int32_t>(around.glued.size())};
     }
 };
 
 // Of a checkpoint. None where it does not say, or says what this program does not understand.
 std::optional<StartOrigin> origin_of(const std::filesystem::path& checkpoint);
 
-// Of a final.csv: the checkpoint beside it, if that has the same grains at the same places (those of `grains`,
-// numbered without gaps).
+// Of a final.csv: the checkpoint beside it, if that has the same grains at the same places (those of
+// `grains`, numbered without gaps).
 std::optional<StartOrigin> origin_beside(const Scene& scene, const Grains& grains);
 
 // Whether contacts of both kinds have the same forces for the same history, as far as a bed at rest feels it:

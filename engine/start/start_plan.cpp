@@ -28,7 +28,8 @@ void take_stiffness(const Scene& scene, const StartOrigin& origin, StartFacts& f
         return here.normal == NormalLaw::hertz ? plan.modulus : plan.loading_stiffness;
     };
     for (std::size_t k = 0; k < count * count; ++k)
-        facts.grain.push_back(of(scene.contact.grain[k], origin.scene.contact.grain[k], origin.plan.grain[k]));
+        facts.grain.push_back(
+            of(scene.contact.grain[k], origin.scene.contact.grain[k], origin.plan.grain[k]));
     for (std::size_t a = 0; a < count; ++a)
         facts.wall.push_back(of(scene.contact.wall[a], origin.scene.contact.wall[a], origin.plan.wall[a]));
     if (!scene.container.wall_grains || origin.plan.glued.empty()) return;
@@ -43,8 +44,8 @@ bool is_at_rest(const BedInFile& bed) {
     return bed.moves_because.empty();
 }
 
-// A bed at rest whose run is unknown goes on slowly, as far as one can tell: by a fall of a diameter. One that
-// moves hits the floor with what it has.
+// A bed at rest whose run is unknown goes on slowly, as far as one can tell: by a fall of a diameter. One
+// that moves hits the floor with what it has.
 double expected_speed(const Scene& scene, const BedInFile& bed) {
     if (bed.origin) return std::max(bed.origin->plan.impact_speed, bed.fastest);
     if (!is_at_rest(bed)) return bed.falls;
@@ -106,8 +107,7 @@ void plan_start(const BedInFile& bed, Plan& plan) {
     const bool all_kept = held && all_act_alike(plan, bed.origin->plan);
     plan.start.keeps_histories = held && any_act_alike(plan, bed.origin->plan);
     plan.start.relaxes = !all_kept && is_at_rest(bed);
-    if (plan.start.relaxes)
-        plan.settle_steps_limit = std::llround(std::ceil(kRelaxLimit / plan.clock.step));
+    if (plan.start.relaxes) plan.settle_steps_limit = std::llround(std::ceil(kRelaxLimit / plan.clock.step));
     plan.start.text = text_of(plan, bed, all_kept);
 }
 

@@ -1,7 +1,7 @@
 // Which contacts carry the weight of a bed at rest: the virial theorem (Love 1927, Mathematical Theory of
-// Elasticity, note B). The forces on a grain add up to zero. Each force times the grain's height, summed over all
-// grains: the moments of all contact forces, force times height difference, are those of the weights. Friction,
-// which carries the smaller part, is left out.
+// Elasticity, note B). The forces on a grain add up to zero. Each force times the grain's height, summed over
+// all grains: the moments of all contact forces, force times height difference, are those of the weights.
+// Friction, which carries the smaller part, is left out.
 #pragma once
 
 #include "engine/base/vector.hpp"

@@ -1,5 +1,5 @@
-// Runs that start anew from a file: a bed at rest stays at rest, whatever the law, and one that moves is never
-// damped.
+// Runs that start anew from a file: a bed at rest stays at rest, whatever the law, and one that moves is
+// never damped.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -136,8 +136,9 @@ TEST_F(StartFile, ABedAtRestComesToRestUnderAnotherLaw) {
             const Scene next = next_of(kBox, "checkpoint.grs", {law(other)});
             const Plan plan = make_plan(next);
             EXPECT_TRUE(plan.start.relaxes && !plan.start.keeps_histories);
-            if (other != "walton-braun")
+            if (other != "walton-braun") {
                 EXPECT_EQ(plan.wall[0].stiffness_reason, "overlaps in the start file");
+            }
             expect_rest(next, before, 0.2, name + " to " + other);
         }
     }
@@ -162,20 +163,20 @@ TEST_F(StartFile, TheStiffnessOfTheSceneWins) {
 TEST_F(StartFile, OverlapsTellTheStiffness) {
     for (const std::string& name : kLaws) {
         const std::vector<std::string> sets = {law(name), "contact.friction=0"};
-        const Scene scene = scene_of(kBox, sets);
-        settle(scene);
+        std::vector<std::string> first = sets;
+        first.push_back(name == "hertz" ? "contact.modulus=5e6" : "contact.stiffness=1000");
+        settle(scene_of(kBox, first));
         fs::remove(here / "checkpoint.grs");
-        const PairPlan first = make_plan(scene).between(0, 0);
         const Plan plan = make_plan(next_of(kBox, "final.csv", sets));
         const PairPlan& pair = plan.between(0, 0);
         EXPECT_TRUE(plan.start.relaxes);
         if (name == "walton-braun") {
-            EXPECT_GT(pair.loading_stiffness, 0.5 * first.loading_stiffness);
+            EXPECT_GT(pair.loading_stiffness, 500);
             continue;
         }
         EXPECT_EQ(pair.stiffness_reason, "overlaps in the start file");
         const double found = name == "hertz" ? pair.modulus : pair.loading_stiffness;
-        const double there = name == "hertz" ? first.modulus : first.loading_stiffness;
+        const double there = name == "hertz" ? 5e6 : 1000;
         EXPECT_NEAR(found, there, 0.02 * there) << name;
     }
 }
@@ -238,49 +239,87 @@ TEST_F(StartFile, ABedWithoutItsWallsIsTakenBack) {
 
 struct Around {
     const char *name, *container;
-    std::vector<std::string> sets;
+    std::vector<std::string> before, sets, laws;
 };
+
+const char* const kWedge = R"([container]
+shape = "wedge"
+half_width = "12 mm"
+half_angle = "20 deg"
+slant_height = "15 mm"
+height = "50 mm"
+depth = "16 mm"
+)";
+const char* const kCylinder = R"([container]
+shape = "cylinder"
+diameter = "18 mm"
+height = "50 mm"
+)";
 
 // With what else a scene may have; the same bits on any number of threads, and from a checkpoint on the way.
 TEST_F(StartFile, IsAlikeInEveryContainer) {
+    const std::string rolls = "contact.rolling_friction=0.1", round = "container.periodic_depth=true";
+    const std::string glued = "container.wall_grains={species=\"beads\", faces=[\"floor\"]}";
+    const std::string outlet = "container.outlet={ width = \"9 mm\", opens = 0.02 }";
+    const std::string feed = "feed=[{rate = 500, count = 5, until = 0.04}]";
     const std::vector<Around> all = {
-        {"cylinder", "[container]\nshape = \"cylinder\"\ndiameter = \"18 mm\"\nheight = \"50 mm\"\n", {}},
-        {"wedge",
-         "[container]\nshape = \"wedge\"\nhalf_width = \"12 mm\"\nhalf_angle = \"20 deg\"\nslant_height = "
-         "\"15 mm\"\nheight = \"50 mm\"\ndepth = \"16 mm\"\n",
-         {"contact.rolling_friction=0.1"}},
-        {"periodic", kBox, {"container.periodic_depth=true"}},
-        {"glued", kBox, {"container.wall_grains={species=\"beads\", faces=[\"floor\"]}"}},
-        {"fed", kBox,
-         {"container.outlet={ width = \"9 mm\", opens = 0.02 }",
-          "feed=[{rate = 500, count = 5, until = 0.04}]"}},
+        {"cylinder", kCylinder, {}, {}, {kLaws[0]}},
+        {"wedge", kWedge, {rolls}, {rolls}, {kLaws[0], kLaws[1]}},
+        {"periodic", kBox, {round}, {round}, {kLaws[0]}},
+        {"glued", kBox, {glued}, {glued}, {kLaws[0], kLaws[1]}},
+        {"fed", kBox, {}, {outlet, feed}, {kLaws[0]}},
     };
-    for (const auto& [name, container, sets] : all) {
-        std::vector<std::string> first = sets;
-        if (name == std::string("fed")) first.clear();
-        const Rest before = settle(scene_of(container, first), 0.005);
-        for (const std::string& other : {kLaws[0], kLaws[2]}) {
-            std::vector<std::string> then = sets;
-            then.push_back(law(other));
-            const Scene next = next_of(container, "checkpoint.grs", then);
+    for (const Around& one : all) {
+        const Rest before = settle(scene_of(one.container, one.before), 0.005);
+        for (const std::string& other : one.laws) {
+            std::vector<std::string> sets = one.sets;
+            sets.push_back(law(other));
+            const Scene next = next_of(one.container, "checkpoint.grs", sets);
             const Plan plan = make_plan(next);
+            EXPECT_EQ(plan.start.relaxes, other != kLaws[0]) << one.name;
             std::uint64_t hash = 0;
             for (const int threads : {1, 2, 3}) {
                 Simulation run(next, plan, threads);
-                EXPECT_TRUE(run.pack().settled) << name;
-                EXPECT_NEAR(run.measure("contact_number"), before.contacts,
-                            (other == kLaws[0] ? 0.05 : 0.2) * before.contacts)
-                    << name << " " << other;
+                EXPECT_TRUE(run.pack().settled) << one.name;
+                const double share = plan.start.relaxes ? 0.2 : 0.05;
+                EXPECT_NEAR(run.measure("contact_number"), before.contacts, share * before.contacts)
+                    << one.name << ", " << other;
                 if (threads == 1) run.save_checkpoint(here / "begun.grs");
                 run.advance(300);
                 if (threads == 1) hash = run.state_hash();
-                EXPECT_EQ(run.state_hash(), hash) << name << ", " << threads << " threads";
+                EXPECT_EQ(run.state_hash(), hash) << one.name << ", " << threads << " threads";
             }
             Simulation on = Simulation::at_checkpoint(next, plan, here / "begun.grs", 2);
             on.advance(300);
-            EXPECT_EQ(on.state_hash(), hash) << name;
+            EXPECT_EQ(on.state_hash(), hash) << one.name;
         }
     }
+}
+
+// Only the walls have another law: contacts between grains go on, those at walls begin anew.
+TEST_F(StartFile, HistoriesAreKeptKindByKind) {
+    const std::string big = "[[species]]\nname = \"big\"\ncount = 5\ndiameter = \"7 mm\"\ndensity = 2500\n";
+    const Rest before = settle(scene_of(big + kBox, {}));
+    const Scene next = next_of(big + kBox, "checkpoint.grs", {"contact.wall.law=spring-dashpot"});
+    const Plan plan = make_plan(next);
+    EXPECT_TRUE(plan.start.keeps_histories && plan.start.relaxes);
+    EXPECT_EQ(plan.between(0, 1).stiffness_reason, "the start file");
+    EXPECT_EQ(plan.wall[1].stiffness_reason, "overlaps in the start file");
+    EXPECT_THAT(plan.start.text, HasSubstr("contacts whose law is the file's keep their histories"));
+    expect_rest(next, before, 0.2, "walls of another law");
+}
+
+TEST_F(StartFile, ADriveThatWantsMoreIsSaid) {
+    settle(scene_of(kBox, {}));
+    const std::string drive = "[drive]\nfrequency = \"10 Hz\"\ng_level = 5\n";
+    const auto warnings = [&](const std::string& more) {
+        const Plan plan = make_plan(next_of(more, "checkpoint.grs", {}));
+        EXPECT_EQ(plan.between(0, 0).stiffness_reason, "the start file");
+        return plan.warnings;
+    };
+    EXPECT_THAT(warnings(kBox + drive),
+                testing::Contains(HasSubstr("start.file: the stiffness follows from")));
+    EXPECT_THAT(warnings(kBox), testing::Not(testing::Contains(HasSubstr("start.file"))));
 }
 
 // A bed whose histories are kept goes on as one that never stopped, up to rounding.
@@ -297,8 +336,7 @@ TEST_F(StartFile, KeptHistoriesGoOnAsBefore) {
         whole.advance(100), anew.advance(100);
         const Frame one = whole.frame(), other = anew.frame();
         for (std::size_t i = 0; i < one.size(); ++i)
-            EXPECT_LT((one.position[i] - other.position[i]).norm(),
-                      of_rounding(1e-12, 1e-7) * kDiameter)
+            EXPECT_LT((one.position[i] - other.position[i]).norm(), of_rounding(1e-12, 1e-7) * kDiameter)
                 << name << ", grain " << i;
         EXPECT_NEAR(anew.measure("elastic_J"), whole.measure("elastic_J"),
                     of_rounding(1e-6, 1e-3) * whole.measure("elastic_J"));
