@@ -72,19 +72,23 @@ StartFacts facts_to_go_on(const Scene& scene) {
 }
 
 std::string stiffness_text(const Plan& plan) {
-    bool file = false, overlaps = false, other = false;
+    bool file = false, overlaps = false, scene = false, own = false;
     for (const std::vector<PairPlan>* kinds : {&plan.grain, &plan.wall, &plan.glued}) {
         for (const PairPlan& pair : *kinds) {
-            const bool of_file = pair.stiffness_reason == "the start file";
-            const bool of_overlaps = pair.stiffness_reason == "overlaps in the start file";
-            file |= of_file, overlaps |= of_overlaps, other |= !of_file && !of_overlaps;
+            const std::string& reason = pair.stiffness_reason;
+            bool& which = reason == "the start file"               ? file
+                          : reason == "overlaps in the start file" ? overlaps
+                          : reason == "the scene"                  ? scene
+                                                                   : own;
+            which = true;
         }
     }
-    if (!file && !overlaps) return "stiffness as the scene has it";
-    std::string text = file && overlaps ? "stiffness as in the file, or from its overlaps"
-                       : file           ? "stiffness as in the file's run"
-                                        : "stiffness from the overlaps in the file";
-    return other ? text + ", where the scene gives none" : text;
+    std::vector<std::string> from;
+    if (scene) from.push_back("as the scene gives it");
+    if (file) from.push_back("as in the file's run");
+    if (overlaps) from.push_back("from the overlaps in the file");
+    if (own) from.push_back("as impacts and weight want it");
+    return fmt::format("stiffness {}", fmt::join(from, ", or "));
 }
 
 std::string text_of(const Plan& plan, const BedInFile& bed, bool all_kept) {
