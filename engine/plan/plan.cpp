@@ -21,21 +21,54 @@ constexpr double most_records =
     1e9;  // of a file: 400 GB of measures, and NetCDF numbers no more than twice that
 constexpr double frames_without_drive = 1.0 / 30, rows_without_drive = 0.01;  // s
 
+// The stiffness that a kind of contact takes from the start file, where the scene gives none.
+std::optional<double> stiffness_in_file(const StartFacts& file, const PairContact& contact,
+                                        const std::vector<std::optional<double>>& kinds, std::size_t kind) {
+    if (contact.stiffness || !file.known) return std::nullopt;
+    if (kind < kinds.size() && kinds[kind]) return kinds[kind];
+    const double found = contact.normal == NormalLaw::hertz ? file.modulus : file.linear;
+    return found > 0 ? std::optional(found) : std::nullopt;
+}
+
+// Contacts that latch can rest on any overlap, so theirs say only how small a stiffness must not be.
+bool wants_more(const PairPlan& own, const PairPlan& found) {
+    const bool latches = own.model.normal != NormalForce::hertz &&
+                         own.model.normal != NormalForce::spring_dashpot && own.hardening == 0 &&
+                         own.restitution_table.empty();
+    return latches && own.loading_stiffness > found.loading_stiffness;
+}
+
+PairPlan plan_kind(const Scene& scene, const BedPlan& bed, const StartFacts& file, const PairContact& contact,
+                   const Species& a, const Species* b, const std::vector<std::optional<double>>& kinds,
+                   std::size_t kind) {
+    const std::optional<double> found = stiffness_in_file(file, contact, kinds, kind);
+    if (!found) return plan_pair(scene, bed, contact, a, b);
+    PairContact with = contact;
+    with.stiffness = found;
+    PairPlan pair = plan_pair(scene, bed, with, a, b);
+    const bool of_run = kind < kinds.size() && kinds[kind];
+    pair.stiffness_reason = of_run ? "the start file" : "overlaps in the start file";
+    if (of_run || bed.gravity == 0) return pair;
+    PairPlan own = plan_pair(scene, bed, contact, a, b);
+    return wants_more(own, pair) ? own : pair;
+}
+
 // A glued grain is as heavy as its wall. Its contacts have the numbers of the pair of species, but for the
 // stiffness, which an effective mass up to twice as large may demand.
-void plan_glued(const Scene& scene, const BedPlan& bed, Plan& plan) {
+void plan_glued(const Scene& scene, const BedPlan& bed, const StartFacts& file, Plan& plan) {
     if (!scene.container.wall_grains) return;
     const std::size_t species = scene.container.wall_grains->species;
     const Species glued = glued_species(scene);
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         const Species& first = scene.species[a];
-        plan.glued.push_back(plan_pair(scene, bed, scene.between(a, species), first, &glued));
+        plan.glued.push_back(
+            plan_kind(scene, bed, file, scene.between(a, species), first, &glued, file.glued, a));
         plan.expected_overlap =
             std::max(plan.expected_overlap, expected_overlap(scene, bed, plan.glued.back(), first, &glued));
     }
 }
 
-void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
+void plan_contacts(const Scene& scene, const BedPlan& bed, const StartFacts& file, Plan& plan) {
     const auto keep_overlap = [&](const PairPlan& pair, const Species& a, const Species* b) {
         plan.expected_overlap = std::max(plan.expected_overlap, expected_overlap(scene, bed, pair, a, b));
     };
@@ -43,15 +76,15 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
     for (std::size_t a = 0; a < count; ++a) {
         const Species& first = scene.species[a];
         for (std::size_t b = 0; b < count; ++b) {
-            plan.grain.push_back(b < a
-                                     ? plan.grain[b * count + a]
-                                     : plan_pair(scene, bed, scene.between(a, b), first, &scene.species[b]));
+            plan.grain.push_back(b < a ? plan.grain[b * count + a]
+                                       : plan_kind(scene, bed, file, scene.between(a, b), first,
+                                                   &scene.species[b], file.grain, a * count + b));
             keep_overlap(plan.grain.back(), first, &scene.species[b]);
         }
-        plan.wall.push_back(plan_pair(scene, bed, scene.contact.wall[a], first, nullptr));
+        plan.wall.push_back(plan_kind(scene, bed, file, scene.contact.wall[a], first, nullptr, file.wall, a));
         keep_overlap(plan.wall.back(), first, nullptr);
     }
-    plan_glued(scene, bed, plan);
+    plan_glued(scene, bed, file, plan);
 }
 
 // `seconds` in steps; `key` is the place to complain about.
@@ -163,7 +196,7 @@ bool Plan::rolls() const {
     return any_contact(*this, [](const PairPlan& p) { return p.model.rolls; });
 }
 
-Plan make_plan(const Scene& scene) {
+Plan make_plan(const Scene& scene, const StartFacts& file) {
     check_start_file(scene);
     Plan plan;
     plan.arms = scene.contact.arms;
@@ -174,10 +207,10 @@ Plan make_plan(const Scene& scene) {
 
     plan.capacity = scene.grains();
 
-    const BedPlan bed = plan_bed(scene);
+    const BedPlan bed = plan_bed(scene, file);
     plan.bed_height = bed.height;
     plan.impact_speed = bed.impact_speed;
-    plan_contacts(scene, bed, plan);
+    plan_contacts(scene, bed, file, plan);
 
     const StepChoice step = plan_step(scene, plan);
     plan.step_reason = step.reason;
@@ -196,7 +229,8 @@ Plan make_plan(const Scene& scene) {
         plan.rain_steps_limit = count_steps(scene, rain_limit(scene), plan.clock.step, "start.rain_rate");
     plan_output(scene, plan);
     plan.warnings = scene.notes;
-    for (const std::vector<std::string>& found : {likely_slips(scene), plan_warnings(scene, plan, bed, step)})
+    for (const std::vector<std::string>& found :
+         {likely_slips(scene), plan_warnings(scene, plan, bed, step), start_warnings(scene, plan, bed)})
         plan.warnings.insert(plan.warnings.end(), found.begin(), found.end());
     return plan;
 }

@@ -54,7 +54,26 @@ struct PairPlan {
     bool attraction = false;        // the dashpot may pull
     double contact_time = 0;        // s, of a free impact
     double allowed_overlap = 0;     // m
-    std::string stiffness_reason;   // which condition binds: "impact", "static load", "wave", "the scene"
+    // Which condition binds: "impact", "static load", "wave", "the scene", "the start file", "overlaps in the
+    // start file".
+    std::string stiffness_reason;
+};
+
+// What a plan takes from the file that a run starts from (engine/start/start_plan.cpp looks into it).
+struct StartFacts {
+    bool known = false;  // the file could be read; nothing else holds without it
+    // N/m, Pa with Hertz: of the run that the file is from, by kind of contact as in Plan. Empty where its
+    // law is another, or where the file does not tell.
+    std::vector<std::optional<double>> grain, wall, glued;
+    double linear = 0, modulus = 0;  // N/m, Pa: with which its overlaps carry its weight; 0: they do not tell
+    double speed = 0;                // m/s, of impacts to expect
+};
+
+// How a run begins that starts from a file.
+struct StartPlan {
+    bool keeps_histories = false;  // of contacts whose law is that of the file's run
+    bool relaxes = false;          // brings the file's bed to rest under the scene's laws, before step 0
+    std::string text;              // for the user: what happens to stiffness, histories and bed
 };
 
 struct Plan {
@@ -69,6 +88,7 @@ struct Plan {
     Clock clock;
     std::int64_t steps = 0;                                     // of vibration
     std::int64_t settle_steps_limit = 0, rain_steps_limit = 0;  // of the start
+    StartPlan start;                                            // of a start from a file
     std::string step_reason;                                    // which condition binds the step
     double impact_speed = 0;                                    // m/s, v* of the stiffness rule
     double expected_overlap = 0;  // largest expected overlap over the smaller diameter
@@ -95,6 +115,9 @@ struct Plan {
 };
 
 // Throws UserError when the scene cannot be run as it stands (does not fit, too many steps, no stiffness).
+// Looks into the file that the scene starts from, if it does (engine/start/start_plan.cpp).
 Plan make_plan(const Scene& scene);
+// Likewise, with what is known of that file. Leaves Plan::start as it is.
+Plan make_plan(const Scene& scene, const StartFacts& file);
 
 }  // namespace grainreel

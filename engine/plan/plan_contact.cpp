@@ -253,7 +253,7 @@ double mean_effective_mass(const Species& a, const Species* b) {
     return b == nullptr ? mass : reduced_mass(mass, mass_of(*b, b->diameter.mean));
 }
 
-BedPlan plan_bed(const Scene& scene) {
+BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
     BedPlan bed;
     const Drive& drive = scene.drive;
     bed.gravity = scene.gravity.norm();
@@ -282,8 +282,10 @@ BedPlan plan_bed(const Scene& scene) {
     } else if (scene.start.method == Start::Method::rain) {
         bed.drop_speed = std::sqrt(2 * bed.gravity * rain_drop(scene));
         bed.impact_speed = std::max(bed.impact_speed, bed.drop_speed * scene.run.overlap / settling_overlap);
+    } else if (file.known) {
+        bed.impact_speed = std::max(bed.impact_speed, file.speed);
     } else if (!drive.present) {
-        bed.impact_speed = fall;  // all that one can know of a bed that starts from a file
+        bed.impact_speed = fall;  // all that one can know of a file that cannot be read
     }
     if (scene.container.tray)
         bed.impact_speed =

@@ -23,7 +23,7 @@ struct BedPlan {
     double drop_speed = 0;       // m/s, of the highest fall while settling; 0 when nothing settles
     double impact_speed = 0;     // m/s, v*
 };
-BedPlan plan_bed(const Scene& scene);
+BedPlan plan_bed(const Scene& scene, const StartFacts& file);
 
 // Two grains that may touch, or a grain and a wall (second mass infinite): the smallest, mean and largest of
 // each species. Sizes in m, masses in kg.
@@ -74,5 +74,7 @@ std::vector<std::string> likely_slips(const Scene& scene);
 // Likewise: what will run, but not as one may wish.
 std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
                                        const StepChoice& step);
+// Likewise: of what follows from the start file.
+std::vector<std::string> start_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed);
 
 }  // namespace grainreel

@@ -7,9 +7,12 @@
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/wall_faces.hpp"
 #include "engine/run/simulation_impl.hpp"
+#include "engine/start/held_histories.hpp"
+#include "engine/start/latches.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/rain.hpp"
+#include "engine/start/relax.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/start/start_file.hpp"
@@ -43,10 +46,35 @@ void Simulation::Impl::take_grains() {
     check_grains_numbered(scene, grains);
     check_grains_match(scene, grains);
     check_grains_fit(scene, around.faces, grains);
+    begin_with_taken();
+    check_grains_clear(scene, around.faces, grains, *loop);
+}
+
+// Where the checkpoint's contacts follow the same law here, with their histories. Latches of the others are
+// set where the bed rests.
+void Simulation::Impl::begin_with_taken() {
     set_orientations();
     make_loop();
     loop->restart();
-    check_grains_clear(scene, around.faces, grains, *loop);
+    if (grains.size() == 0) return;
+    std::optional<StartOrigin> origin;
+    if (plan.start.keeps_histories) origin = origin_of(scene.start.file);
+    if (origin && !any_act_alike(plan, origin->plan)) origin.reset();
+    if (origin) take_histories(scene, plan, around, *origin, grains, *loop);
+    const auto is_fresh = [&](const PairPlan& pair) {
+        return !origin || !acts_alike_in(origin->plan, plan, pair);
+    };
+    if (plan.start.relaxes) set_latches(plan, around, grains, is_fresh, *loop);
+}
+
+// Where the file's bed turns out not to rest in this scene, it starts as it is in the file.
+SettleReport Simulation::Impl::relax_taken(const std::function<bool(double, std::int64_t)>& watcher) {
+    const Grains before = grains;
+    SettleReport report = relax(scene, plan, around, grains, *loop, watcher);
+    if (report.settled || !report.finished) return report;
+    grains = before;
+    begin_with_taken();
+    return report;
 }
 
 // They decide nothing: a run may begin or cease to keep them when it goes on.
@@ -122,7 +150,9 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
         };
         // From here, for a law may act over a step with another force than it has at its end.
         if (m.observers.need_wall_sums()) m.loop->tally_walls(wall_scale(m.scene, m.plan), -1);
-        const SettleReport settled = settle(m.scene, m.plan, m.around, m.grains, *m.loop, watch);
+        const SettleReport settled = m.plan.start.relaxes
+                                         ? m.relax_taken(watch)
+                                         : settle(m.scene, m.plan, m.around, m.grains, *m.loop, watch);
         result.finished = settled.finished;
         result.settled = settled.settled;
         result.settle_time = static_cast<double>(settled.steps) * m.plan.clock.step;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "engine/run/feeder.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/run/surroundings.hpp"
+#include "engine/start/settle.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "engine/step/step_loop.hpp"
 
@@ -55,6 +57,8 @@ struct Simulation::Impl {
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     void take_grains();
+    void begin_with_taken();
+    SettleReport relax_taken(const std::function<bool(double, std::int64_t)>& watcher);
     void go_on();
     void check_not_over() const;
     void set_orientations();

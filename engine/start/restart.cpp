@@ -173,6 +173,7 @@ std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& 
     CheckpointHeader header;
     in.read(reinterpret_cast<char*>(&header), sizeof header);
     label.step = header.step;
+    label.wall_offset = header.wall_offset;
     return in && label.step >= 0 ? std::optional(label) : std::nullopt;
 }
 
@@ -223,6 +224,17 @@ Grains grains_from_checkpoint(const Scene& scene) {
     }
     grains.orientation = saved.grains.orientation;
     return grains;
+}
+
+std::vector<KeptContacts> contacts_from_checkpoint(const Scene& scene, const ContactRules& rules,
+                                                   const WallParts& walls) {
+    const std::string bytes = read_whole(scene);
+    Bytes in(body_of(scene, bytes));
+    const Saved saved = read_saved(scene, in);
+    check_grains_possible(scene, saved.grains);
+    std::vector<KeptContacts> kept = read_contacts(in, rules, saved.grains, walls);
+    if (in.failed()) throw damaged_checkpoint(scene);
+    return kept;
 }
 
 }  // namespace grainreel

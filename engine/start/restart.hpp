@@ -12,6 +12,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/step/lists/saved_lists.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
@@ -41,6 +42,7 @@ bool is_checkpoint(const std::filesystem::path& path);
 struct CheckpointLabel {
     std::int64_t step = 0;
     std::string scene;
+    Vec3 wall_offset{0, 0, 0};  // m, of the container
 };
 std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path);
 
@@ -55,6 +57,11 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
                                           std::vector<std::int64_t>& given, bool may_change = false);
 // To start anew: where the grains are in the container at rest, and how fast; their masses are the scene's.
 Grains grains_from_checkpoint(const Scene& scene);
+
+// Beside those grains, in the same order: the contacts they had, group by group of the rules that the
+// checkpoint's own scene gives. Throws likewise.
+std::vector<KeptContacts> contacts_from_checkpoint(const Scene& scene, const ContactRules& rules,
+                                                   const WallParts& walls);
 
 // At the scene's `start.file`, which holds what this program does not write.
 UserError damaged_checkpoint(const Scene& scene);

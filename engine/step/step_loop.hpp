@@ -38,6 +38,13 @@ class StepLoop {
     // faces have changed.
     void restart();
 
+    // After a restart(): contacts that touch take up histories, and the forces are those of these. history_of
+    // gets a group of contacts, the indices of the two bodies (as in ContactTable) and the numbers of the
+    // history to fill in; it says whether it has one. The same on every thread.
+    using HistoryOf =
+        std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
+    void take_histories(const HistoryOf& history_of);
+
     // Runs `count` steps of `step` seconds from absolute step `from` (which sets the walls' phase).
     // drag: 1/s, slows every grain's velocity and spin; 0 for none (settling and growing only).
     // Grains in an exit at the end of a step leave then, and the others go on without them.

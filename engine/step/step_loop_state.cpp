@@ -49,4 +49,10 @@ bool StepLoop::is_traffic_sound() const {
                         (t.came == 0 || std::all_of(grains_.id.begin(), grains_.id.end(), known)));
 }
 
+void StepLoop::take_histories(const HistoryOf& history_of) {
+    constexpr std::int64_t kBefore = -1;  // walls stand as restart() had them
+    lists_.take_histories(history_of);
+    sum_loads_anew(std::vector<bool>(grains_.size(), true), kBefore);
+}
+
 }  // namespace grainreel

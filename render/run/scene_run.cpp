@@ -58,12 +58,23 @@ bool SceneRun::pack(const PackingWatcher& watcher) {
 }
 
 std::string SceneRun::packing_text() const {
+    if (scene_.start.method == Start::Method::file)
+        return fmt::format("took {} grains from {}; {}", simulation_.grains(), scene_.start.file,
+                           plan_.start.relaxes && packing_.settled
+                               ? fmt::format("relaxed for {:.3g} s", packing_.settle_time)
+                               : plan_.start.text);
     return fmt::format("packed {} grains: {:.3g} s of settling, solid fraction {:.3f}", simulation_.grains(),
                        packing_.settle_time, packing_.solid_fraction);
 }
 
 std::optional<std::string> SceneRun::packing_warning() const {
     if (packing_.settled) return std::nullopt;
+    if (plan_.start.relaxes)
+        return fmt::format(
+            "{}: the bed of '{}' does not come to rest in this scene, within {:.3g} s and without grains "
+            "that "
+            "move away, so it starts as it is in the file, without being damped",
+            scene_.where("start.file"), scene_.start.file, packing_.settle_time);
     return fmt::format(
         "{}: the bed still moves after {:.3g} s of settling ({:.2g} J a grain); raise start.settle_limit",
         scene_.where("start.settle_limit"), packing_.settle_time, packing_.kinetic_per_grain);

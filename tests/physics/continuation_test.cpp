@@ -118,18 +118,21 @@ TEST_F(Continuation, GoesOnOnlyInTheSceneItIsFrom) {
                 HasSubstr(":32:1: 'wall[0].point' is [0.0, 0.0, 0.005], but it was not there in the run"));
 }
 
-// Without a stiffness of its own the scene of a file gets another than the one whose grains fell.
+// A scene without a stiffness of its own has that of the file. What its plan chooses otherwise is in the
+// scene of the run.
 TEST_F(Continuation, WhatThePlanChoseIsInTheSceneOfTheRun) {
     const auto read = [](const std::string& text, const std::vector<std::string>& sets) {
         return read_scene_text(text, "fifty.toml", with_tested_precision(sets));
     };
     const Scene scene = read(test::small_scene_text, {"start.settle_limit=0.02 s"});
     first(scene);
-    const std::vector<std::string> sets = {"start.method=file", "start.file=" + (here / "first.grs").string(),
-                                           "start.keep_clock=true"};
+    std::vector<std::string> sets = {"start.method=file", "start.file=" + (here / "first.grs").string(),
+                                     "start.keep_clock=true"};
+    EXPECT_EQ(refusal(read(test::small_scene_text, sets)), "accepted");
+    EXPECT_EQ(refusal(read(resolved_scene(scene, make_plan(scene)), sets)), "accepted");
+    sets.push_back("run.steps_per_contact=30");
     EXPECT_THAT(refusal(read(test::small_scene_text, sets)),
                 HasSubstr("take the scene.toml of that run, which has what its plan chose"));
-    EXPECT_EQ(refusal(read(resolved_scene(scene, make_plan(scene)), sets)), "accepted");
 }
 
 TEST_F(Continuation, ContainersOfOtherShapesAreRefused) {
@@ -338,7 +341,8 @@ class ForgedCheckpoint : public Continuation {
 TEST_F(ForgedCheckpoint, NeverCrashes) {
     const std::string good = first(scene_of());
     const Scene keeps = next_of(), anew = next_of({}, "", false);
-    const Plan plan = make_plan(keeps);
+    const Plan plan = make_plan(keeps), plan_anew = make_plan(anew);
+    ASSERT_TRUE(plan_anew.start.keeps_histories);
     Random random(1, Stream::centres);
     int refused = 0;
     constexpr int kForged = 600;
@@ -353,7 +357,8 @@ TEST_F(ForgedCheckpoint, NeverCrashes) {
         if (k % 16 == 0) bytes.resize(at);
         forge(bytes);
         try {
-            Simulation run(k % 8 == 1 ? anew : keeps, plan, 1 + k % 2);
+            const bool begins = k % 8 == 1;
+            Simulation run(begins ? anew : keeps, begins ? plan_anew : plan, 1 + k % 2);
             run.pack();
             run.advance(run.step() + 3);
         } catch (const UserError& mistake) {

@@ -22,7 +22,7 @@ const char* without_file(const Start& start) {
 
 const char* without_settling(const Start& start) {
     if (start.packs()) return nullptr;
-    return start.method == Method::file ? "a start from a file does not settle"
+    return start.method == Method::file ? "a bed from a file settles by itself where it must"
                                         : "grains placed by hand do not settle";
 }
 
@@ -47,8 +47,10 @@ BoundKey<Start> file_key() {
             document.fail(path, fmt::format("lies at {}; rename the folder", wrong));
     };
     return bound_by<Start>(
-               entry("file", KeyKind::text, note("required; file"),
-                     "Checkpoint or final.csv of an earlier run, relative to the scene's folder."),
+               entry(
+                   "file", KeyKind::text, note("required; file"),
+                   "Checkpoint or final.csv of an earlier run, relative to the scene's folder; stiffness and "
+                   "histories follow from it (docs/guide/again.md)."),
                read, [](const Start& start, const Scene&) { return quoted(start.file); })
         .excludes({"settle_limit", "settle_damping"})
         .useless_for(without_file);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <vector>
 
@@ -61,6 +62,11 @@ class BedLists {
     // Whose grains are whose after some left or came: they have new indices, and nobody's lists are in order.
     void renew_shares();
     bool are_made() const { return !shares_.empty(); }
+
+    // Between two runs: contacts that touch get the histories that history_of fills in.
+    using HistoryOf =
+        std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
+    void take_histories(const HistoryOf& history_of);
 
     // Writes lists and histories, bit by bit. load() reads them. The reading fails where save() could not
     // have written what is read, with these grains and faces; no index is trusted.

@@ -83,12 +83,22 @@ void BedLists::load(Bytes& in, const Pose& now) {
     }
 }
 
+// A contact of two threads' grains stands in the tables of both.
+void BedLists::take_histories(const HistoryOf& history_of) {
+    for (Thread& thread : threads_) {
+        for (std::size_t g = 0; g < thread.contacts.tables.size(); ++g)
+            thread.contacts.tables[g].take_histories(
+                [&](std::int32_t first, std::int32_t second, double* to) {
+                    return history_of(g, first, second, to);
+                });
+    }
+}
+
 // Of what load() read: whether the loop could have made it, with these grains and faces.
 bool BedLists::is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const {
-    constexpr std::int32_t kMostSteps = 1'000'000'000;  // without a refresh, even of a bed at rest
     const WallParts walls{static_cast<std::int32_t>(around_.faces.size()),
                           static_cast<std::int32_t>(around_.glued.size())};
-    bool sound = steps >= 0 && steps <= kMostSteps && are_sound(lists_, grains(), walls) &&
+    bool sound = steps >= 0 && steps <= kMostStepsOfLists && are_sound(lists_, grains(), walls) &&
                  life_.is_sound(grains(), reach);
     for (std::size_t g = 0; sound && g < kept.size(); ++g)
         sound = are_sound(kept[g], rules_, g, grains_, walls, steps);

@@ -85,6 +85,18 @@ class ContactTable {
     // keep() appends contact c to `kept`; take() adds contact k of `kept` to the table.
     void keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const;
     void take(const KeptContacts& kept, std::size_t k);
+    // Calls history_of(first, second, numbers) for each contact that touches; where it says true, the contact
+    // has this history from now on.
+    template <class HistoryOf>
+    void take_histories(const HistoryOf& history_of) {
+        double numbers[Histories::kMostNumbers];
+        each_stretch([&](std::int32_t begin, std::int32_t end) {
+            for (std::int32_t c = begin; c < end; ++c) {
+                if (!touches(c) || !history_of(first_[c], second_[c], numbers)) continue;
+                for (int k = 0; k < histories_.numbers(); ++k) histories_.set(c, k, numbers[k]);
+            }
+        });
+    }
     // For checkpoints: at which step since the last sort() contact c began. The bits are inverted (~) if the
     // contact has parted.
     std::int32_t age(std::int32_t c) const;

@@ -72,4 +72,15 @@ bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t 
     return true;
 }
 
+std::vector<KeptContacts> read_contacts(Bytes& in, const ContactRules& rules, const Grains& grains,
+                                        const WallParts& walls) {
+    const Reading each{in};
+    std::vector<KeptContacts> kept(rules.groups.size());
+    for (KeptContacts& group : kept)
+        each(group.first), each(group.second), each(group.tag), each(group.history);
+    for (std::size_t g = 0; g < kept.size() && !in.failed(); ++g)
+        if (!are_sound(kept[g], rules, g, grains, walls, kMostStepsOfLists)) in.fail();
+    return kept;
+}
+
 }  // namespace grainreel

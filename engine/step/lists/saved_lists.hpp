@@ -2,6 +2,9 @@
 // its range would read or write anywhere.
 #pragma once
 
+#include <vector>
+
+#include "engine/base/binary.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/contact_rules.hpp"
@@ -14,6 +17,8 @@ struct WallParts {
     std::int32_t faces, glued;
 };
 
+constexpr std::int32_t kMostStepsOfLists = 1'000'000'000;  // without a refresh, even of a bed at rest
+
 // Every index must be in its range and in its order, and no partner farther away than the list says.
 bool are_sound(const NeighbourLists& lists, std::int32_t grains, const WallParts& walls);
 
@@ -21,6 +26,11 @@ bool are_sound(const NeighbourLists& lists, std::int32_t grains, const WallParts
 // order in which they are computed. Tags are ages, of at most `steps`.
 bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t g, const Grains& grains,
                const WallParts& walls, std::int32_t steps);
+
+// The contacts that BedLists::save() writes first, group by group, of these grains. The reading fails where
+// they could not have been written.
+std::vector<KeptContacts> read_contacts(Bytes& in, const ContactRules& rules, const Grains& grains,
+                                        const WallParts& walls);
 
 // The place of a contact in that order.
 struct ContactOrder {

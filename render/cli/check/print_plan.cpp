@@ -11,7 +11,7 @@
 namespace grainreel {
 namespace {
 
-std::string start_text(const Scene& scene) {
+std::string start_text(const Scene& scene, const Plan& plan) {
     if (scene.start.packs() && scene.grains_at_start() == 0) return "empty; all grains come by [[feed]]";
     const std::string settling =
         fmt::format("then settling for {} at most", span_text(scene.start.settle_limit));
@@ -23,7 +23,8 @@ std::string start_text(const Scene& scene) {
                                span_text(static_cast<double>(scene.grains_at_start()) / rain_rate(scene)),
                                settling);
         case Start::Method::file:
-            return "from " + scene.start.file;
+            return fmt::format("from {}{}{}", scene.start.file, plan.start.text.empty() ? "" : "; ",
+                               plan.start.text);
         case Start::Method::grains:
             break;
     }
@@ -36,7 +37,7 @@ void print_time(const Scene& scene, const Plan& plan, Listing& list) {
               fmt::format("{}{}, chosen for: {}", span_text(plan.clock.step),
                           period > 0 ? fmt::format(", {} a period", grouped(period)) : "", plan.step_reason));
     list.line("steps", fmt::format("{} for {}", grouped(plan.steps), span_text(plan.clock.time(plan.steps))));
-    list.line("start", start_text(scene));
+    list.line("start", start_text(scene, plan));
     list.line("overlap",
               fmt::format("up to {:.2g} % of the smaller diameter expected, with impacts at {:.3g} m/s; most "
                           "contacts stay below {:.2g} %",

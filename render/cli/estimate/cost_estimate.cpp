@@ -9,6 +9,7 @@
 #include "engine/bench/lattice_speed.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/scene/text/writer.hpp"
+#include "engine/start/relax.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/forces/scheme.hpp"
 #include "render/cli/estimate/film_probe.hpp"
@@ -53,6 +54,10 @@ double scene_cost(const Scene& scene, const Plan& plan) {
 
 // In steps of a shaken bed.
 double packing_steps(const Scene& scene, const Plan& plan) {
+    // A bed that relaxes is at rest soon after it was stopped.
+    if (plan.start.relaxes)
+        return settling_over_shaken *
+               (static_cast<double>(braking_steps(plan)) + settling_time / plan.clock.step);
     if (!scene.start.packs() || scene.grains_at_start() == 0) return 0;
     const bool rains = scene.start.method == Start::Method::rain;
     const double settling = settling_time / plan.clock.step;

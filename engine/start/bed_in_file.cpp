@@ -1,0 +1,170 @@
+#include "engine/start/bed_in_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/measure/energy/energy.hpp"
+#include "engine/run/surroundings.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/start/restart.hpp"
+#include "engine/start/start_file.hpp"
+#include "engine/start/weight_moments.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double kRestsBelow = 1e-4;     // m g d, mean kinetic energy of a grain
+constexpr double kNobodyAbove = 0.05;    // m g d
+constexpr double kFewestTouching = 0.5;  // of the grains
+
+// Springs without anything else: their contacts are only looked at.
+Plan plan_to_look(const Scene& scene) {
+    PairPlan spring;
+    spring.model.normal = NormalForce::spring_dashpot;
+    spring.model.tangential = TangentialLaw::none;
+    spring.loading_stiffness = spring.unloading_stiffness = 1;
+    const std::size_t count = scene.species.size();
+    Plan plan;
+    plan.grain.assign(count * count, spring);
+    plan.wall.assign(count, spring);
+    if (scene.container.wall_grains) plan.glued.assign(count, spring);
+    plan.clock.step = 1;
+    return plan;
+}
+
+double effective_radius(const BedInFile& bed, const Surroundings& around, const ContactView& c) {
+    const double first = bed.grains.place[c.first].radius;
+    if (c.second < 0 && c.glued < 0) return first;
+    const double second =
+        c.second >= 0 ? bed.grains.place[c.second].radius : around.glued.place[c.glued].radius;
+    return first * second / (first + second);
+}
+
+// Puts the grains in another order.
+void find_overlaps(const Scene& scene, BedInFile& bed) {
+    const Plan plan = plan_to_look(scene);
+    Surroundings around = make_surroundings(scene, plan);
+    Team alone(1);
+    StepLoop loop(plan, around, bed.grains, alone);
+    loop.restart();
+    const WeightMoments moments(scene.gravity, bed.grains);
+    bed.moment_of_weights = moments.of_weights();
+    loop.visit_contacts(-1, [&](const ContactView& c) {
+        bed.overlaps.push_back({static_cast<std::size_t>(c.first), c.second, c.glued >= 0, c.overlap,
+                                effective_radius(bed, around, c), moments.carried(c)});
+    });
+}
+
+// Grains of another order than when they were read.
+double share_touching(const BedInFile& bed) {
+    std::vector<bool> touches(bed.grains.size(), false);
+    for (const BedInFile::Overlap& overlap : bed.overlaps) {
+        touches[overlap.first] = true;
+        if (overlap.second >= 0) touches[static_cast<std::size_t>(overlap.second)] = true;
+    }
+    const auto count = std::count(touches.begin(), touches.end(), true);
+    return static_cast<double>(count) / static_cast<double>(touches.size());
+}
+
+bool same_face(const Face& one, const Face& other) {
+    return one.kind == other.kind && one.point == other.point && one.normal == other.normal &&
+           one.radius == other.radius;
+}
+
+// Of the faces that the grains touched in the run they are from.
+bool faces_stay(const std::vector<Face>& before, const std::vector<Face>& now, const Grains& grains) {
+    return std::all_of(before.begin(), before.end(), [&](const Face& face) {
+        const auto touches = [&](const Place& p) {
+            return distance_to(face, Vec3::Zero(), p.position).distance < p.radius;
+        };
+        if (std::none_of(grains.place.begin(), grains.place.end(), touches)) return true;
+        return std::any_of(now.begin(), now.end(), [&](const Face& other) { return same_face(face, other); });
+    });
+}
+
+std::string what_moves(const Scene& scene, const BedInFile& bed) {
+    const Grains& grains = bed.grains;
+    const double gravity = scene.gravity.norm();
+    if (gravity == 0) return "without gravity no bed rests";
+    double energy = 0, unit = 0, most = 0;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const Motion& motion = grains.motion[i];
+        const double own = 0.5 * grains.mass(i) * motion.velocity.squaredNorm() +
+                           0.5 * grains.inertia(i) * motion.spin.squaredNorm();
+        const double its_unit = grains.mass(i) * gravity * 2 * grains.place[i].radius;
+        energy += own, unit += its_unit;
+        most = std::max(most, own / its_unit);
+    }
+    if (energy > kRestsBelow * unit || most > kNobodyAbove) return "the bed in the file moves";
+    if (share_touching(bed) < kFewestTouching) return "most grains in the file touch nothing";
+    if (!bed.origin) return "";
+    const StartOrigin& origin = *bed.origin;
+    if (origin.walls_moved()) return "the container had moved when the file was written";
+    if (origin.scene.gravity != scene.gravity) return "gravity is not that of the file's run";
+    const Surroundings here = make_surroundings(scene, plan_to_look(scene));
+    if (here.period != origin.around.period || !same_glued_grains(here.glued, origin.around.glued) ||
+        !faces_stay(origin.around.faces, here.faces, grains))
+        return "the walls are not those of the file's run";
+    return "";
+}
+
+void look_at_speeds(const Scene& scene, BedInFile& bed) {
+    const WeightMoments moments(scene.gravity, bed.grains);
+    const double gravity = scene.gravity.norm();
+    for (std::size_t i = 0; i < bed.grains.size(); ++i) {
+        const Place& place = bed.grains.place[i];
+        const double speed = bed.grains.motion[i].velocity.norm();
+        const double height = moments.height(place.position) - place.radius;
+        bed.fastest = std::max(bed.fastest, speed);
+        bed.falls = std::max(bed.falls, std::sqrt(speed * speed + 2 * gravity * height));
+    }
+}
+
+}  // namespace
+
+BedInFile bed_in_file(const Scene& scene) {
+    BedInFile bed;
+    bed.of_checkpoint = is_checkpoint(scene.start.file);
+    bed.grains = bed.of_checkpoint ? grains_from_checkpoint(scene) : grains_from_table(scene);
+    check_grains_possible(scene, bed.grains);
+    bed.origin = bed.of_checkpoint ? origin_of(scene.start.file) : origin_beside(scene, bed.grains);
+    if (bed.grains.size() == 0) {
+        bed.moves_because = "the file has no grains";
+        return bed;
+    }
+    find_overlaps(scene, bed);
+    look_at_speeds(scene, bed);
+    bed.moves_because = what_moves(scene, bed);
+    return bed;
+}
+
+void stiffness_of_overlaps(const Scene& scene, const BedInFile& bed, StartFacts& facts) {
+    double wanted = bed.moment_of_weights;
+    // Forces over stiffness, times what they carry: of linear contacts, and of all as if they were linear.
+    double linear = 0, hertz = 0, hertz_as_linear = 0, depths = 0, radii = 0, count = 0;
+    for (const BedInFile::Overlap& o : bed.overlaps) {
+        const auto first = static_cast<std::size_t>(bed.grains.species[o.first]);
+        const PairContact& contact =
+            o.second >= 0 ? scene.between(first, static_cast<std::size_t>(bed.grains.species[o.second]))
+            : o.glued     ? scene.between(first, scene.container.wall_grains->species)
+                          : scene.contact.wall[first];
+        const bool of_hertz = contact.normal == NormalLaw::hertz;
+        const double as_hertz = 4.0 / 3 * std::sqrt(o.radius * o.depth) * o.depth;
+        if (contact.stiffness) {
+            wanted -= *contact.stiffness * (of_hertz ? as_hertz : o.depth) * o.carries;
+            continue;
+        }
+        (of_hertz ? hertz_as_linear : linear) += o.depth * o.carries;
+        if (of_hertz) hertz += as_hertz * o.carries;
+        depths += o.depth, radii += o.radius, count += 1;
+    }
+    const double stiffness = wanted / (linear + hertz_as_linear);
+    if (count == 0 || !(stiffness > 0) || !std::isfinite(stiffness)) return;
+    facts.linear = stiffness;
+    facts.modulus = hertz > 0 ? stiffness * hertz_as_linear / hertz
+                              : stiffness / (4.0 / 3 * std::sqrt(radii * depths) / count);
+}
+
+}  // namespace grainreel
