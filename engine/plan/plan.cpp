@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/drive_clock.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/rain_plan.hpp"
@@ -30,15 +31,10 @@ void plan_glued(const Scene& scene, const BedPlan& bed, Plan& plan) {
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         const Species& first = scene.species[a];
         plan.glued.push_back(plan_pair(scene, bed, scene.between(a, species), first, &glued));
-        plan.expected_overlap =
-            std::max(plan.expected_overlap, expected_overlap(scene, bed, plan.glued.back(), first, &glued));
     }
 }
 
 void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
-    const auto keep_overlap = [&](const PairPlan& pair, const Species& a, const Species* b) {
-        plan.expected_overlap = std::max(plan.expected_overlap, expected_overlap(scene, bed, pair, a, b));
-    };
     const std::size_t count = scene.species.size();
     for (std::size_t a = 0; a < count; ++a) {
         const Species& first = scene.species[a];
@@ -46,12 +42,26 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, Plan& plan) {
             plan.grain.push_back(b < a
                                      ? plan.grain[b * count + a]
                                      : plan_pair(scene, bed, scene.between(a, b), first, &scene.species[b]));
-            keep_overlap(plan.grain.back(), first, &scene.species[b]);
         }
         plan.wall.push_back(plan_pair(scene, bed, scene.contact.wall[a], first, nullptr));
-        keep_overlap(plan.wall.back(), first, nullptr);
     }
     plan_glued(scene, bed, plan);
+}
+
+// The largest of all kinds of contact, and what most have: the mean over those between grains, or at walls
+// where that is more.
+void plan_overlaps(const Scene& scene, const BedPlan& bed, Plan& plan) {
+    double between_grains = 0, at_walls = 0;
+    for (const ContactKind& kind : contact_kinds(scene, plan)) {
+        const Species* other = kind.other();
+        const double largest =
+            expected_overlap(scene, bed, *kind.pair, extremes(kind.first, other), bed.largest_mass);
+        if (largest > plan.expected_overlap) plan.expected_overlap = largest, plan.deepest = kind.name;
+        const double usual =
+            expected_overlap(scene, bed, *kind.pair, {mean_touching(kind.first, other)}, bed.usual_mass);
+        (kind.at_wall ? at_walls : between_grains) += kind.share * usual;
+    }
+    plan.usual_overlap = std::max(between_grains, at_walls);
 }
 
 // `seconds` in steps; `key` is the place to complain about.
@@ -178,6 +188,7 @@ Plan make_plan(const Scene& scene) {
     plan.bed_height = bed.height;
     plan.impact_speed = bed.impact_speed;
     plan_contacts(scene, bed, plan);
+    plan_overlaps(scene, bed, plan);
 
     const StepChoice step = plan_step(scene, plan);
     plan.step_reason = step.reason;

@@ -66,7 +66,7 @@ fs::path draw_still(const FilmRequest& request, double at, RunListener& listener
     const auto seconds = [&](std::size_t frames) { return static_cast<double>(frames) / scene.film.rate; };
     settle_orbit(scene.film.camera, seconds(run.moments().size()));
     Renderer renderer(scene, drawing_threads(scene.run.threads).raster, request.gl);
-    if (const std::string note = renderer.gl_note(); !note.empty()) listener.info(note);
+    if (const std::string note = renderer.gl_note(); !note.empty()) listener.info("note: " + note);
     for (const std::string& line : source.news()) listener.warning(line);
     for (const std::string& line : film_warnings(scene, 1)) listener.warning(line);
     renderer.start_from(run.first_whole());
