@@ -1,5 +1,5 @@
-// Comparisons of numbers that a user wrote in decimals and units. "5.6 mm" is not 2.5 times "2.24 mm" to the last
-// bit, nor is every number of millimetres that of its metres; what was meant to be equal is.
+// Comparisons of numbers that a user wrote in decimals and units. "5.6 mm" is not 2.5 times "2.24 mm" to the
+// last bit, nor is every number of millimetres that of its metres; what was meant to be equal is.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The kinds of contact that a run can have: whose grains can meet, and how many of all contacts each kind has.
-// What is said of a bed is said of most of its contacts, and the extreme by its name.
+// The kinds of contact that a run can have: whose grains can meet, and how many of all contacts each kind
+// has. What is said of a bed is said of most of its contacts, and the extreme by its name.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// What contacts as they are planned will do to a bed. What is said of it is said of most of its contacts; a few
-// that are beyond a bound are named.
+// What contacts as they are planned will do to a bed. What is said of it is said of most of its contacts; a
+// few that are beyond a bound are named.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,8 +41,7 @@ std::string longest_text(const Kinds& kinds, bool at_wall, double mean) {
     constexpr double much = 1.25;
     const ContactKind* longest = nullptr;
     for (const ContactKind& kind : kinds)
-        if (kind.at_wall == at_wall &&
-            (!longest || kind.mean_contact_time() > longest->mean_contact_time()))
+        if (kind.at_wall == at_wall && (!longest || kind.mean_contact_time() > longest->mean_contact_time()))
             longest = &kind;
     if (!longest || longest->mean_contact_time() < much * mean) return "";
     return fmt::format(" ({:.2g} s in most contacts, {:.2g} s between {})", mean,
@@ -76,10 +75,11 @@ void warn_of_tunnelling(const BedPlan& bed, const Kinds& kinds, Warnings& warnin
     for (const ContactKind& kind : kinds)
         if (!softest || tunnelling_speed(kind) < tunnelling_speed(*softest)) softest = &kind;
     if (!softest || fastest <= 0.5 * tunnelling_speed(*softest)) return;
-    warnings.add("contact.stiffness",
-                 fmt::format("grains at {:.3g} m/s may pass through each other, which happens from {:.3g} m/s "
-                             "on between {}; raise the stiffness",
-                             fastest, tunnelling_speed(*softest), softest->name));
+    warnings.add(
+        "contact.stiffness",
+        fmt::format("grains at {:.3g} m/s may pass through each other, which happens from {:.3g} m/s "
+                    "on between {}; raise the stiffness",
+                    fastest, tunnelling_speed(*softest), softest->name));
 }
 
 void warn_of_softness(const BedPlan& bed, const Kinds& kinds, Warnings& warnings) {
@@ -88,15 +88,15 @@ void warn_of_softness(const BedPlan& bed, const Kinds& kinds, Warnings& warnings
     if (bed.gravity == 0 || share <= 0.2) return;
     warnings.add(
         "contact.stiffness",
-        fmt::format("a wave needs {:.2g} of a period to cross the bed, which then behaves like a soft body{}; "
-                    "raise the stiffness",
-                    share, longest_text(kinds, false, lasts)));
+        fmt::format(
+            "a wave needs {:.2g} of a period to cross the bed, which then behaves like a soft body{}; "
+            "raise the stiffness",
+            share, longest_text(kinds, false, lasts)));
 }
 
 // Contacts that last too long for what else happens meanwhile.
 void warn_of_long_contacts(const BedPlan& bed, const Kinds& kinds, Warnings& warnings) {
-    const double at_walls =
-        mean_over(kinds, true, [](const auto& kind) { return kind.mean_contact_time(); });
+    const double at_walls = mean_over(kinds, true, [](const auto& kind) { return kind.mean_contact_time(); });
     if (bed.frequency * at_walls > alarming_turn)
         warnings.add(
             "contact.stiffness",

@@ -41,7 +41,8 @@ double PairPlan::restitution_of(double mass, double speed) const {
     const double natural = std::sqrt(loading_stiffness / mass);
     if (model.normal == NormalForce::spring_dashpot)
         return linear_restitution(damping_rate(mass) / (2 * natural), attraction);
-    if (model.normal == NormalForce::walton_braun_speed) return std::sqrt(natural / (natural + hardening * speed));
+    if (model.normal == NormalForce::walton_braun_speed)
+        return std::sqrt(natural / (natural + hardening * speed));
     if (!restitution_table.empty()) return restitution_at(restitution_table, speed);
     return restitution;  // of Hertz and of a constant K2: at any mass and speed
 }

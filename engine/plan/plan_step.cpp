@@ -36,10 +36,11 @@ double tangential_stiffness(const PairPlan& pair) {
     return pair.friction > 0 ? pair.tangential_stiffness : 0;
 }
 
-// kg/s, of the dashpots of two with this effective mass. Hertz' grow with the overlap: as they are at the
-// allowed one, where K = 3/2 k sqrt(a).
+// kg/s, of the dashpots of two with this effective mass. Hertz' grow as a^(1/4): as they are at an eighth of
+// the allowed overlap, which few contacts of a bed pass; K = 3/2 k sqrt(a) is that at the allowed one.
 double normal_dashpot(const PairPlan& pair, double mass) {
-    if (pair.modulus > 0) return pair.hertz_damping * std::sqrt(mass * pair.loading_stiffness / 1.5);
+    if (pair.modulus > 0)
+        return pair.hertz_damping * std::sqrt(mass * pair.loading_stiffness / 1.5 / std::sqrt(8));
     return pair.damping_rate(mass) * mass;
 }
 double tangential_dashpot(const PairPlan& pair, double mass) {

@@ -31,12 +31,13 @@ TEST(Decimals, AreTheSameUpToRounding) {
 // 2.5 diameters, at every diameter of three digits.
 TEST(Bounds, APeriodOfTwoAndAHalfDiameters) {
     for (int hundredths = 100; hundredths < 400; ++hundredths) {
-        const Assignments sets{fmt::format("species.b.diameter={}.{:02} mm", hundredths / 100, hundredths % 100),
-                               "species.a.diameter=0.9 mm",
-                               fmt::format("container.depth={:.4f} mm", 2.5 * hundredths / 100)};
+        const Assignments sets{
+            fmt::format("species.b.diameter={}.{:02} mm", hundredths / 100, hundredths % 100),
+            "species.a.diameter=0.9 mm", fmt::format("container.depth={:.4f} mm", 2.5 * hundredths / 100)};
         EXPECT_EQ(complaint(periodic, sets), "") << sets[0].text << " " << sets[2].text;
     }
-    EXPECT_THAT(complaint(periodic, {"container.depth=4.99 mm"}), testing::HasSubstr("too short to be periodic"));
+    EXPECT_THAT(complaint(periodic, {"container.depth=4.99 mm"}),
+                testing::HasSubstr("too short to be periodic"));
 }
 
 TEST(Bounds, GrainsThatJustFit) {
@@ -54,9 +55,9 @@ TEST(Bounds, GrainsThatJustFit) {
 
 TEST(Bounds, OfTheWedge) {
     for (const char* high : {"7.1", "6.7", "11.3"})
-        EXPECT_EQ(complaint(wedge_text, {fmt::format("container.height={} cm", high),
-                                         fmt::format("container.slant_height={}e-2", high),
-                                         "species.small.count=10"}),
+        EXPECT_EQ(complaint(wedge_text,
+                            {fmt::format("container.height={} cm", high),
+                             fmt::format("container.slant_height={}e-2", high), "species.small.count=10"}),
                   "");
     // Slants that meet at the floor: 45 degrees over as much as the half-width.
     EXPECT_EQ(complaint(wedge_text, {"container.half_angle=45 deg", "container.slant_height=5.5 cm"}), "");
@@ -71,15 +72,18 @@ TEST(Bounds, OfOutletAndTray) {
     EXPECT_EQ(complaint(wedge_text, out("{ width = \"0.01 m\" }")), "") << "as wide as the largest";
     // Twice the stroke's amplitude and a radius.
     const double least = 2 * read_text(wedge_text).drive.amplitude + 0.005;
-    EXPECT_EQ(complaint(wedge_text, out(fmt::format("{{ width = 0.02, exit_depth = {:.17g} }}", least * (1 - 1e-15)))),
+    EXPECT_EQ(complaint(wedge_text,
+                        out(fmt::format("{{ width = 0.02, exit_depth = {:.17g} }}", least * (1 - 1e-15)))),
               "");
-    EXPECT_THAT(complaint(wedge_text, out(fmt::format("{{ width = 0.02, exit_depth = {:.17g} }}", 0.99 * least))),
-                testing::HasSubstr("may still touch the floor"));
+    EXPECT_THAT(
+        complaint(wedge_text, out(fmt::format("{{ width = 0.02, exit_depth = {:.17g} }}", 0.99 * least))),
+        testing::HasSubstr("may still touch the floor"));
 }
 
 TEST(Bounds, OfTimes) {
-    const std::string captions = wedge_text + "[[film.caption]]\nfrom = \"0.1 s\"\nto = \"700.7 ms\"\ntext = \"a\"\n"
-                                              "[[film.caption]]\nfrom = 0.7007\ntext = \"b\"\n";
+    const std::string captions = wedge_text +
+                                 "[[film.caption]]\nfrom = \"0.1 s\"\nto = \"700.7 ms\"\ntext = \"a\"\n"
+                                 "[[film.caption]]\nfrom = 0.7007\ntext = \"b\"\n";
     EXPECT_EQ(complaint(captions), "");
     const std::string segments =
         wedge_text + "[[film.segment]]\nduration = \"700.7 ms\"\n[[film.segment]]\nduration = 1.2993\n";
@@ -90,15 +94,18 @@ TEST(Bounds, OfTimes) {
 }
 
 TEST(Bounds, OfFeeds) {
-    const std::string fed = wedge_text + "[[feed]]\nrate = 10\nlow = [0, 0, \"160.3 mm\"]\nhigh = [0, 0, 0.1603]\n";
+    const std::string fed =
+        wedge_text + "[[feed]]\nrate = 10\nlow = [0, 0, \"160.3 mm\"]\nhigh = [0, 0, 0.1603]\n";
     EXPECT_EQ(complaint(fed), "");
     // The only place is as high as a radius under the lid.
-    EXPECT_EQ(complaint(wedge_text + "[[feed]]\nrate = 10\nlow = [0, 0, \"177.5 mm\"]\nhigh = [0, 0, \"0.1775 m\"]\n"),
+    EXPECT_EQ(complaint(wedge_text +
+                        "[[feed]]\nrate = 10\nlow = [0, 0, \"177.5 mm\"]\nhigh = [0, 0, \"0.1775 m\"]\n"),
               "");
 }
 
 TEST(Bounds, OfGluedGrains) {
-    const std::string rough = "container.wall_grains={ species = \"a\", faces = [\"floor\", \"left_wall\", \"right_wall\"] }";
+    const std::string rough =
+        "container.wall_grains={ species = \"a\", faces = [\"floor\", \"left_wall\", \"right_wall\"] }";
     EXPECT_EQ(complaint(with(box_text, "width = 0.02", "width = \"3.3 mm\""),
                         {rough, "species.a.diameter=1.1 mm", "species.b.diameter=2.2 mm", "species.a.count=1",
                          "species.b.count=1"}),

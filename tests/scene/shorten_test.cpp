@@ -61,7 +61,8 @@ TEST(Shorten, LeavesOutWhatComesLaterAndSaysSoInOneLine) {
 // What is written reads back, and needs nothing of the command line then.
 TEST(Shorten, AShortenedSceneReadsBack) {
     const Scene scene = read_text(later_text, until("1 s"));
-    const Scene again = read_scene_text(resolved_scene(scene, make_plan(scene)), "again.toml", {}, measurable_in);
+    const Scene again =
+        read_scene_text(resolved_scene(scene, make_plan(scene)), "again.toml", {}, measurable_in);
     EXPECT_EQ(again.drive, scene.drive);
     EXPECT_EQ(again.film.captions, scene.film.captions);
     EXPECT_EQ(again.container, scene.container);

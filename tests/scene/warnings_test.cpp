@@ -1,4 +1,5 @@
-// Each warning of the plan in a scene in which it must speak, and beside it in one like it in which it must not.
+// Each warning of the plan in a scene in which it must speak, and beside it in one like it in which it must
+// not.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -101,8 +102,9 @@ TEST(Warnings, LeaveOutPairsThatCannotMeet) {
         "[[contact.pair]]\nbetween = [\"nut\", \"nut\"]\nstiffness = 0.01\n[container]";
     EXPECT_THAT(warnings(with(nut_text, "[container]", nut_nut)), Not(tunnels));
     EXPECT_THAT(warnings(with(nut_text, "[container]", nut_nut), {"species.nut.count=2"}), tunnels);
-    const std::string no_walls = with(exact_text, "[[wall]]\npoint = [0, 0, \"-3 mm\"]\nnormal = [0, 0, 2]\n"
-                                                  "velocity = [0, 0, \"10 cm/s\"]\n",
+    const std::string no_walls = with(exact_text,
+                                      "[[wall]]\npoint = [0, 0, \"-3 mm\"]\nnormal = [0, 0, 2]\n"
+                                      "velocity = [0, 0, \"10 cm/s\"]\n",
                                       "");
     const Scene scene = read_text(no_walls);
     for (const ContactKind& kind : contact_kinds(scene, make_plan(scene))) EXPECT_FALSE(kind.at_wall);
@@ -144,12 +146,13 @@ TEST(Warnings, OfHeatWithoutLimitOnlyWhereNothingIsLost) {
 
 TEST(Warnings, OfAnOutletAndAPeriodNameTheFewThatAreTooLarge) {
     const Assignments slot{"container.outlet.diameter=15 mm"};  // exactly five beads
-    EXPECT_THAT(warnings(nut_text, slot), testing::AllOf(Not(HasSubstr("grains wide")),
-                                                         HasSubstr("1.7 grains of \"nut\" wide")));
+    EXPECT_THAT(warnings(nut_text, slot),
+                testing::AllOf(Not(HasSubstr("grains wide")), HasSubstr("1.7 grains of \"nut\" wide")));
     EXPECT_THAT(warnings(nut_text, {"container.outlet.diameter=14.9 mm"}), HasSubstr("grains wide"));
     EXPECT_THAT(warnings(nut_text, {"container.outlet.diameter=45 mm"}), Not(HasSubstr("outlet")));
-    const std::string box = with(nut_text, "shape = \"cylinder\"\ndiameter = \"45 mm\"",
-                                 "shape = \"box\"\nwidth = \"60 mm\"\ndepth = \"24 mm\"\nperiodic_depth = true");
+    const std::string box =
+        with(nut_text, "shape = \"cylinder\"\ndiameter = \"45 mm\"",
+             "shape = \"box\"\nwidth = \"60 mm\"\ndepth = \"24 mm\"\nperiodic_depth = true");
     EXPECT_THAT(warnings(box), HasSubstr("the period is 2.67 diameters of \"nut\""));
     EXPECT_THAT(warnings(box, {"species.nut.diameter=4 mm"}), Not(HasSubstr("the period is"))) << "six";
     EXPECT_THAT(warnings(box, {"container.depth=17 mm", "species.nut.diameter=4 mm"}),
