@@ -121,7 +121,7 @@ struct ContactLaw {
         }
         if constexpr (rubs) {
             f.tangential = Tangential::now(p.tangential, p.normal, h.tangential, touch, f.normal);
-            e.sideways = Tangential::stored_energy(p.tangential, h.tangential);
+            e.sideways = Tangential::stored_energy(p.tangential, h.tangential, f.normal);
             e.stored += e.sideways;
             e.rubbing = f.tangential.dot(touch.slip_velocity);
         }

@@ -25,6 +25,12 @@ HWY_INLINE Triple<R> capped_at(const Triple<R>& force, R limit) {
     return select(slides, shortened, force);
 }
 
+// N^2, of the part of `force` that a cap lets act: a spring beyond it gives back no more than one at it.
+template <class R>
+HWY_INLINE R squared_within(const Triple<R>& force, R limit) {
+    return smaller(force.squared(), limit * limit);
+}
+
 }  // namespace grainreel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -94,8 +94,9 @@ struct IncrementalSlip {
         return h.force;
     }
 
+    // J; the force itself is capped.
     template <class R>
-    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h) {
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, R) {
         return h.force.squared() / (R(2) * p.stiffness);
     }
 

@@ -63,9 +63,11 @@ struct LinearSpring {
         return capped_at(h.spring_force + dashpot(normal, touch), p.friction * size_of(normal_force));
     }
 
+    // J. What the dashpot leaves of a cap may press the spring against the slip, by more than mu N: none of
+    // that comes back.
     template <class R>
-    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h) {
-        return h.spring_force.squared() / (R(2) * p.stiffness);
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, R normal_force) {
+        return squared_within(h.spring_force, p.friction * size_of(normal_force)) / (R(2) * p.stiffness);
     }
 
   private:

@@ -68,9 +68,11 @@ struct Mindlin {
                          p.friction * size_of(normal_force));
     }
 
+    // J, as in linear_spring-inl.hpp.
     template <class R>
-    static HWY_INLINE R stored_energy(const Parameters<R>&, const History<R>& h) {
-        return select(h.stiffness > R(0), h.spring_force.squared() / (R(2) * h.stiffness), R(0));
+    static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, R normal_force) {
+        const R squared = squared_within(h.spring_force, p.friction * size_of(normal_force));
+        return select(h.stiffness > R(0), squared / (R(2) * h.stiffness), R(0));
     }
 };
 

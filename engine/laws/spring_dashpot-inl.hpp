@@ -1,7 +1,8 @@
-// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, with v_n the closing speed. At the end of
-// contact the dashpot would pull: with attraction it may (as in LAMMPS' hooke/history), and a free impact has
-// e = exp(-pi b / sqrt(1 - b^2)), b = c / (2 sqrt(k / m_eff)); without, N is at least 0 and e a little larger
-// (Schwager & Poeschel 2007, Granul. Matter 9, 465).
+// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, with v_n the closing speed. c is a number
+// of the contact's kind, as in LAMMPS' hooke/history, or c_1 / sqrt(m_eff): then grains of all sizes keep one
+// restitution. At the end of contact the dashpot would pull: with attraction it may (as in LAMMPS'
+// hooke/history), and a free impact has e = exp(-pi b / sqrt(1 - b^2)), b = c / (2 sqrt(k / m_eff)); without,
+// N is at least 0 and e a little larger (Schwager & Poeschel 2007, Granul. Matter 9, 465).
 #if defined(GRAINREEL_LAWS_SPRING_DASHPOT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_SPRING_DASHPOT_INL
 #undef GRAINREEL_LAWS_SPRING_DASHPOT_INL
@@ -23,25 +24,37 @@ struct SpringDashpot {
 
     template <class R>
     struct Parameters {
-        R stiffness;           // N/m
-        R damping;             // 1/s, times the effective mass
-        R tangential_damping;  // 1/s, likewise; for the tangential law
-        R lowest;              // N: 0, or so far below that nothing reaches it
+        R stiffness;                    // N/m
+        R damping;                      // 1/s, times the effective mass
+        R tangential_damping;           // 1/s, likewise; for the tangential law
+        R by_root, tangential_by_root;  // kg^(1/2)/s, over the root of the effective mass: more of both
+        R lowest;                       // N: 0, or so far below that nothing reaches it
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit(stiffness), visit(damping), visit(tangential_damping), visit(lowest);
+            visit(stiffness), visit(damping), visit(tangential_damping);
+            visit(by_root), visit(tangential_by_root), visit(lowest);
         }
         // kg/s, of the dashpots, and 1/s, of the first by mass.
-        HWY_INLINE R normal_damping(const Touch<R>& touch) const { return damping * touch.effective_mass; }
-        HWY_INLINE R damping_rate(const Touch<R>&) const { return damping; }
+        HWY_INLINE R normal_damping(const Touch<R>& touch) const {
+            return damping_rate(touch) * touch.effective_mass;
+        }
+        HWY_INLINE R damping_rate(const Touch<R>& touch) const { return rate(damping, by_root, touch); }
         HWY_INLINE R sideways_damping(const Touch<R>& touch) const {
-            return tangential_damping * touch.effective_mass;
+            return rate(tangential_damping, tangential_by_root, touch) * touch.effective_mass;
+        }
+
+      private:
+        // Most beds have grains of one size a kind, and need no root.
+        static HWY_INLINE R rate(R fixed, R over_root, const Touch<R>& touch) {
+            if (none(over_root > R(0))) return fixed;
+            return fixed + over_root * root(touch.inverse_mass);
         }
     };
     static Parameters<double> from(const PairPlan& plan) {
-        return {plan.loading_stiffness, plan.normal_damping, plan.tangential_damping,
-                plan.attraction ? -kFarBelow : 0};
+        return {plan.loading_stiffness,          plan.normal_damping,
+                plan.tangential_damping,         plan.damping_by_root,
+                plan.tangential_damping_by_root, plan.attraction ? -kFarBelow : 0};
     }
 
     template <class R>

@@ -36,16 +36,19 @@ std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& 
 // Watches the energy balance: without work done on them, grains can only lose energy.
 class EnergyWatch {
   public:
-    // energy: J, total; work: J, done by walls so far; allowance: J, below which nothing is said.
+    // energy: J, total; work: J, done by walls so far; through: J, the sizes of all terms of both added up;
+    // allowance: J, below which nothing is said.
     // Throws RunError when energy - work has risen above its lowest value so far by more than 5 % of all that
-    // was turned over and of the motion there is, plus the allowance.
-    void check(double energy, double work, double allowance, const HealthLimits& limits, const Grains& grains,
-               std::int64_t step);
+    // was turned over and of the motion there is, plus the allowance, plus what rounding may do to the
+    // largest sum there was.
+    void check(double energy, double work, double through, double allowance, const HealthLimits& limits,
+               const Grains& grains, std::int64_t step);
 
   private:
     double lowest_ = std::numeric_limits<double>::infinity();
     double first_ = std::numeric_limits<double>::quiet_NaN();
     double work_done_ = 0;
+    double largest_through_ = 0;
 };
 
 }  // namespace grainreel

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/drive_clock.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/rain_plan.hpp"
@@ -63,15 +64,10 @@ void plan_glued(const Scene& scene, const BedPlan& bed, const StartFacts& file, 
         const Species& first = scene.species[a];
         plan.glued.push_back(
             plan_kind(scene, bed, file, scene.between(a, species), first, &glued, file.glued, a));
-        plan.expected_overlap =
-            std::max(plan.expected_overlap, expected_overlap(scene, bed, plan.glued.back(), first, &glued));
     }
 }
 
 void plan_contacts(const Scene& scene, const BedPlan& bed, const StartFacts& file, Plan& plan) {
-    const auto keep_overlap = [&](const PairPlan& pair, const Species& a, const Species* b) {
-        plan.expected_overlap = std::max(plan.expected_overlap, expected_overlap(scene, bed, pair, a, b));
-    };
     const std::size_t count = scene.species.size();
     for (std::size_t a = 0; a < count; ++a) {
         const Species& first = scene.species[a];
@@ -79,12 +75,26 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, const StartFacts& fil
             plan.grain.push_back(b < a ? plan.grain[b * count + a]
                                        : plan_kind(scene, bed, file, scene.between(a, b), first,
                                                    &scene.species[b], file.grain, a * count + b));
-            keep_overlap(plan.grain.back(), first, &scene.species[b]);
         }
         plan.wall.push_back(plan_kind(scene, bed, file, scene.contact.wall[a], first, nullptr, file.wall, a));
-        keep_overlap(plan.wall.back(), first, nullptr);
     }
     plan_glued(scene, bed, file, plan);
+}
+
+// The largest of all kinds of contact, and what most have: the mean over those between grains, or at walls
+// where that is more.
+void plan_overlaps(const Scene& scene, const BedPlan& bed, Plan& plan) {
+    double between_grains = 0, at_walls = 0;
+    for (const ContactKind& kind : contact_kinds(scene, plan)) {
+        const Species* other = kind.other();
+        const double largest =
+            expected_overlap(scene, bed, *kind.pair, extremes(kind.first, other), bed.largest_mass);
+        if (largest > plan.expected_overlap) plan.expected_overlap = largest, plan.deepest = kind.name;
+        const double usual =
+            expected_overlap(scene, bed, *kind.pair, {mean_touching(kind.first, other)}, bed.usual_mass);
+        (kind.at_wall ? at_walls : between_grains) += kind.share * usual;
+    }
+    plan.usual_overlap = std::max(between_grains, at_walls);
 }
 
 // `seconds` in steps; `key` is the place to complain about.
@@ -211,6 +221,7 @@ Plan make_plan(const Scene& scene, const StartFacts& file) {
     plan.bed_height = bed.height;
     plan.impact_speed = bed.impact_speed;
     plan_contacts(scene, bed, file, plan);
+    plan_overlaps(scene, bed, plan);
 
     const StepChoice step = plan_step(scene, plan);
     plan.step_reason = step.reason;

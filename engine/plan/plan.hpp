@@ -48,15 +48,22 @@ struct PairPlan {
     double restitution = 1;  // at v* where it depends on speed
     double friction = 0;
     double rolling_friction = 0;
-    double normal_damping = 0;      // 1/s, times the effective mass of the touching pair
-    double tangential_damping = 0;  // 1/s, likewise
-    double hertz_damping = 0;       // d of Hertz' dashpot d sqrt(m k) a^(1/4) v
-    bool attraction = false;        // the dashpot may pull
-    double contact_time = 0;        // s, of a free impact
-    double allowed_overlap = 0;     // m
+    // 1/s, times the effective mass of the touching pair; and more of both over the root of that mass,
+    // kg^(1/2)/s, which keeps one restitution for grains of all sizes.
+    double normal_damping = 0, tangential_damping = 0;
+    double damping_by_root = 0, tangential_damping_by_root = 0;
+    double hertz_damping = 0;    // d of Hertz' dashpot d sqrt(m k) a^(1/4) v
+    bool attraction = false;     // the dashpot may pull
+    double contact_time = 0;     // s, of a free impact
+    double allowed_overlap = 0;  // m
     // Which condition binds: "impact", "static load", "wave", "the scene", "the start file", "overlaps in the
     // start file".
     std::string stiffness_reason;
+
+    double damping_rate(double mass) const;  // 1/s, of the normal dashpot of two with this effective mass
+    double tangential_damping_rate(double mass) const;  // 1/s, likewise
+    // Of a free impact at that speed (m/s), of two with this effective mass (kg).
+    double restitution_of(double mass, double speed) const;
 };
 
 // What a plan takes from the file that a run starts from (engine/start/start_plan.cpp looks into it).
@@ -91,7 +98,9 @@ struct Plan {
     StartPlan start;                                            // of a start from a file
     std::string step_reason;                                    // which condition binds the step
     double impact_speed = 0;                                    // m/s, v* of the stiffness rule
-    double expected_overlap = 0;  // largest expected overlap over the smaller diameter
+    // Over the smaller diameter: the largest expected overlap, between whom, and that of most contacts.
+    double expected_overlap = 0, usual_overlap = 0;
+    std::string deepest;
 
     // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.
     double trajectory_every = 0, measures_every = 0;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/rain_plan.hpp"
@@ -24,14 +25,6 @@ using std::numbers::pi;
 constexpr double settling_overlap = 0.05;
 // A plastic block on the plate hits it at up to 2.13 a omega for Gamma from 1.2 to 10.
 constexpr double plastic_block_speed = 2.2;
-
-double mass_of(const Species& species, double diameter) {
-    return species.density * pi / 6 * diameter * diameter * diameter;
-}
-
-double reduced_mass(double a, double b) {
-    return std::isinf(b) ? a : a * b / (a + b);
-}
 
 std::string place_of_pair(const Species& a, const Species* b) {
     return fmt::format("\"{}\" and {}", a.name, b == nullptr ? "the wall" : "\"" + b->name + "\"");
@@ -114,13 +107,20 @@ Stiffness choose_stiffness(const Scene& scene, const BedPlan& bed, const PairCon
                     hertz ? "modulus = \"1 GPa\"" : "stiffness = \"2e4 N/m\""));
 }
 
-// Damping and restitution of the spring-dashpot, each from the other; damping = 2 beta omega0 at the mean
-// effective mass.
+// Damping and restitution of the spring-dashpot, each from the other; damping = 2 beta omega0. A restitution
+// that is asked for holds for grains of every size; a damping that is given leaves each size its own, and
+// that of the mean effective mass is planned with.
 void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact, const Species& a,
                   const Species* b) {
     const double natural = std::sqrt(pair.loading_stiffness / mean_effective_mass(a, b));
+    const bool one_size =
+        a.diameter.smallest == a.diameter.largest && (!b || b->diameter.smallest == b->diameter.largest);
     if (!contact.normal_damping) {
-        pair.normal_damping = 2 * natural * linear_damping(contact.restitution, contact.attraction);
+        const double beta = linear_damping(contact.restitution, contact.attraction);
+        if (one_size)
+            pair.normal_damping = 2 * natural * beta;
+        else
+            pair.damping_by_root = 2 * std::sqrt(pair.loading_stiffness) * beta;
     } else {
         pair.normal_damping = *contact.normal_damping;
         double critical = std::numeric_limits<double>::infinity();
@@ -133,14 +133,15 @@ void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact
                 scene.where("contact.normal_damping"), pair.normal_damping, place_of_pair(a, b), critical));
         pair.restitution = linear_restitution(pair.normal_damping / (2 * natural), contact.attraction);
     }
-    if (contact.tangential == TangentialLaw::linear_spring)
-        pair.tangential_damping = contact.tangential_damping.value_or(pair.normal_damping / 2);
+    if (contact.tangential != TangentialLaw::linear_spring) return;
+    pair.tangential_damping = contact.tangential_damping.value_or(pair.normal_damping / 2);
+    if (!contact.tangential_damping) pair.tangential_damping_by_root = pair.damping_by_root / 2;
 }
 
 // s: of the damped oscillation's half; an overdamped contact is longer, but not faster.
 double linear_contact_time(const PairPlan& pair) {
     const double natural = std::sqrt(pair.loading_stiffness / pair.effective_mass);
-    const double beta = pair.normal_damping / (2 * natural);
+    const double beta = pair.damping_rate(pair.effective_mass) / (2 * natural);
     return pi / (natural * std::sqrt(std::max(0.01, 1 - beta * beta)));
 }
 
@@ -155,17 +156,6 @@ void plan_hardening(const BedPlan& bed, PairPlan& pair, const PairContact& conta
     for (const Touching& t : extremes(a, b))
         slowest = std::min(slowest, std::sqrt(pair.loading_stiffness / t.effective_mass));
     pair.restitution = std::sqrt(slowest / (slowest + pair.hardening * bed.impact_speed));
-}
-
-// Straight lines between the rows of a table, constant beyond.
-double restitution_at(const std::vector<RestitutionPoint>& table, double speed) {
-    double e = table.front().restitution;
-    for (std::size_t k = 1; k < table.size(); ++k) {
-        const RestitutionPoint &low = table[k - 1], &high = table[k];
-        const double share = std::clamp((speed - low.speed) / (high.speed - low.speed), 0.0, 1.0);
-        e += share * (high.restitution - low.restitution);
-    }
-    return e;
 }
 
 ContactModel contact_model(const PairContact& contact, bool corrected, Precision precision) {
@@ -233,26 +223,6 @@ double fastest_fed(const Scene& scene) {
 
 }  // namespace
 
-std::vector<Touching> extremes(const Species& a, const Species* b) {
-    std::vector<Touching> all;
-    for (const double first : {a.diameter.smallest, a.diameter.mean, a.diameter.largest}) {
-        const double mass = mass_of(a, first);
-        if (b == nullptr) {
-            all.push_back({first, first / 2, mass, first / 2});
-            continue;
-        }
-        for (const double second : {b->diameter.smallest, b->diameter.mean, b->diameter.largest})
-            all.push_back({std::min(first, second), (first + second) / 2,
-                           reduced_mass(mass, mass_of(*b, second)), first * second / (first + second) / 2});
-    }
-    return all;
-}
-
-double mean_effective_mass(const Species& a, const Species* b) {
-    const double mass = mass_of(a, a.diameter.mean);
-    return b == nullptr ? mass : reduced_mass(mass, mass_of(*b, b->diameter.mean));
-}
-
 BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
     BedPlan bed;
     const Drive& drive = scene.drive;
@@ -268,6 +238,9 @@ BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
         bed.largest_mass = std::max(bed.largest_mass, mass_of(s, s.diameter.largest));
         diameters += static_cast<double>(s.all()) * s.diameter.mean;
     }
+    const std::vector<double> shares = contact_shares(scene);
+    for (std::size_t a = 0; a < shares.size(); ++a)
+        bed.usual_mass += shares[a] * mass_of(scene.species[a], scene.species[a].diameter.mean);
     bed.layers = std::max(1.0, bed.height * static_cast<double>(scene.grains()) / diameters);
 
     double restitution = 0;
@@ -329,11 +302,11 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
     return pair;
 }
 
-double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const Species& a,
-                        const Species* b) {
+double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair,
+                        const std::vector<Touching>& sizes, double landing) {
     double largest = 0;
-    for (const Touching& t : extremes(a, b)) {
-        const double load = std::max(t.effective_mass, bed.largest_mass / 3);
+    for (const Touching& t : sizes) {
+        const double load = std::max(t.effective_mass, landing / 3);
         double impact = bed.impact_speed * std::sqrt(load / pair.loading_stiffness) / t.diameter;
         double weight = static_load(bed, t.diameter) / pair.loading_stiffness;
         if (pair.modulus > 0) {

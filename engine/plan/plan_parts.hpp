@@ -19,11 +19,16 @@ struct BedPlan {
     double layers = 1;           // of grains of mean diameter
     double largest_density = 0;  // kg/m3
     double largest_mass = 0;     // kg, of one grain
+    double usual_mass = 0;       // kg, of a grain of mean size, the mean over contacts
     double carried_height = 0;   // m, min(height, twice the width): what presses on the floor (Janssen)
     double drop_speed = 0;       // m/s, of the highest fall while settling; 0 when nothing settles
     double impact_speed = 0;     // m/s, v*
 };
 BedPlan plan_bed(const Scene& scene, const StartFacts& file);
+
+double mass_of(const Species& species, double diameter);  // kg
+// By straight lines between the rows of a table, constant beyond.
+double restitution_at(const std::vector<RestitutionPoint>& table, double speed);
 
 // Two grains that may touch, or a grain and a wall (second mass infinite): the smallest, mean and largest of
 // each species. Sizes in m, masses in kg.
@@ -34,6 +39,7 @@ struct Touching {
     double effective_radius;
 };
 std::vector<Touching> extremes(const Species& a, const Species* b);  // b: nullptr for a wall
+Touching mean_touching(const Species& a, const Species* b);          // both of mean size
 double mean_effective_mass(const Species& a, const Species* b);
 
 // Stiffness, damping and times of one kind of contact. `key`: its place, for messages.
@@ -41,11 +47,11 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
                    const Species* b);
 
 // Largest overlap over the smaller diameter that impacts and weight are expected to cause. Stiffness is
-// chosen for the impact of the pair alone; the largest grain that lands on three others drives those deeper
+// chosen for the impact of the pair alone; a heavy grain that lands on three others drives those deeper
 // into each other and into the wall (so 3.2 % are expected in scenes/wedge_mixing.toml; 3.3 % were seen
-// within 3 s).
-double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const Species& a,
-                        const Species* b);
+// within 3 s). landing: kg, of that grain.
+double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair,
+                        const std::vector<Touching>& sizes, double landing);
 
 // Whether impacts of this restitution lose so little that the gain of the contact corrections would count. At
 // an elastic impact they gain (w dt)^4 / 20 of its energy, w^2 = K1 / m_eff, with w dt = pi / 12 at 12 steps
@@ -71,6 +77,10 @@ StepChoice plan_step(const Scene& scene, const Plan& plan);
 
 // Lines for the user: values that are hardly meant, such as a density of 7.8 kg/m3.
 std::vector<std::string> likely_slips(const Scene& scene);
+// Likewise, of the contacts: too soft, too long, too stiff; too few steps in one.
+class Warnings;
+void warn_of_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings);
+void warn_of_few_steps(const Scene& scene, const Plan& plan, Warnings& warnings);
 // Likewise: what will run, but not as one may wish.
 std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
                                        const StepChoice& step);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/warnings.hpp"
 #include "engine/scene/bed.hpp"
@@ -14,19 +15,39 @@
 namespace grainreel {
 namespace {
 
-constexpr double alarming_overlap =
-    0.05;  // over the smaller diameter; 1 % is the usual aim for most contacts
 constexpr double alarming_size_ratio = 10;
-// docs/reference/stability.md has what each of these costs.
-constexpr double alarming_turn = 0.05;      // of a period that a contact with a moving wall lasts
-constexpr double alarming_flight = 0.2;     // of a diameter that a grain flies while a contact lasts
-constexpr double fewest_last_places = 100;  // of a position, in the overlap of a grain at rest
+constexpr double rounding = 1e-9;  // of decimals: what lies exactly at a bound is not beyond it
 
-void warn_of_drive(const Scene& scene, const BedPlan& bed, Warnings& warnings) {
+double smallest_free_diameter(const Scene& scene) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Species& species : scene.species)
+        if (species.all() > 0) smallest = std::min(smallest, species.diameter.smallest);
+    return smallest;
+}
+
+// Nothing but the drive sets grains in motion: none flow out, come, or fly at the start.
+bool only_the_drive_moves(const Scene& scene) {
+    return !scene.container.outlet && scene.feeds.empty() && scene.start.method != Start::Method::grains;
+}
+
+// A stage that begins at once takes the drive's place, and grows by itself.
+bool is_replaced(const Drive& drive) {
+    return drive.changes() && drive.stages.front().from <= 0;
+}
+
+// Two by two, and off every wall: what the drive puts in stays.
+bool nothing_is_lost(const Scene& scene, const Plan& plan) {
+    const std::vector<ContactKind> kinds = contact_kinds(scene, plan);
+    return !kinds.empty() && std::all_of(kinds.begin(), kinds.end(), [](const ContactKind& kind) {
+        return kind.pair->restitution == 1 && kind.pair->friction == 0;
+    });
+}
+
+void warn_of_drive(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
     const Drive& drive = scene.drive;
     if (!drive.present) return;
     const bool upright = drive.direction.x() == 0 && drive.direction.y() == 0;
-    if (upright && bed.gravity > 0 && bed.g_level < 1)
+    if (upright && bed.gravity > 0 && bed.g_level < 1 - rounding && only_the_drive_moves(scene))
         warnings.add(
             "drive",
             fmt::format("gamma is {:.3g}, below 1: the bed stays on the floor and nothing will move; raise "
@@ -34,15 +55,12 @@ void warn_of_drive(const Scene& scene, const BedPlan& bed, Warnings& warnings) {
                         bed.g_level));
     const bool reaches_a_period =
         drive.frequency * scene.run.duration >= 1;  // else likely_slips() has said it
-    if (reaches_a_period && drive.ramp / drive.frequency > scene.run.duration)
+    if (reaches_a_period && !is_replaced(drive) && drive.ramp / drive.frequency > scene.run.duration)
         warnings.add("drive.ramp",
                      fmt::format("the drive grows over {:.4g} s, longer than the run of {:.4g} s, and never "
                                  "reaches its amplitude; lengthen the run or shorten the ramp",
                                  drive.ramp / drive.frequency, scene.run.duration));
-    const bool elastic =
-        std::any_of(scene.contact.grain.begin(), scene.contact.grain.end(),
-                    [](const PairContact& pair) { return pair.restitution == 1 && !pair.normal_damping; });
-    if (elastic)
+    if (nothing_is_lost(scene, plan))
         warnings.add("contact",
                      "restitution 1 loses no energy, so the drive heats the grains without limit; lower it");
 }
@@ -66,45 +84,10 @@ void warn_of_changes(const Scene& scene, Warnings& warnings) {
     }
 }
 
-void warn_of_softness(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
-    if (plan.expected_overlap > alarming_overlap)
-        warnings.add(
-            "contact.stiffness",
-            fmt::format(
-                "overlaps of {:.2g} of a diameter are expected, more than {:.2g}; raise the stiffness",
-                plan.expected_overlap, alarming_overlap));
-    double slowest = 0, tunnelling = std::numeric_limits<double>::infinity();
-    const std::size_t count = scene.species.size();
-    for (std::size_t a = 0; a < count; ++a) {
-        for (std::size_t b = a; b <= count; ++b) {
-            const PairPlan& pair = b < count ? plan.between(a, b) : plan.wall[a];
-            slowest = std::max(slowest, pair.contact_time);
-            for (const Touching& t : extremes(scene.species[a], b < count ? &scene.species[b] : nullptr))
-                tunnelling =
-                    std::min(tunnelling, t.distance * std::sqrt(pair.loading_stiffness / t.effective_mass));
-        }
-    }
-    const double fastest = std::max(bed.impact_speed, bed.drop_speed);
-    if (fastest > 0.5 * tunnelling)
-        warnings.add(
-            "contact.stiffness",
-            fmt::format(
-                "grains at {:.3g} m/s may pass through each other, which happens from {:.3g} m/s on; raise "
-                "the stiffness",
-                fastest, tunnelling));
-    if (bed.gravity > 0 && bed.frequency * bed.layers * slowest > 0.2)
-        warnings.add(
-            "contact.stiffness",
-            fmt::format(
-                "a wave needs {:.2g} of a period to cross the bed, which then behaves like a soft body; "
-                "raise the stiffness",
-                bed.frequency * bed.layers * slowest));
-}
-
 // A sine that starts at once has its top speed at once, unless its phase says otherwise.
 void warn_of_kick(const Scene& scene, Warnings& warnings) {
     const Drive& drive = scene.drive;
-    if (!drive.present || drive.ramp > 0 || scene.start.keep_clock) return;
+    if (!drive.present || drive.ramp > 0 || is_replaced(drive) || scene.start.keep_clock) return;
     if (scene.start.method == Start::Method::grains) return;  // nothing need lie on what moves
     const double kick = drive.speed() * std::abs(std::cos(2 * std::numbers::pi * drive.phase));
     if (kick > 0.05 * drive.speed())
@@ -113,58 +96,6 @@ void warn_of_kick(const Scene& scene, Warnings& warnings) {
             fmt::format("without a ramp the drive starts at {:.3g} m/s and kicks the bed; take a ramp "
                         "of 3 periods, or a phase of 90 deg",
                         kick));
-}
-
-// Contacts that last too long for what else happens meanwhile.
-void warn_of_long_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
-    double at_walls = 0, flight = 0;
-    const std::size_t count = scene.species.size();
-    for (std::size_t a = 0; a < count; ++a) {
-        at_walls = std::max(at_walls, plan.wall[a].contact_time);
-        for (std::size_t b = a; b < count; ++b) {
-            const double smaller =
-                std::min(scene.species[a].diameter.smallest, scene.species[b].diameter.smallest);
-            flight = std::max(flight, bed.impact_speed * plan.between(a, b).contact_time / smaller);
-        }
-    }
-    if (bed.frequency * at_walls > alarming_turn)
-        warnings.add(
-            "contact.stiffness",
-            fmt::format(
-                "a contact lasts {:.2g} of a period, in which what is shaken changes its speed by {:.2g} "
-                "of the largest, so that rebounds are off; raise the stiffness",
-                bed.frequency * at_walls, 2 * std::numbers::pi * bed.frequency * at_walls));
-    if (flight > alarming_flight)
-        warnings.add("contact.stiffness",
-                     fmt::format("a grain may fly {:.2g} of a diameter while a contact lasts, so that grains "
-                                 "close together lose too little energy (detachment); raise the stiffness",
-                                 flight));
-}
-
-// m: how far a grain of its weight sinks into another.
-double resting_overlap(const PairPlan& pair, const Species& species, double gravity) {
-    const double diameter = species.diameter.smallest;
-    const double weight = species.density * std::numbers::pi / 6 * std::pow(diameter, 3) * gravity;
-    if (pair.modulus == 0) return weight / pair.loading_stiffness;
-    const double k = 4.0 / 3 * pair.modulus * std::sqrt(diameter / 4);
-    return std::pow(weight / k, 2.0 / 3);
-}
-
-void warn_of_rounding(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
-    if (bed.gravity == 0) return;
-    const Extent extent = extent_of(scene);
-    const double farthest = std::max(extent.low.cwiseAbs().maxCoeff(), extent.high.cwiseAbs().maxCoeff());
-    const double last_place = std::numeric_limits<double>::epsilon() * farthest;
-    for (std::size_t a = 0; a < scene.species.size(); ++a) {
-        const double overlap = resting_overlap(plan.between(a, a), scene.species[a], bed.gravity);
-        if (overlap > fewest_last_places * last_place) continue;
-        warnings.add(
-            "contact.stiffness",
-            fmt::format("at rest a grain of \"{}\" sinks in by {:.2g} m only, {:.2g} times the rounding "
-                        "of its position, and the force is noise; lower the stiffness",
-                        scene.species[a].name, overlap, overlap / last_place));
-        return;
-    }
 }
 
 void warn_of_arms(const Plan& plan, Warnings& warnings) {
@@ -177,16 +108,14 @@ void warn_of_arms(const Plan& plan, Warnings& warnings) {
 
 void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, const StepChoice& step,
                   Warnings& warnings) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const Species& s : scene.species) smallest = std::min(smallest, s.diameter.smallest);
-    const double largest = largest_diameter(scene);
+    const double smallest = smallest_free_diameter(scene), largest = largest_diameter(scene);
     const double travelled = std::max(bed.impact_speed, bed.drop_speed) * plan.clock.step;
     if (travelled > 0.1 * smallest / 2)
         warnings.add(
             "run.step",
             fmt::format("a grain may cross {:.2g} of the smallest radius in one step; shorten the step",
                         travelled / (smallest / 2)));
-    if (largest > alarming_size_ratio * smallest)
+    if (largest > alarming_size_ratio * smallest * (1 + rounding))
         warnings.add(
             "species",
             fmt::format("the largest grain is {:.3g} times the smallest: the step follows the small and "
@@ -202,21 +131,6 @@ void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, cons
         warnings.add("run.integrator",
                      "drifts backwards at times, which friction takes for a turn of the slip: tangential "
                      "velocities are off by several per cent at any step; take velocity-verlet");
-    if (!scene.run.step && !scene.run.steps_per_contact) return;
-    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall, &plan.glued}) {
-        for (const PairPlan& pair : *pairs) {
-            const int wanted = steps_per_contact(pair.model.normal, pair.restitution, scene.run.accuracy);
-            const double actual = pair.contact_time / plan.clock.step;
-            if (actual > wanted * (1 - 1e-9)) continue;
-            warnings.add(
-                scene.run.step ? "run.step" : "run.steps_per_contact",
-                fmt::format(
-                    "a contact lasts {:.3g} steps where {} are wanted, so that restitution {:.3g} will not "
-                    "be kept; shorten the step or leave it out",
-                    actual, wanted, pair.restitution));
-            return;
-        }
-    }
 }
 
 // A default colour repeats another species' when the palette has none left.
@@ -235,31 +149,63 @@ void warn_of_colours(const Scene& scene, Warnings& warnings) {
     }
 }
 
+// The species whose grains most contacts have, and the one of the largest that move; they may be the same.
+struct Sizes {
+    const Species *usual, *largest;
+    bool one() const { return usual == largest; }
+};
+Sizes sizes_of(const Scene& scene) {
+    const std::vector<double> shares = contact_shares(scene);
+    const auto usual = std::max_element(shares.begin(), shares.end()) - shares.begin();
+    Sizes sizes{&scene.species[usual], &scene.species[usual]};
+    for (const Species& species : scene.species)
+        if (species.all() > 0 && species.diameter.largest > sizes.largest->diameter.largest)
+            sizes.largest = &species;
+    return sizes;
+}
+
 void warn_of_outlet(const Scene& scene, Warnings& warnings) {
     constexpr double kFewest = 5;  // grains side by side, below which they arch (Zuriguel 2014)
     if (!scene.container.outlet) return;
-    double largest = 0;
-    for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);
     const double wide = 2 * scene.container.outlet->half_width;
-    if (wide >= kFewest * largest) return;
-    warnings.add("container.outlet",
-                 fmt::format("the outlet is {:.2g} grains wide, and one narrower than {} may clog; widen it "
-                             "unless you mean to see that",
-                             wide / largest, kFewest));
+    const Sizes sizes = sizes_of(scene);
+    const auto narrow = [&](const Species& s) {
+        return wide < kFewest * s.diameter.largest * (1 - rounding);
+    };
+    if (narrow(*sizes.usual))
+        warnings.add("container.outlet",
+                     fmt::format("the outlet is {:.2g} grains wide, and one narrower than {} may clog; widen "
+                                 "it unless you mean to see that",
+                                 wide / sizes.usual->diameter.largest, kFewest));
+    else if (narrow(*sizes.largest))
+        warnings.add("container.outlet",
+                     fmt::format("the outlet is {:.2g} grains of \"{}\" wide, and these may clog one that is "
+                                 "narrower than {}; widen it unless you mean to see that",
+                                 wide / sizes.largest->diameter.largest, sizes.largest->name, kFewest));
 }
 
 void warn_of_short_period(const Scene& scene, Warnings& warnings) {
     constexpr double kWide = 6;  // diameters, above which a bed hardly knows its images
     const Container& c = scene.container;
     if (!c.periodic_depth) return;
-    const double largest = largest_diameter(scene);
-    if (c.depth >= kWide * largest) return;
-    warnings.add(
-        "container.depth",
-        fmt::format("the period is {:.3g} diameters of the largest grain, and below {} grains meet the "
-                    "images of their own neighbours, which orders the bed; lengthen it unless you "
-                    "mean that",
-                    c.depth / largest, kWide));
+    const Sizes sizes = sizes_of(scene);
+    const auto is_short = [&](const Species& s) {
+        return c.depth < kWide * s.diameter.largest * (1 - rounding);
+    };
+    if (is_short(*sizes.usual))
+        warnings.add(
+            "container.depth",
+            fmt::format("the period is {:.3g} diameters of the grains, and below {} grains meet the "
+                        "images of their own neighbours, which orders the bed; lengthen it unless you "
+                        "mean that",
+                        c.depth / sizes.usual->diameter.largest, kWide));
+    else if (is_short(*sizes.largest))
+        warnings.add(
+            "container.depth",
+            fmt::format(
+                "the period is {:.3g} diameters of \"{}\", and below {} one of these meets neighbours "
+                "of its own image; lengthen it unless you mean that",
+                c.depth / sizes.largest->diameter.largest, sizes.largest->name, kWide));
 }
 
 void warn_of_film(const Scene& scene, Warnings& warnings) {
@@ -281,14 +227,13 @@ void warn_of_film(const Scene& scene, Warnings& warnings) {
 std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
                                        const StepChoice& step) {
     Warnings warnings(scene);
-    warn_of_drive(scene, bed, warnings);
+    warn_of_drive(scene, plan, bed, warnings);
     warn_of_changes(scene, warnings);
-    warn_of_softness(scene, plan, bed, warnings);
     warn_of_kick(scene, warnings);
-    warn_of_long_contacts(scene, plan, bed, warnings);
-    warn_of_rounding(scene, plan, bed, warnings);
+    warn_of_contacts(scene, plan, bed, warnings);
     warn_of_arms(plan, warnings);
     warn_of_step(scene, plan, bed, step, warnings);
+    warn_of_few_steps(scene, plan, warnings);
     warn_of_colours(scene, warnings);
     warn_of_outlet(scene, warnings);
     warn_of_short_period(scene, warnings);

@@ -143,7 +143,8 @@ void look_at_drive(const Scene& scene, Warnings& warnings) {
         look_at_motion(scene, fmt::format("drive.stage[{}]", k), {true, stage.frequency, stage.amplitude},
                        warnings);
     }
-    if (drive.frequency * scene.run.duration < 1)
+    const bool replaced = drive.changes() && drive.stages.front().from <= 0;
+    if (!replaced && drive.frequency * scene.run.duration < 1)
         warnings.add(
             "drive.frequency",
             fmt::format("one period of {:.4g} s is longer than the run of {:.4g} s; raise the frequency "

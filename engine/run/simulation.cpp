@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "engine/measure/energy/energy.hpp"
 #include "engine/run/simulation_impl.hpp"
@@ -37,13 +38,18 @@ void Simulation::Impl::look_at_health() {
     check_state(limits, around, grains, *loop, step);
     // Round-off and a law's own closed loops must not stop a bed at rest: a hundredth of its weight over a
     // radius.
-    double allowance = 0;
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-        allowance += 0.01 * grains.mass(i) * around.gravity.norm() * grains.place[i].radius;
-    }
     const Traffic& traffic = loop->traffic();
+    const Kinetic kinetic = kinetic_energy(grains);
+    const double work = wall_work(grains) + traffic.work_out;
+    double allowance = 0, through = kinetic.translation + kinetic.rotation + std::abs(work) +
+                                    std::abs(traffic.energy_out) + std::abs(traffic.energy_in);
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const double mass = grains.mass(i);
+        allowance += 0.01 * mass * around.gravity.norm() * grains.place[i].radius;
+        through += mass * std::abs(around.gravity.dot(grains.place[i].position));
+    }
     energy_watch.check(total_energy(around, grains, *loop, step) + traffic.energy_out - traffic.energy_in,
-                       wall_work(grains) + traffic.work_out, allowance, limits, grains, step);
+                       work, through, allowance, limits, grains, step);
     next_look = step + steps_to_next_look(limits, around, grains, step);
 }
 

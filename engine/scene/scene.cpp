@@ -11,7 +11,7 @@
 namespace grainreel {
 
 double Container::floor_half_width() const {
-    return half_width_at(0);
+    return std::max(0.0, half_width_at(0));
 }
 
 double Container::half_width_at(double z) const {
@@ -26,7 +26,7 @@ double Container::volume() const {
 double Container::volume_below(double z) const {
     if (shape == Shape::cylinder) return std::numbers::pi * half_width * half_width * z;
     const double slanted = shape == Shape::wedge ? std::min(slant_height, z) : 0.0;
-    const double mean_width = half_width_at(0) + half_width_at(slanted);  // twice the mean half-width
+    const double mean_width = floor_half_width() + half_width_at(slanted);  // twice the mean half-width
     return depth * (slanted * mean_width + (z - slanted) * 2 * half_width);
 }
 

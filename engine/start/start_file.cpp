@@ -119,13 +119,15 @@ void check_grains_numbered(const Scene& scene, const Grains& grains) {
     }
 }
 
+// But for rounding: the same density may have been read in another unit.
 void check_masses(const Scene& scene, const Grains& grains) {
+    const auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-12 * a); };
     Grains one;
     one.add(0, 0, Vec3::Zero(), 1, 1);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         one.set_radius(0, grains.place[i].radius, scene.species[grains.species[i]].density);
-        if (one.motion[0].inverse_mass != grains.motion[i].inverse_mass ||
-            one.motion[0].inverse_inertia != grains.motion[i].inverse_inertia)
+        if (differ(one.motion[0].inverse_mass, grains.motion[i].inverse_mass) ||
+            differ(one.motion[0].inverse_inertia, grains.motion[i].inverse_inertia))
             fail(scene,
                  fmt::format("has grain {} with another mass than its species; take another checkpoint",
                              grains.id[i]));

@@ -138,8 +138,8 @@ void FilmRun::close_film() {
         const auto timer = times_.during("finishing the film");
         film_report_ =
             film_->finish([this] { return listener_.in_a_hurry() || !folder_->lock().is_there(); });
-        if (!film_report_.complete) listener_.info("the film was left as it is");
-        for (const std::string& note : film_report_.notes) listener_.info(note);
+        if (!film_report_.complete) listener_.info("note: the film was left as it is");
+        for (const std::string& note : film_report_.notes) listener_.info("note: " + note);
     });
     film_report_.frames = film_->frames_done();
     film_.reset();

@@ -130,7 +130,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, double at, RunLis
     Scene scene = source.scene();
     settle_orbit(scene.film.camera, static_cast<double>(film.size()) / scene.film.rate);
     Renderer renderer(scene, drawing_threads(scene.run.threads).raster, request.gl);
-    if (const std::string note = renderer.gl_note(); !note.empty()) listener.info(note);
+    if (const std::string note = renderer.gl_note(); !note.empty()) listener.info("note: " + note);
     const FramePtr start = film.empty() ? std::make_shared<const Frame>(source.record().first_whole())
                                         : source.grains(source.shown(film.front().step), go_on);
     if (!start) return std::nullopt;

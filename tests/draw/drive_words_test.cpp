@@ -42,7 +42,32 @@ TEST(DriveWords, AreThoseOfTheStageThatIsOn) {
     EXPECT_THAT(lines_at(scene, 2.5), ElementsAre("at rest"));
     EXPECT_THAT(lines_at(scene, 3.3), ElementsAre("taps of 30 Hz", "Γ = 4", "every 0.5 s"));
     EXPECT_EQ(longest_drive_lines(scene).front(), "taps of 30 Hz");
-    EXPECT_THAT(lines_at(wedge(), 0), testing::Contains("a = 2 mm"));
+}
+
+// The ramp s(u) = 10 u^3 - 15 u^4 + 6 u^5: a half in its middle, where the container moves so far.
+TEST(DriveWords, GrowWithTheDriveAtFirst) {
+    Scene scene = wedge();
+    scene.drive.ramp = 4;
+    scene.drive.amplitude = amplitude_of(3, 20);
+    const auto at = [&](double cycles) {
+        Frame frame;
+        frame.time = cycles / 20;
+        frame.cycles = cycles;
+        return drive_lines(scene, frame);
+    };
+    EXPECT_THAT(at(-1), ElementsAre("f = 20 Hz", "Γ = 0", "a = 0 µm"));
+    EXPECT_THAT(at(0), ElementsAre("f = 20 Hz", "Γ = 0", "a = 0 µm"));
+    // s(1/4) = 0.1035, with as many decimals as the whole has.
+    EXPECT_THAT(at(1), ElementsAre("f = 20 Hz", "Γ = 0.31", "a = 190 µm"));
+    EXPECT_THAT(at(2), ElementsAre("f = 20 Hz", "Γ = 1.5", "a = 930 µm"));
+    EXPECT_THAT(at(4), ElementsAre("f = 20 Hz", "Γ = 3", "a = 1.86 mm"));
+    EXPECT_TRUE(drive_lines_change(scene.drive));
+    for (double cycles = 0; cycles < 4; cycles += 0.01)
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_LE(at(cycles)[k].size(), longest_drive_lines(scene)[k].size()) << at(cycles)[k];
+    scene.drive.ramp = 0;
+    EXPECT_THAT(at(0), testing::Contains("Γ = 3"));
+    EXPECT_FALSE(drive_lines_change(scene.drive));
 }
 
 TEST(CaptionWords, AreThereInTheirTime) {

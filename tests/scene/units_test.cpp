@@ -42,6 +42,11 @@ TEST(Units, DecimalsKeepTheirLastBit) {
     EXPECT_EQ(parse_quantity("4.5 mm", Dimension::length), 0.0045);
     EXPECT_EQ(parse_quantity("90 deg", Dimension::phase), 0.25);
     EXPECT_EQ(parse_quantity("0.7 ms", Dimension::time), 0.0007);
+    EXPECT_EQ(parse_quantity("2.5 g/cm3", Dimension::density), 2500);
+    EXPECT_EQ(parse_quantity("7.8 g/cm3", Dimension::density), 7800);
+    EXPECT_EQ(parse_quantity("1.2 kN/m", Dimension::stiffness), 1200);
+    EXPECT_EQ(parse_quantity("3 N/mm", Dimension::stiffness), 3000);
+    EXPECT_EQ(parse_quantity("1.3 MPa", Dimension::pressure), 1.3e6);
 }
 
 struct Bad {

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "engine/chart/bench.hpp"
-#include "engine/plan/damping.hpp"
 
 namespace grainreel {
 namespace {
@@ -32,15 +31,6 @@ Impactors impactors_of(const Plan& plan, const PairPlan& pair, const Species& a,
                     ? plan.impact_speed
                     : pair.allowed_overlap * std::sqrt(pair.loading_stiffness / two.effective_mass);
     return two;
-}
-
-double exact_restitution(const PairPlan& pair, const Impactors& two) {
-    const double natural = std::sqrt(pair.loading_stiffness / two.effective_mass);
-    if (pair.model.normal == NormalForce::spring_dashpot)
-        return linear_restitution(pair.normal_damping / (2 * natural), pair.attraction);
-    if (pair.model.normal == NormalForce::walton_braun_speed)
-        return std::sqrt(natural / (natural + pair.hardening * two.speed));
-    return pair.restitution;  // Hertz: at any mass and speed; a table: at the impact speed
 }
 
 double rebound(const Plan& plan, const PairPlan& pair, const Impactors& two, double phase) {
@@ -86,7 +76,7 @@ double promised_restitution_error(const Plan& plan, const PairPlan& pair, const 
     smooth.model.tangential = TangentialLaw::none;
     smooth.model.rolls = false;
     const Impactors two = impactors_of(plan, smooth, a, b);
-    const double exact = exact_restitution(smooth, two);
+    const double exact = smooth.restitution_of(two.effective_mass, two.speed);
     double worst = 0;
     for (const double phase : promised_onsets())
         worst = std::max(worst, std::abs(rebound(plan, smooth, two, phase) - exact));

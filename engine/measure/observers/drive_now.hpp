@@ -5,10 +5,11 @@
 
 #include "engine/measure/observer.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive/grown_share.hpp"
 
 namespace grainreel::observers {
 
-// f, and Gamma = a (2 pi f)^2 / g; in a change those of the moment.
+// f, and Gamma = a (2 pi f)^2 / g; in a change and in the ramp those of the moment.
 class DriveNow final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -17,16 +18,18 @@ class DriveNow final : public Observer {
                  "of the stage that is on, of a tap 1 over how long it lasts; 0 at rest and without a drive"},
                 {{{"drive_g_level", "Γ of the drive"}},
                  "1",
-                 "of the stage that is on, the ramp left out; 0 at rest and without a drive, NaN without "
-                 "gravity"}};
+                 "of the stage that is on, of the moment while the drive grows; 0 at rest and without a "
+                 "drive, NaN without gravity"}};
     }
     void look(const Moment& m, std::vector<double>& row) override {
         const Drive& drive = m.scene.drive;
         double frequency = 0, g_level = 0;
-        const DriveSchedule::Now now = drive_now(drive, m.clock.cycles(m.step));
+        const double cycles = m.clock.cycles(m.step);
+        const DriveSchedule::Now now = drive_now(drive, cycles);
         if (drive.present && now.kind != DriveStage::Kind::rest) {
             frequency = now.frequency;
-            g_level = Drive{true, now.frequency, now.amplitude}.g_level(m.gravity.norm());
+            const double amplitude = grown_share(drive, cycles) * now.amplitude;
+            g_level = Drive{true, now.frequency, amplitude}.g_level(m.gravity.norm());
             if (m.gravity.isZero(0)) g_level = std::numeric_limits<double>::quiet_NaN();
         }
         row.insert(row.end(), {frequency, g_level});

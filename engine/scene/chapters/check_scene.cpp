@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/plan/free_space.hpp"
@@ -83,13 +84,13 @@ void check_wedge(const Scene& scene) {
                          c.half_angle > 2 * std::numbers::pi && c.half_angle < 90
                              ? fmt::format("; a bare number is in rad, write \"{:.6g} deg\"", c.half_angle)
                              : ""));
-    if (c.slant_height > c.height)
+    if (clearly_more(c.slant_height, c.height))
         fail(scene, "container.slant_height",
              fmt::format(
                  "is {:.6g} m, more than the height of the container, {:.6g} m; lower it or raise the height",
                  c.slant_height, c.height));
     const double taken = c.slant_height * std::tan(c.half_angle);
-    if (c.floor_half_width() < 0)
+    if (clearly_less(c.half_width, taken))
         fail(
             scene, "container.half_width",
             fmt::format(
@@ -113,13 +114,13 @@ void check_grain_sizes(const Scene& scene) {
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         const double largest = scene.species[i].diameter.largest;
         for (const Extent& extent : extents)
-            if (largest > extent.size)
+            if (clearly_more(largest, extent.size))
                 fail(scene, fmt::format("species[{}].diameter", i),
                      fmt::format("of {:.6g} m does not fit in the container, {:.6g} m across (container.{}); "
                                  "use smaller "
                                  "grains or a larger container",
                                  largest, extent.size, extent.key));
-        if (c.periodic_depth && c.depth < shortest_period * largest)
+        if (c.periodic_depth && clearly_less(c.depth, shortest_period * largest))
             fail(scene, "container.depth",
                  fmt::format(
                      "of {:.6g} m is too short to be periodic, less than {} diameters of \"{}\", {:.6g} m; "
@@ -180,7 +181,7 @@ void check_drive(const Scene& scene) {
     check_stages(scene);
     if (drive.moves == Drive::Moves::container) return;
     const double stroke = 2 * drive.largest_amplitude() * std::abs(drive.direction.z());
-    if (stroke >= scene.container.height)
+    if (!clearly_less(stroke, scene.container.height))
         fail(scene, "drive.moves",
              fmt::format(
                  "is \"floor\", whose stroke of {:.6g} m is not less than the container's height, {:.6g} m; "

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/base/decimals.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/plan/free_space.hpp"
 #include "engine/scene/chapters/chapters.hpp"
@@ -45,7 +46,7 @@ const KeyTable<Feed>& feed_table() {
 }
 
 void settle_rate(Document& document, const std::string& path, Feed& feed) {
-    if (feed.until && *feed.until <= feed.from)
+    if (feed.until && !clearly_more(*feed.until, feed.from))
         document.fail(path + ".until", fmt::format("of {:.6g} s is not later than 'from', {:.6g} s; raise it",
                                                    *feed.until, feed.from));
     if (feed.rate > 0) return;
@@ -68,15 +69,18 @@ void settle_box(Document& document, const Scene& scene, const std::string& path,
         feed.low = Vec3(-across, -c.half_width, std::max(0.0, c.height - deep));
         feed.high = Vec3(across, c.half_width, c.height);
     }
-    if ((feed.low.array() > feed.high.array()).any())
-        document.fail(path + ".low", "lies beyond 'high' along x, y or z; exchange the two");
+    for (int k = 0; k < 3; ++k) {
+        if (clearly_more(feed.low[k], feed.high[k]))
+            document.fail(path + ".low", "lies beyond 'high' along x, y or z; exchange the two");
+        feed.low[k] = std::min(feed.low[k], feed.high[k]);
+    }
 }
 
 // At the rest position of all walls.
 void check_box(Document& document, const Scene& scene, const FreeSpace& space, const std::string& path,
                const Feed& feed) {
     if (scene.container.shape == Container::Shape::none) return;
-    const double radius = 0.5 * scene.species[feed.species].diameter.largest;
+    const double radius = 0.5 * scene.species[feed.species].diameter.largest * (1 - kSameDecimals);
     constexpr int places = 21;  // along each axis
     for (int at = 0; at < places * places * places; ++at) {
         const Vec3 share = Vec3(at % places, at / places % places, at / (places * places)) / (places - 1);
@@ -84,7 +88,7 @@ void check_box(Document& document, const Scene& scene, const FreeSpace& space, c
     }
     document.fail(path, fmt::format("has no place inside the container for a grain of {:.6g} m across; move "
                                     "'low' and 'high', or leave them out",
-                                    2 * radius));
+                                    scene.species[feed.species].diameter.largest));
 }
 
 }  // namespace
@@ -116,7 +120,7 @@ void read_feeds(Document& document, Scene& scene) {
 void count_fed(Document& document, Scene& scene) {
     for (std::size_t i = 0; i < scene.feeds.size(); ++i) {
         const Feed& feed = scene.feeds[i];
-        if (feed.from >= scene.run.duration)
+        if (!clearly_less(feed.from, scene.run.duration))
             document.fail(fmt::format("feed[{}].from", i),
                           fmt::format("is {:.6g} s, but the run ends at {:.6g} s; begin earlier or lengthen "
                                       "run.duration",

@@ -1,10 +1,14 @@
 // The keys of [output.fields]: fields by coarse-graining.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/base/decimals.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "engine/scene/text/shorten.hpp"
 
 namespace grainreel {
 namespace {
@@ -76,7 +80,8 @@ void check_times(Document& document, const Scene& scene, FieldOutput& fields) {
     for (const char* key : {"periods", "phase"})
         document.refuse(table + key, "counts by the drive, but nothing oscillates; give 'interval'");
     fields.periods = 0;
-    if (fields.interval > scene.run.duration)
+    if (ends_early(document)) fields.interval = std::min(fields.interval, scene.run.duration);
+    if (clearly_more(fields.interval, scene.run.duration))
         document.fail(table + "interval", "is longer than the run; shorten it");
 }
 
@@ -94,7 +99,7 @@ void read_fields(Document& document, Scene& scene) {
     if (scene.container.shape == Container::Shape::cylinder && fields.grid == FieldOutput::Grid::yz)
         document.fail("output.fields.grid",
                       "is \"yz\", but a cylinder is not as deep everywhere; write \"xyz\"");
-    if (fields.cell > largest_cell * fields.width * (1 + 1e-9))
+    if (clearly_more(fields.cell, largest_cell * fields.width))
         document.fail("output.fields.cell",
                       fmt::format("is {:.3g} m, which is more than twice the kernel's width of {:.3g} m; "
                                   "give smaller cells or a larger 'width'",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
 
 namespace grainreel {
@@ -100,21 +101,21 @@ void check_outlet(const Scene& scene) {
     const double wide = 2 * c.outlet->half_width, floor = 2 * c.floor_half_width();
     const bool box_with_hole = !slot && c.shape == Container::Shape::box && !c.periodic_depth;
     const double room = box_with_hole ? std::min(floor, c.depth) : floor;
-    if (wide > room * (1 + 1e-9))
+    if (clearly_more(wide, room))
         fail(scene, size,
              fmt::format("of {:.6g} m is wider than the floor, {:.6g} m; narrow the outlet", wide, room));
     const Species& big = *std::max_element(
         scene.species.begin(), scene.species.end(),
         [](const Species& a, const Species& b) { return a.diameter.largest < b.diameter.largest; });
     const double largest = big.diameter.largest;
-    if (wide < largest)
+    if (clearly_less(wide, largest))
         fail(scene, size,
              fmt::format(
                  "of {:.6g} m lets no grain of \"{}\" pass, which is up to {:.6g} m wide; widen the outlet",
                  wide, big.name, largest));
     const double stroke = 2 * scene.drive.largest_amplitude() * std::abs(scene.drive.direction.z());
     const double least = stroke + 0.5 * largest;
-    if (c.outlet->exit_depth < least)
+    if (clearly_less(c.outlet->exit_depth, least))
         fail(scene, "exit_depth",
              fmt::format("is {:.6g} m, where a grain of \"{}\" may still touch the floor; make it at least "
                          "{:.6g} m",

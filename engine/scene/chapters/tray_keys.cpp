@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
 
@@ -66,12 +67,12 @@ void check_tray(const Scene& scene) {
         throw UserError(
             fmt::format("{}: 'tray' is of no use below a closed floor; add 'outlet', or remove it",
                         scene.where("container.tray")));
-    if (c.tray->half_width < c.floor_half_width() * (1 - 1e-9))
+    if (clearly_less(c.tray->half_width, c.floor_half_width()))
         fail(scene, "width",
              fmt::format("of {:.6g} m is less than that of the container's floor, {:.6g} m; widen it",
                          2 * c.tray->half_width, 2 * c.floor_half_width()));
     const double room = tray_container(scene).height, largest = largest_diameter(scene);
-    if (room < largest)
+    if (room < largest - kSameDecimals * c.tray->depth)
         fail(scene, "depth",
              fmt::format("of {:.6g} m leaves {:.6g} m below the floor where that is lowest, less than the "
                          "largest grain, {:.6g} m; deepen it",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/bed.hpp"
@@ -177,13 +178,13 @@ void check_room(const Scene& scene) {
     };
     for (const Room& room : rooms_of(scene.container)) {
         const double left = room.size - taken_at(room.one_side) - taken_at(room.other_side);
-        if (largest >= room.size)
+        if (!clearly_less(largest, room.size))
             fail(scene, "species",
                  fmt::format(
                      "glues grains of up to {:.6g} m, larger than the room: container.{} leaves {:.6g} "
                      "m; use smaller ones, or a larger container",
                      largest, room.key, room.size));
-        if (left < free)
+        if (left < free - kSameDecimals * room.size)
             fail(
                 scene, "species",
                 fmt::format("glues grains of up to {:.6g} m, larger than the room: they leave {:.6g} m along "

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/drive/stage_keys.hpp"
@@ -18,12 +21,12 @@ void check_order(const Scene& scene) {
     const Drive& drive = scene.drive;
     for (std::size_t k = 0; k < drive.stages.size(); ++k) {
         const double from = drive.stages[k].from;
-        if (k > 0 && from <= drive.stages[k - 1].from)
+        if (k > 0 && !clearly_more(from, drive.stages[k - 1].from))
             fail(scene, k, "from",
                  fmt::format("is {:.6g} s, not later than the stage before it, {:.6g} s; stages follow each "
                              "other in time",
                              from, drive.stages[k - 1].from));
-        if (from >= scene.run.duration)
+        if (!clearly_less(from, scene.run.duration))
             fail(scene, k, "from",
                  fmt::format("is {:.6g} s, but the run ends at {:.6g} s; bring it forward or lengthen "
                              "run.duration",
@@ -61,7 +64,27 @@ void check_lengths(const Scene& scene) {
     }
 }
 
+// Whether the last stage has begun, and has a period or a tap left, when the run ends.
+bool last_stage_counts(const Scene& scene) {
+    const DriveStage& last = scene.drive.stages.back();
+    const double end = scene.run.duration;
+    if (last.from <= 0) return true;  // it is the drive
+    if (!clearly_less(last.from, end)) return false;
+    const double settled = DriveSchedule(scene.drive).settled(scene.drive.stages.size());
+    const double tap = last.kind == DriveStage::Kind::taps ? 1 / last.frequency : 0;
+    return settled + tap <= end * rounding;
+}
+
 }  // namespace
+
+std::size_t shorten_stages(Scene& scene) {
+    std::vector<DriveStage>& stages = scene.drive.stages;
+    const std::size_t before = stages.size();
+    const auto in_order = [](const DriveStage& a, const DriveStage& b) { return a.from <= b.from; };
+    if (!std::is_sorted(stages.begin(), stages.end(), in_order)) return 0;  // and will be refused
+    while (!stages.empty() && !last_stage_counts(scene)) stages.pop_back();
+    return before - stages.size();
+}
 
 void check_stages(const Scene& scene) {
     if (!scene.drive.changes()) return;

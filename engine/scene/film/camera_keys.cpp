@@ -1,6 +1,7 @@
 // The keys of [film.camera] and [[film.camera.key]]: where the camera stands and how it moves.
 #include <fmt/format.h>
 
+#include "engine/base/decimals.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
@@ -107,7 +108,7 @@ void read_moments(Document& document, const Scene& scene, Camera& camera) {
         const std::string table = fmt::format("film.camera.key[{}]", i);
         CameraKey key;
         moment_table().read(document, scene, table, key);
-        if (!camera.keys.empty() && key.time <= camera.keys.back().time)
+        if (!camera.keys.empty() && !clearly_more(key.time, camera.keys.back().time))
             document.fail(table + ".time",
                           fmt::format("is {:.6g} s, not later than the key before, {:.6g} s; put "
                                       "the keys in order",

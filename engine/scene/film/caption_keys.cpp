@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "engine/base/decimals.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "engine/scene/text/shorten.hpp"
 
 namespace grainreel {
 namespace {
@@ -31,18 +33,18 @@ void check_caption(const Document& document, const Scene& scene, std::size_t k) 
     const std::vector<FilmCaption>& captions = scene.film.captions;
     const std::string table = fmt::format("film.caption[{}]", k);
     const FilmCaption& caption = captions[k];
-    if (k > 0 && caption.from < captions[k - 1].to)
+    if (k > 0 && clearly_less(caption.from, captions[k - 1].to))
         document.fail(
             table + ".from",
             fmt::format("is {:.6g} s, but the caption before it stays until {:.6g} s; captions follow "
                         "each other in time",
                         caption.from, captions[k - 1].to));
-    if (caption.from >= scene.run.duration)
+    if (!clearly_less(caption.from, scene.run.duration))
         document.fail(table + ".from",
                       fmt::format("is {:.6g} s, but the run ends at {:.6g} s; bring it forward or lengthen "
                                   "run.duration",
                                   caption.from, scene.run.duration));
-    if (caption.to <= caption.from)
+    if (!clearly_more(caption.to, caption.from))
         document.fail(table + ".to",
                       fmt::format("is {:.6g} s, not later than 'from', {:.6g} s; write a later time",
                                   caption.to, caption.from));
@@ -59,12 +61,17 @@ void read_captions(Document& document, Scene& scene) {
     std::vector<FilmCaption>& captions = scene.film.captions;
     const std::size_t count = document.size("film.caption");
     caption_table().read_elements(document, scene, "film.caption", captions);
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < count; ++k)
         if (captions[k].to == 0)
             captions[k].to =
                 k + 1 < count ? captions[k + 1].from : std::max(scene.run.duration, captions[k].from);
-        check_caption(document, scene, k);
+    if (ends_early(document)) {
+        std::size_t late = 0;
+        while (late < count && !clearly_less(captions[count - 1 - late].from, scene.run.duration)) ++late;
+        captions.resize(count - late);
+        leave_out(scene, late, "caption", "captions");
     }
+    for (std::size_t k = 0; k < captions.size(); ++k) check_caption(document, scene, k);
 }
 
 void write_captions(SceneText& out, const Scene& scene) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/base/decimals.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
@@ -102,8 +103,7 @@ void fit_segments(Document& document, Scene& scene) {
                 "is missing, and of an earlier segment too; only one may take what the others leave");
     }
     const double duration = scene.run.duration;
-    const double room = duration * (1 + 1e-9);  // rounding of sums
-    if (open > 0 ? given < duration : given <= room) return;
+    if (open > 0 ? clearly_less(given, duration) : !clearly_more(given, duration)) return;
     if (!document.from_command_line("run.duration"))
         document.fail("film.segment",
                       fmt::format("shows {:.6g} s{}, but the run has {:.6g} s; shorten the segments or "

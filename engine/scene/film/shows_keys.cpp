@@ -13,6 +13,7 @@
 #include "engine/scene/film/live_text.hpp"
 #include "engine/scene/film/named_grains.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "engine/scene/text/shorten.hpp"
 
 namespace grainreel {
 namespace {
@@ -85,6 +86,8 @@ void read_outflow(Document& document, const Scene& scene, const std::string& pat
     const bool leave = scene.container.outlet.has_value() && !scene.container.tray;
     shows.outflow = leave;
     keys::read_value(document, path, shows.outflow);
+    const bool left_out = ends_early(document) && document.is_table("container.outlet");
+    if (left_out && !scene.container.outlet) shows.outflow = false;
     if (shows.outflow && !leave)
         document.fail(path, scene.container.tray
                                 ? "counts what leaves the run, but the tray catches it"

@@ -147,6 +147,20 @@ void Document::check_bare_phase(const std::string& path, const toml::node& node)
                          written_value(node)));
 }
 
+namespace {
+
+// A bound, for what is beyond it by the rounding of a unit: a quarter of a turn is 90 degrees.
+double snapped(double value, const Range& range) {
+    constexpr double rounding = 1e-12;
+    for (const double bound : {range.low, range.high})
+        if (std::isfinite(bound) && !range.contains(value) &&
+            std::abs(value - bound) <= rounding * std::abs(bound))
+            return bound;
+    return value;
+}
+
+}  // namespace
+
 double Document::number_in(const std::string& path, const toml::node& node, const Key& key) const {
     const DimensionText& dimension = text_of(key.dimension);
     const auto wrong = [&](const std::string& must) {
@@ -163,6 +177,7 @@ double Document::number_in(const std::string& path, const toml::node& node, cons
             // A pure number has no example that suits every key.
             value =
                 parse_quantity(*text, key.dimension, key.dimension == Dimension::number ? key.example() : "");
+            value = snapped(value, key.range);
         } catch (const UserError& error) {
             fail(path, error.what());
         }

@@ -10,6 +10,7 @@
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "engine/scene/text/scene_file.hpp"
+#include "engine/scene/text/shorten.hpp"
 
 namespace grainreel {
 namespace {
@@ -75,6 +76,7 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file, 
     read_drive(document, scene);
     read_start(document, scene);
     read_run(document, scene);
+    shorten(document, scene);
     count_fed(document, scene);
     read_fields(document, scene);
     if (measurable) scene.measurable = measurable(scene);

@@ -189,9 +189,12 @@ double parse_quantity(std::string_view text, Dimension dimension, const std::str
     if (!unit) throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", shown, excerpt(unit_text)));
     const std::optional<double> scale = UnitSystem::factor(unit, unit_system().parse(wanted.unit));
     if (!scale) throw fail(fmt::format("\"{}\"{}", shown, other_dimension(unit)));
-    // 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off.
-    const double parts = std::round(1 / *scale);
-    return parts > 1 && std::abs(parts * *scale - 1) < 1e-13 ? value / parts : value * *scale;
+    // 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off. 2.5 g/cm3 are 2500 kg/m3, where udunits
+    // has a factor of 999.9999999999998.
+    constexpr double rounding = 1e-13;
+    const double parts = std::round(1 / *scale), times = std::round(*scale);
+    if (parts > 1 && std::abs(parts * *scale - 1) < rounding) return value / parts;
+    return times >= 1 && std::abs(*scale / times - 1) < rounding ? value * times : value * *scale;
 }
 
 }  // namespace grainreel

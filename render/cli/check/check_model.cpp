@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/chart/accuracy/promised_error.hpp"
+#include "engine/plan/contact_kinds.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/cli/check/check_parts.hpp"
 
@@ -57,31 +58,60 @@ void print_model(const Scene& scene, const Plan& plan, Listing& list) {
     list.line("left out", fmt::format("{}", fmt::join(out, ", ")));
 }
 
-void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
-    std::size_t widest = 8;
-    for (const Species& s : scene.species) widest = std::max(widest, 2 * s.name.size() + 3);
-    fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6}{:>8}{:>10}{:>12}{:>9}\n", "contacts", "", widest,
-               "stiffness", "chosen for", "e", "error", "friction", "duration", "steps");
-    const auto row = [&](const std::string& name, const PairPlan& pair, const Species& a, const Species* b) {
-        fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>6.3g}{:>8}{:>10.3g}{:>12}{:>9.1f}\n", "", name, widest,
-                   stiffness_text(pair), pair.stiffness_reason, pair.restitution,
-                   promised_error_text(promised_restitution_error(plan, pair, a, b)), pair.friction,
-                   span_text(pair.contact_time), pair.contact_time / plan.clock.step);
+namespace {
+
+// A row of the table.
+struct Kind {
+    std::string name, restitution;
+    const PairPlan* pair;
+    const Species* first;
+    const Species* second;  // null for a wall
+};
+
+// "0.5", or over the sizes of both: "0.29 to 0.82".
+std::string restitution_text(const Plan& plan, const PairPlan& pair, const Species& a, const Species* b) {
+    const RestitutionRange range = restitution_range(plan, pair, a, b);
+    const std::string low = fmt::format("{:.3g}", range.low), high = fmt::format("{:.3g}", range.high);
+    return low == high ? low : low + " to " + high;
+}
+
+std::vector<Kind> kinds_of(const Scene& scene, const Plan& plan, const Species* glued) {
+    std::vector<Kind> kinds;
+    const auto add = [&](const std::string& name, const PairPlan& pair, const Species& a, const Species* b) {
+        kinds.push_back({name, restitution_text(plan, pair, a, b), &pair, &a, b});
     };
-    const auto moves = [&](std::size_t species) {
-        return scene.species[species].all() > 0;
-    };  // not glued only
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
-        if (!moves(a)) continue;
-        for (std::size_t b = a; b < scene.species.size(); ++b)
-            if (moves(b) && (a != b || scene.species[a].all() > 1))  // a single grain never meets its like
-                row(scene.species[a].name + " - " + scene.species[b].name, plan.between(a, b),
-                    scene.species[a], &scene.species[b]);
-        row(scene.species[a].name + " - wall", plan.wall[a], scene.species[a], nullptr);
-        if (!plan.glued.empty()) {
-            const Species glued = glued_species(scene);
-            row(scene.species[a].name + " - glued", plan.glued[a], scene.species[a], &glued);
+        const Species& first = scene.species[a];
+        if (first.all() == 0) continue;  // glued only
+        for (std::size_t b = a; b < scene.species.size(); ++b) {
+            const Species& second = scene.species[b];
+            if (second.all() > 0 && (a != b || first.all() > 1))  // a single grain never meets its like
+                add(first.name + " - " + second.name, plan.between(a, b), first, &second);
         }
+        if (scene.container.shape != Container::Shape::none || !scene.walls.empty())
+            add(first.name + " - wall", plan.wall[a], first, nullptr);
+        if (glued) add(first.name + " - glued", plan.glued[a], first, glued);
+    }
+    return kinds;
+}
+
+}  // namespace
+
+void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
+    const bool rough = !plan.glued.empty();
+    const Species glued = rough ? glued_species(scene) : Species();
+    std::size_t widest = 8, longest = 6;
+    const std::vector<Kind> kinds = kinds_of(scene, plan, rough ? &glued : nullptr);
+    for (const Species& s : scene.species) widest = std::max(widest, 2 * s.name.size() + 3);
+    for (const Kind& kind : kinds) longest = std::max(longest, kind.restitution.size());
+    fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>{}}{:>8}{:>10}{:>12}{:>9}\n", "contacts", "", widest,
+               "stiffness", "chosen for", "e", longest, "error", "friction", "duration", "steps");
+    for (const Kind& kind : kinds) {
+        const PairPlan& pair = *kind.pair;
+        fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>{}}{:>8}{:>10.3g}{:>12}{:>9.1f}\n", "", kind.name,
+                   widest, stiffness_text(pair), pair.stiffness_reason, kind.restitution, longest,
+                   promised_error_text(promised_restitution_error(plan, pair, *kind.first, kind.second)),
+                   pair.friction, span_text(pair.contact_time), pair.contact_time / plan.clock.step);
     }
 }
 

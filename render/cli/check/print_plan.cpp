@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "engine/plan/rain_plan.hpp"
@@ -38,10 +39,12 @@ void print_time(const Scene& scene, const Plan& plan, Listing& list) {
                           period > 0 ? fmt::format(", {} a period", grouped(period)) : "", plan.step_reason));
     list.line("steps", fmt::format("{} for {}", grouped(plan.steps), span_text(plan.clock.time(plan.steps))));
     list.line("start", start_text(scene, plan));
-    list.line("overlap",
-              fmt::format("up to {:.2g} % of the smaller diameter expected, with impacts at {:.3g} m/s; most "
-                          "contacts stay below {:.2g} %",
-                          100 * plan.expected_overlap, plan.impact_speed, 100 * scene.run.overlap));
+    list.line(
+        "overlap",
+        fmt::format("up to {:.2g} % of the smaller diameter expected{}, with impacts at {:.3g} m/s; most "
+                    "contacts stay below {:.2g} %",
+                    100 * plan.expected_overlap, scene.species.size() > 1 ? " (" + plan.deepest + ")" : "",
+                    plan.impact_speed, 100 * std::max(scene.run.overlap, plan.usual_overlap)));
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ class Resume final : public Verb {
         if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
                                   plan.clock.time(point.simulation.step()), scene.run.duration));
-        if (!point.held_back.empty()) reporter.info(point.held_back);
+        if (!point.held_back.empty()) reporter.info("note: " + point.held_back);
         for (const AcceptedChange& change : changes)
             reporter.info(
                 fmt::format("'{}' is {} from there on; it was {}", change.key, change.now, change.then));

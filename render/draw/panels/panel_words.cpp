@@ -16,15 +16,18 @@ constexpr int pace_lines = 4;
 // Only what holds for all panels; the rest is in their captions. frame: null to measure the longest.
 TextSize common_drive(const Writer& writer, const Scene& scene, const Common& common, const Frame* frame,
                       double x, double y) {
-    std::vector<std::string> lines;
-    if (scene.drive.changes())
-        lines = frame ? drive_lines(scene, *frame) : longest_drive_lines(scene);
-    else if (common.frequency)
-        lines.push_back("f = " + frequency_text(scene.drive.frequency));
-    const bool steady = !scene.drive.changes();
-    if (steady && common.g_level)
-        lines.push_back(fmt::format("Γ = {:.3g}", scene.drive.g_level(scene.gravity.norm())));
-    if (steady && common.amplitude) lines.push_back("a = " + length_text(scene.drive.amplitude));
+    Frame shown = frame ? *frame : Frame();
+    if (!scene.drive.present) shown.cycles = scene.drive.ramp;  // drives that grow in times of their own
+    std::vector<std::string> lines = frame ? drive_lines(scene, shown) : longest_drive_lines(scene);
+    const bool levels = scene.gravity.norm() > 0;
+    const auto keep = [&](std::size_t from_end, bool wanted) {
+        if (!wanted) lines.erase(lines.end() - static_cast<std::ptrdiff_t>(from_end));
+    };
+    if (!scene.drive.changes()) {
+        keep(levels ? 3 : 2, common.frequency);
+        if (levels) keep(2, common.g_level);
+        keep(1, common.amplitude);
+    }
     TextSize size;
     for (const std::string& line : lines) {
         const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
@@ -101,7 +104,8 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
     if (common.clock) blocks.push_back(dial(measure, scene.drive));
     if (common.frequency || common.g_level || common.amplitude) {
         blocks.push_back(
-            {common_drive(measure, scene, common, nullptr, 0, 0), scene.drive.changes(),
+            {common_drive(measure, scene, common, nullptr, 0, 0),
+             scene.drive.changes() || drive_lines_change(scene.drive),
              [scene, common](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
                  common_drive(on, scene, common, &frame, x, y);
              }});

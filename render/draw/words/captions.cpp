@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive/grown_share.hpp"
 #include "engine/scene/film/live_text.hpp"
 
 namespace grainreel {
@@ -35,6 +36,22 @@ std::vector<std::string> vibration_lines(double frequency, double amplitude, dou
     return lines;
 }
 
+// Of the drive while it grows: with as many decimals as what it grows to.
+double rounded_as(double value, double full) {
+    if (full <= 0) return value;
+    const double digit = std::pow(10, std::floor(std::log10(full)) - 2);
+    return std::round(value / digit) * digit;
+}
+
+std::vector<std::string> growing_lines(const Scene& scene, double share) {
+    const Drive& drive = scene.drive;
+    const double gravity = scene.gravity.norm(), level = drive.g_level(gravity);
+    std::vector<std::string> lines = {"f = " + frequency_text(drive.frequency)};
+    if (gravity > 0) lines.push_back(fmt::format("Γ = {:.3g}", rounded_as(share * level, level)));
+    lines.push_back("a = " + length_text(rounded_as(share * drive.amplitude, drive.amplitude)));
+    return lines;
+}
+
 std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravity) {
     std::vector<std::string> lines = vibration_lines(now.frequency, now.amplitude, gravity);
     if (now.kind == DriveStage::Kind::rest) lines.assign({"at rest"});
@@ -47,20 +64,29 @@ std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravi
 }  // namespace
 
 std::vector<std::string> drive_lines(const Scene& scene, const Frame& frame) {
-    const double gravity = scene.gravity.norm();
-    if (!scene.drive.changes()) return vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity);
-    return stage_lines(DriveSchedule(scene.drive).now(std::max(0.0, frame.cycles)), gravity);
+    const double cycles = frame.time < 0 ? -1 : std::max(0.0, frame.cycles);
+    const double share = grown_share(scene.drive, cycles);
+    const DriveSchedule::Now now = drive_now(scene.drive, std::max(0.0, cycles));
+    if (share < 1) return growing_lines(scene, share);
+    return stage_lines(now, scene.gravity.norm());
+}
+
+bool drive_lines_change(const Drive& drive) {
+    return drive.present && (drive.changes() || drive.ramp > 0);
 }
 
 std::vector<std::string> longest_drive_lines(const Scene& scene) {
     const double gravity = scene.gravity.norm();
     std::vector<std::string> longest = vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity);
-    if (!scene.drive.changes()) return longest;
-    const DriveSchedule schedule(scene.drive);
     const auto take = [&](const std::vector<std::string>& lines) {
         for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
             if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
     };
+    // No share has longer numbers than these.
+    if (scene.drive.ramp > 0)
+        for (const double share : {0.888, 0.0888}) take(growing_lines(scene, share));
+    if (!scene.drive.changes()) return longest;
+    const DriveSchedule schedule(scene.drive);
     for (const PeriodStretch& stretch : schedule.times().stretches())
         take(stage_lines(schedule.now(stretch.cycles), gravity));
     // In a change numbers have three digits, whatever they begin and end with.

@@ -20,8 +20,10 @@ std::string diameter_text(const SizeSpread& diameter);
 // The longest 1, 2 or 5 times a power of ten that is not longer; m.
 double round_length(double longest);
 // What the drive does in a frame, a line each: f, Gamma and amplitude, of the stage that is on where it has
-// stages. In a change they are those of the moment.
+// stages. In a change, and while the drive grows at first, they are those of the moment.
 std::vector<std::string> drive_lines(const Scene& scene, const Frame& frame);
+// Whether they differ from frame to frame.
+bool drive_lines_change(const Drive& drive);
 // About as long as any of them get in the course of the film, and as many.
 std::vector<std::string> longest_drive_lines(const Scene& scene);
 // Where in the drive's period a frame is, as shown: the phase in hundredths of a turn, never 1.00, and the

@@ -98,7 +98,7 @@ NumbersPlan Planner::column() {
         plan_.drive = {x_, plan_.dial.y + (plan_.has_dial ? dial_.height + 0.6 * type_.gap : 0)};
         plan_.dial_part = part(0, plan_.dial.y - 0.4 * type_.gap, width_, plan_.drive.y);
         y = plan_.drive.y + drive_.height + type_.gap;
-        if (scene_.drive.changes())
+        if (drive_lines_change(scene_.drive))
             plan_.drive_part = part(0, std::ceil(plan_.drive.y), width_, std::floor(y));
         plan_.width = std::max({plan_.width, dial_.width, drive_.width});
     }
@@ -177,7 +177,7 @@ NumbersPlan Planner::rows() {
         const double end = y + std::max({dial_.height, drive_.height, arrows_.height});
         plan_.dial_part =
             part(0, y - 0.4 * type_.gap, plan_.drive.x - 0.4 * type_.gap, end + 0.2 * type_.gap);
-        if (scene_.drive.changes())
+        if (drive_lines_change(scene_.drive))
             plan_.drive_part = part(std::ceil(plan_.drive.x - 0.4 * type_.gap), y - 0.4 * type_.gap,
                                     plan_.arrows.x - type_.gap, end + 0.2 * type_.gap);
         y = end;
@@ -210,7 +210,7 @@ NumbersPlan Planner::row() {
     plan_.dial = next(dial_.width);
     plan_.dial_part = part(plan_.dial.x - 0.4 * gap, top, x - 0.6 * gap, top + dial_.height + 0.2 * gap);
     plan_.drive = next(drive_.width);
-    if (scene_.drive.changes())
+    if (drive_lines_change(scene_.drive))
         plan_.drive_part =
             part(plan_.drive.x - 0.4 * gap, top, x - 0.6 * gap, top + drive_.height + 0.2 * gap);
     plan_.arrows = next(arrows_.width);

@@ -67,7 +67,7 @@ void Overlay::draw_still_numbers(const View& view) {
     const Writer writer{on.get(), type_, palette_};
     if (plan_.has_dial)
         dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.dial.x, plan_.dial.y, &view);
-    if (!scene_.drive.changes()) drive_block(writer, scene_, nullptr, plan_.drive.x, plan_.drive.y);
+    if (!drive_lines_change(scene_.drive)) drive_block(writer, scene_, nullptr, plan_.drive.x, plan_.drive.y);
     if (layout_.stacked && plan_.has_arrows)
         arrows_block(writer, scene_, &view, plan_.arrows.x, plan_.arrows.y);
 }

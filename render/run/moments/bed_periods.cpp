@@ -16,6 +16,13 @@ BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector
       may_leave_out_(may_leave_out),
       diameter_(mean_diameter(scene)) {
     for (const Shot& shot : shots) first_.emplace(shot.segment, shot.step);
+    const std::vector<FilmSegment> segments = segments_of(scene.film);
+    for (const auto& [number, step] : first_) {
+        const FilmSegment& segment = segments.at(static_cast<std::size_t>(number));
+        locks_ = locks_ || segment.kind == FilmSegment::Kind::locked;
+        means_ = means_ || segment.average > 0;
+    }
+    means_ = means_ || (!shots.empty() && needs_displacement(scene.film.shows));
 }
 
 void BedPeriods::note(std::int64_t step, int periods, double difference) {
@@ -50,21 +57,23 @@ std::string BedPeriods::news_of(std::int64_t step, double difference) const {
         "from {:.3g} s on the bed repeats itself only every {} periods of the drive (from one period to the "
         "next its centre of mass differs by {:.2g} grain diameters)",
         time, periods, difference / diameter_);
-    if (wanted_ == 0 && !may_leave_out_)
-        return text +
-               fmt::format(
-                   "; displacements and means go by {} periods, but locked frames jump; with every = 2 "
-                   "or 4 they may not",
-                   periods);
+    // What of the film goes by periods; the rest does not change with the bed's.
+    const std::string means = means_ ? "displacements and means" : "";
+    if (!locks_ && !means_) return text;
+    if (wanted_ == 0 && !may_leave_out_) {
+        if (means_) text += fmt::format("; {} go by {} periods", means, periods);
+        if (locks_)
+            text += fmt::format("{} locked frames jump; with every = 2 or 4 they may not",
+                                means_ ? ", but" : ";");
+        return text;
+    }
     if (wanted_ == 0)
-        return text + fmt::format(
-                          "; locked frames, displacements and means go by {} periods; film.periods = 1 "
-                          "lets them go by one",
-                          periods);
-    return text + fmt::format(
-                      ", but film.periods is {}: locked frames jump, and displacements and means show "
-                      "the bed's flight",
-                      wanted_);
+        return text + fmt::format("; {}{}{} go by {} periods; film.periods = 1 lets them go by one",
+                                  locks_ ? "locked frames" : "", locks_ && means_ ? ", " : "", means,
+                                  periods);
+    return text + fmt::format(", but film.periods is {}: {}{}{}", wanted_, locks_ ? "locked frames jump" : "",
+                              locks_ && means_ ? ", and " : "",
+                              means_ ? means + " show the bed's flight" : "");
 }
 
 }  // namespace grainreel

@@ -38,6 +38,8 @@ class BedPeriods {
     const int wanted_;
     const bool may_leave_out_;
     const double diameter_;  // m, mean
+    // Whether the film has locked frames, and shows displacements over periods or means of them.
+    bool locks_ = false, means_ = false;
     int found_ = 1;
     std::map<int, std::int64_t> first_;  // step at which a segment begins
     std::vector<std::string> news_;

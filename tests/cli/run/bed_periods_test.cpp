@@ -25,6 +25,8 @@ Scene scene_with(int periods) {
     scene.species[0].count = 1;
     scene.species[0].diameter.mean = 1;
     scene.film.periods = periods;
+    scene.film.segments.resize(1);
+    scene.film.segments[0].kind = FilmSegment::Kind::locked;
     return scene;
 }
 
@@ -77,6 +79,32 @@ TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
     EXPECT_EQ(bed.shown(), 2);
     EXPECT_THAT(shown(bed, locked(1), all), testing::SizeIs(3));
     EXPECT_THAT(bed.news().at(0), HasSubstr("locked frames jump"));
+}
+
+// Of locked frames, displacements and means nothing is said to a film that shows none.
+TEST(BedPeriods, SpeakOnlyOfWhatTheFilmShows) {
+    const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
+    const auto news = [&](int periods, bool may_leave_out, const auto& change) {
+        Scene scene = scene_with(periods);
+        change(scene.film);
+        BedPeriods bed(scene, kClock, all, may_leave_out);
+        run(bed, 20);
+        return bed.news().at(0);
+    };
+    const auto locked_frames = HasSubstr("locked frames"), means = HasSubstr("means");
+    const auto in_motion = [](Film& film) { film.segments[0].kind = FilmSegment::Kind::motion; };
+    const auto averaged = [&](Film& film) { in_motion(film), film.segments[0].average = 2; };
+    const auto as_is = [](Film&) {};
+    for (const int periods : {0, 1}) {
+        for (const bool may : {false, true}) {
+            EXPECT_THAT(news(periods, may, in_motion), testing::EndsWith("grain diameters)"));
+            EXPECT_THAT(news(periods, may, averaged), testing::AllOf(means, testing::Not(locked_frames)));
+            EXPECT_THAT(news(periods, may, as_is), testing::AllOf(locked_frames, testing::Not(means)));
+        }
+    }
+    BedPeriods no_film(scene_with(0), kClock, {}, true);
+    run(no_film, 20);
+    EXPECT_THAT(no_film.news().at(0), testing::Not(locked_frames));
 }
 
 TEST(BedPeriods, AreThoseOfTheSceneWhereItSaysSo) {

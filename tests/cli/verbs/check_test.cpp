@@ -52,6 +52,20 @@ TEST_F(CheckProgram, ReadsAPipe) {
     EXPECT_THAT(ended.out, HasSubstr("Fifty grains"));
 }
 
+// A damping that is given leaves every size a restitution of its own; one that is asked for holds for all.
+TEST_F(CheckProgram, TellsTheRestitutionOfAllSizes) {
+    const std::string spread = "species.small.diameter={ min = \"1 mm\", max = \"4 mm\" }";
+    const auto contacts = [&](const char* more) {
+        return check({scene.string(), "--set", spread, "--set", "contact.law=spring-dashpot", "--set",
+                      "contact.stiffness=1e4", "--set", more})
+            .out;
+    };
+    EXPECT_THAT(contacts("contact.normal_damping=2000"),
+                testing::ContainsRegex("small - small +1e\\+04 N/m +the scene +0\\.[0-9]+ to 0\\.[0-9]+ "));
+    EXPECT_THAT(contacts("contact.restitution=0.5"),
+                testing::ContainsRegex("small - small +1e\\+04 N/m +the scene +0\\.5 "));
+}
+
 TEST_F(CheckProgram, ABoxThatIsOnlyFedIsNotPacked) {
     write_text(here / "fed.toml", fed_scene_text);
     const Ended ended = check({"fed.toml"});

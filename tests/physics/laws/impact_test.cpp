@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/laws/walton_braun-inl.hpp"
+#include "engine/plan/damping.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -223,6 +224,34 @@ TEST(ObliqueImpact, KeepsLinearAndAngularMomentum) {
     const auto [linear_after, angular_after] = momenta();
     EXPECT_LT((linear_after - linear).norm(), 1e-13 * linear.norm());
     EXPECT_LT((angular_after - angular).norm(), of_rounding(1e-11, 1e-8) * angular.norm());
+}
+
+// A dashpot over the root of the effective mass keeps one restitution for grains of every size; one times the
+// mass does not.
+TEST(NormalImpact, ADashpotByTheRootOfTheMassKeepsTheRestitutionOfAllSizes) {
+    for (const double e : {0.3, 0.5, 0.8}) {
+        PairPlan pair = walton_braun_pair(1, 0);
+        pair.damping_by_root = 2 * std::sqrt(kStiffness) * linear_damping(e, false);
+        for (const double one : {0.5, 1.0, 4.0}) {
+            for (const double other : {0.5, 2.0, 0.0}) {  // 0: a wall
+                const double first = sphere_mass(one * kRadius), second = sphere_mass(other * kRadius);
+                const double mass = other > 0 ? first * second / (first + second) : first;
+                const double v = 0.1, step = std::numbers::pi * std::sqrt(mass / kStiffness) / 1000;
+                World w = make_world(pair, step, NormalForce::spring_dashpot, TangentialLaw::none);
+                w.around.skin = 0.1 * kRadius;
+                w.grains.add(0, 0, Vec3(0, 0, 1.0001 * one * kRadius), one * kRadius, kDensity);
+                w.grains.motion[0].velocity = Vec3(0, 0, -v);
+                if (other > 0)
+                    w.grains.add(1, 0, Vec3(0, 0, -other * kRadius), other * kRadius, kDensity);
+                else
+                    w.around.faces = {floor_face()};
+                w.start();
+                w.run(2500);
+                const double left = w.velocity(0).z() - (other > 0 ? w.velocity(1).z() : 0);
+                EXPECT_NEAR(left / v, e, of_rounding(3e-3, 4e-3)) << one << " on " << other;
+            }
+        }
+    }
 }
 
 }  // namespace

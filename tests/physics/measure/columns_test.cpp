@@ -80,6 +80,24 @@ TEST(DriveColumns, AreThoseOfTheStageThatIsOn) {
     EXPECT_NEAR(at(0.9, "drive_g_level"), 5, 1e-9);
 }
 
+// While the drive grows over four periods: s(u) = 10 u^3 - 15 u^4 + 6 u^5 of it.
+TEST(DriveColumns, GrowWithTheDrive) {
+    BedByHand bed;
+    bed.scene = read_scene_text(std::string(test::small_scene_text), "ramp.toml",
+                                {"run.duration=1 s", "drive.ramp=4", "drive.g_level=3"});
+    bed.plan = make_plan(bed.scene);
+    bed.gravity = bed.scene.gravity;
+    bed.add(0, {0, 0, 0.01}, 0.002);
+    const auto at = [&](double periods) {
+        return bed.look(std::llround(periods * static_cast<double>(bed.plan.clock.steps_per_period)),
+                        "drive_g_level");
+    };
+    EXPECT_EQ(at(0), 0);
+    EXPECT_NEAR(at(1), 3 * (10.0 / 64 - 15.0 / 256 + 6.0 / 1024), 1e-9);
+    EXPECT_NEAR(at(2), 1.5, 1e-9);
+    EXPECT_NEAR(at(4), 3, 1e-9);
+}
+
 // A light grain that is at 1 in one period and at 3 in the next one, and a heavy one at rest.
 struct TwoHeights : BedByHand {
     TwoHeights(double light, double heavy) {

@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Golden{"bed10k", 400, Precision::mixed, 40000},
                     Golden{"bed10k-walton-braun", 400, Precision::full, 40000},
                     Golden{"frictionless", 400, Precision::full, 40000},
-                    Golden{"wedge", 405, Precision::full, 40000, 0x3654658f5eca2734, 0x44f7db31463ff115},
+                    Golden{"wedge", 405, Precision::full, 40000, 0x211e68921b5a114c, 0x30bb36c8eb753ea7},
                     Golden{"intruder", 1000, Precision::full, 25000},
                     Golden{"gas", 400, Precision::full, 12000}),
     [](const auto& one) {

@@ -1,0 +1,43 @@
+// The kinds of contact that a run can have: whose grains can meet, and how many of all contacts each kind
+// has. What is said of a bed is said of most of its contacts, and the extreme by its name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+struct ContactKind {
+    std::string name;      // "\"nut\" and \"bead\"", "\"nut\" and a wall"
+    const PairPlan* pair;  // lives as long as the plan
+    Species first;
+    std::optional<Species> second;  // empty: a wall; of infinite density where it is glued to one
+    bool at_wall = false;           // a wall or what is glued to it
+    // Of all contacts between grains, or of those at walls. Estimated: a grain has contacts in proportion to
+    // its surface.
+    double share = 0;
+
+    const Species* other() const { return second ? &*second : nullptr; }
+    double mean_contact_time() const;  // s, of grains of mean size
+    double smaller_diameter() const;   // m, of the mean ones
+};
+
+// A single grain never meets its like, and there are walls only where there is a container or a plane.
+std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan);
+
+// Of all grains, how many contacts those of a species have; 0 for one that is only glued to walls.
+std::vector<double> contact_shares(const Scene& scene);
+
+// The smallest and the largest restitution of a free impact at the plan's impact speed, over the smallest and
+// largest grains of the two species. b: nullptr for a wall.
+struct RestitutionRange {
+    double low = 1, high = 0;
+};
+RestitutionRange restitution_range(const Plan& plan, const PairPlan& pair, const Species& a,
+                                   const Species* b);
+
+}  // namespace grainreel
