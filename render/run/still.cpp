@@ -76,6 +76,7 @@ fs::path draw_still(const FilmRequest& request, double at, RunListener& listener
             renderer.remember(run.grains(earlier));
     write_png(path, renderer.draw(frame, "", seconds(index)),
               texts_of(scene.name, scene.film.title, frame, ""), scene.film.transparent);
+    if (const std::string note = renderer.colour_note(); !note.empty()) listener.info(note);
     listener.info(fmt::format("wrote {}: frame {} of {}, at {:.6g} s", path.string(), index + 1,
                               run.moments().size(), frame.time));
     return path;

@@ -10,7 +10,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "render/draw/panels/side_by_side.hpp"
 #include "render/film/sampling/pacing.hpp"
@@ -196,6 +198,10 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     const std::vector<Scene> scenes = scenes_of(all);
     std::vector<std::string> captions = captions_of(scenes);
     if (what.captions) captions = split(*what.captions);
+    for (const std::string& caption : captions)
+        if (letters_in(caption) > kMostLetters)
+            throw UserError(fmt::format("--captions: one has {} characters, and the most are {}; shorten it",
+                                        letters_in(caption), kMostLetters));
     if (captions.size() != scenes.size())
         throw UserError(
             fmt::format("--captions: has {} parts between its bars for {} panels; write one for each, "
@@ -220,6 +226,7 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     warn_of_single_moments(all);
     warn_of_pace(all);
     warn_of_what_is_left_out(layout, all);
+    warn_of_missing_letters(all);
 }
 
 // Name, title and film of the whole: those of the first, a title only when all have it.
