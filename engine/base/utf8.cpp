@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace grainreel {
 namespace {
 
@@ -34,6 +36,11 @@ std::optional<std::size_t> first_byte_not_utf8(std::string_view text) {
         at += length;
     }
     return std::nullopt;
+}
+
+std::size_t letters_in(std::string_view text) {
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 std::string excerpt(std::string_view text, std::size_t most) {

@@ -12,6 +12,9 @@ namespace grainreel {
 // when all of it is.
 std::optional<std::size_t> first_byte_not_utf8(std::string_view text);
 
+// Characters of a text that is UTF-8.
+std::size_t letters_in(std::string_view text);
+
 constexpr std::size_t kExcerpt = 60;  // characters of a user's text in a message
 
 // For messages: at most so many characters of the text, with "..." for the rest. Bytes that are no UTF-8 and

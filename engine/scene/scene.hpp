@@ -328,7 +328,7 @@ enum class WordPlace { automatic, gutters, plates, none };
 struct Film {
     int width = 1920, height = 1080;
     double rate = 30;   // frames a second of film
-    std::string title;  // shown on the frame
+    std::string title;  // shown on the frame; empty: none is
     std::vector<FilmSegment> segments;
     std::vector<FilmCaption> captions;  // by rising time; none over another
     int periods = 0;  // of the drive, that locked frames, displacements and means go by; 0: as the bed does
@@ -338,6 +338,7 @@ struct Film {
     int quality = 20;  // x264 crf; other codecs take what looks alike
     std::string preset = "veryfast";
     WordPlace words = WordPlace::automatic;
+    WordKinds word_kinds;
     bool axes = false;        // x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
     double exaggerate = 1;    // of the container's motion, grains and all

@@ -108,6 +108,13 @@ const char* words_of(Container::Shape shape) {
     return "in empty space";
 }
 
+// "400 sand (and 300 more that are fed)"
+std::string number_words(const Species& species) {
+    if (species.fed == 0) return fmt::format("{} {}", species.count, species.name);
+    if (species.count == 0) return fmt::format("{} {} that are fed", species.fed, species.name);
+    return fmt::format("{} {} (and {} more that are fed)", species.count, species.name, species.fed);
+}
+
 std::string drive_words(const Scene& scene) {
     const Drive& drive = scene.drive;
     if (!drive.present) return fmt::format("without a drive, for {:.4g} s", scene.run.duration);
@@ -124,7 +131,8 @@ std::string drive_words(const Scene& scene) {
 std::string lead_html(const Scene& scene) {
     std::string species;
     for (const Species& one : scene.species)
-        species += fmt::format("{}{} {}", species.empty() ? "" : " and ", one.all(), one.name);
+        if (one.all() > 0)  // else it is glued to walls
+            species += fmt::format("{}{}", species.empty() ? "" : " and ", number_words(one));
     return fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
                        words_of(scene.container.shape), drive_words(scene));
 }

@@ -149,6 +149,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, double at, RunLis
         request.out ? *request.out : free_name(scene, source.record().folder(), picture->frame->time);
     write_png(path, renderer.draw(*picture->frame, "", place.time),
               texts_of(scene.name, scene.film.title, *picture->frame, ""), scene.film.transparent);
+    if (const std::string note = renderer.colour_note(); !note.empty()) listener.info(note);
     listener.info(
         fmt::format("wrote {}: the run at {:.6g} s, {}", path.string(), picture->frame->time, chosen.from));
     return path;

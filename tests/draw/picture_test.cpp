@@ -371,10 +371,10 @@ TEST(Overlay, LettersAreLargeEnough) {
 TEST(Overlay, SettlingIsSaid) {
     Frame frame;
     frame.time = -0.2;
-    EXPECT_EQ(playback_text(frame, "slow motion 1/10"), "settling, drive off; slow motion 1/10");
-    EXPECT_EQ(playback_text(frame, ""), "settling, drive off");
+    EXPECT_EQ(playback_text(Film(), frame, "slow motion 1/10"), "settling, drive off; slow motion 1/10");
+    EXPECT_EQ(playback_text(Film(), frame, ""), "settling, drive off");
     frame.time = 0;
-    EXPECT_EQ(playback_text(frame, "slow motion 1/10"), "slow motion 1/10");
+    EXPECT_EQ(playback_text(Film(), frame, "slow motion 1/10"), "slow motion 1/10");
 }
 
 TEST(Overlay, AHairBeforeAPeriodIsThatPeriod) {

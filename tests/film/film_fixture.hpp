@@ -139,7 +139,7 @@ inline int grey_of(std::int64_t step) {
 inline Scene small_scene(int width = 96, int height = 64) {
     Scene scene;
     scene.name = "teaching";
-    scene.title = "Γ = 3, big and small";
+    scene.title = scene.film.title = "Γ = 3, big and small";
     scene.film.width = width;
     scene.film.height = height;
     scene.run.duration = 10;

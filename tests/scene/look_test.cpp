@@ -2,11 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <string>
 
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/film/grain_values.hpp"
+#include "engine/scene/keys/keys.hpp"
+#include "engine/scene/text/writer.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -27,13 +32,94 @@ void expect_complaint(const std::vector<std::string>& set, const std::string& wo
 
 TEST(Look, UsualRangesComeFromTheDrive) {
     const Scene scene = read_text(wedge_text);
-    const double omega = 2 * std::numbers::pi * 20, speed = 3 * 10.0 / omega;  // a w = Gamma g / w
+    const double omega = 2 * std::numbers::pi * 20, plate = 3 * 10.0 / omega;  // a w = Gamma g / w
+    // Of n layers, a blow comes back with e to the power of 2 n - 1 of its speed (the film's v, colours.md).
+    double restitution = 0;
+    for (const PairContact& pair : scene.contact.grain) restitution = std::max(restitution, pair.restitution);
+    for (const PairContact& pair : scene.contact.wall) restitution = std::max(restitution, pair.restitution);
+    const double layers = std::max(1.0, fill_height(scene, 0.5) / mean_diameter(scene));
+    const double back = std::min(0.98, std::pow(restitution, 2 * layers - 1));
+    const double speed = plate * (1.8 + 0.75 * (std::sqrt((1 + back) / (2 * (1 - back))) - std::sqrt(0.5)));
+    EXPECT_GE(speed, 1.8 * plate);
     EXPECT_NEAR(colour_of({"film.colour.by=speed"}).range[1], speed, 1e-12);
     const GrainColouring upward = colour_of({"film.colour.by=vertical-velocity"});
     EXPECT_EQ(upward.map, ColourMap::vik);
     EXPECT_NEAR(upward.range[0], -speed, 1e-12);
     EXPECT_NEAR(upward.range[1], speed, 1e-12);
-    EXPECT_EQ(colour_of({"film.colour.by=displacement"}).range[1], 0.005);
+    // Four amplitudes, or a diameter where that is more.
+    EXPECT_NEAR(colour_of({"film.colour.by=displacement"}).range[1], std::max(0.005, 4 * plate / omega),
+                1e-12);
+    EXPECT_NEAR(colour_of({"film.colour.by=displacement", "drive.g_level=0.01"}).range[1], 0.005, 1e-12);
+}
+
+// Few lively layers are thrown faster than a deep bed, and grains that leave fall faster than they are
+// thrown.
+TEST(Look, UsualSpeedsFollowTheBed) {
+    const auto speed = [](const std::vector<std::string>& set) {
+        std::vector<std::string> all{"film.colour.by=speed"};
+        all.insert(all.end(), set.begin(), set.end());
+        return colour_of(all).range[1];
+    };
+    EXPECT_GT(speed({"contact.restitution=0.99"}), speed({"contact.restitution=0.5"}));
+    const double plate = 3 * 10.0 / (2 * std::numbers::pi * 20);
+    EXPECT_NEAR(speed({"contact.restitution=0.01"}), 1.8 * plate, 0.01 * plate);
+    const std::vector<std::string> outlet{"container.outlet.width=20 mm", "container.outlet.exit_depth=1 m"};
+    EXPECT_NEAR(speed(outlet), std::sqrt(2 * 10.0 * 1), 1e-9);
+}
+
+// Where 1 grain in 100 is faster than v, exp(-ln 100 E / (m v2 / 2)) of those of a mass have more than E.
+TEST(Look, UsualEnergiesHoldNinetyNineOfAHundred) {
+    const Scene scene = read_text(wedge_text, {"film.colour.by=kinetic-energy"});
+    const double energy = scene.film.shows.colour.range[1];
+    const double speed = colour_of({"film.colour.by=speed"}).range[1];
+    double above = 0;
+    for (const Species& one : scene.species) {
+        const double mass = one.density * std::numbers::pi / 6 * mean_cube(one.diameter);
+        above += static_cast<double>(one.all()) / static_cast<double>(scene.grains()) *
+                 std::exp(-std::log(100.0) * energy / (0.5 * mass * speed * speed));
+    }
+    EXPECT_NEAR(above, 0.01, 1e-6);
+}
+
+TEST(Look, ShowNamesTheWords) {
+    EXPECT_EQ(read_text(wedge_text).film.word_kinds, WordKinds());
+    const WordKinds some = read_text(wedge_text, {"film.show=[\"title\", \"scale\"]"}).film.word_kinds;
+    EXPECT_TRUE(some.title && some.scale);
+    EXPECT_FALSE(some.legend || some.time || some.cycle || some.dial || some.drive || some.playback ||
+                 some.arrows || some.counts || some.captions);
+    const Scene nothing = read_text(wedge_text, {"film.show=[]"});
+    EXPECT_FALSE(nothing.film.word_kinds.title);
+    EXPECT_EQ(read_text(resolved_scene(nothing, make_plan(nothing))).film.word_kinds,
+              nothing.film.word_kinds);
+    expect_complaint(
+        {"film.show=[\"titel\"]"},
+        "--set film.show=[\"titel\"]: 'show' has \"titel\", which is none of the words: title, legend, "
+        "time, cycle, dial, drive, playback, scale, arrows, counts, captions");
+    expect_complaint({"film.show=title"}, "must be a list of names, but is \"title\"");
+    try {
+        read_text(wedge_text + "\n[film]\nshow = [\"time\", \"clock\"]\n");
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        const long line = std::count(wedge_text.begin(), wedge_text.end(), '\n') + 3;
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr(":" + std::to_string(line) + ":17: 'show' has \"clock\""));
+    }
+}
+
+TEST(Look, ATitleMayBeEmpty) {
+    EXPECT_EQ(read_text(wedge_text, {"title=A bed"}).film.title, "A bed");
+    const Scene without = read_text(wedge_text, {"title=A bed", "film.title="});
+    EXPECT_EQ(without.film.title, "");
+    EXPECT_EQ(read_text(resolved_scene(without, make_plan(without))).film.title, "");
+}
+
+TEST(Look, TextsAreNotEndless) {
+    std::string long_enough;
+    for (std::size_t k = 0; k < kMostLetters; ++k) long_enough += "Γ";
+    EXPECT_EQ(read_text(wedge_text, {"film.title=" + long_enough}).film.title, long_enough);
+    for (const char* key : {"film.title", "title", "species.big.name", "film.text"})
+        expect_complaint({std::string(key) + "=" + long_enough + "x"},
+                         "has 1001 characters, and the most are 1000; shorten it");
 }
 
 TEST(Look, AConditionIsAQuantityAndALimit) {

@@ -16,6 +16,8 @@ using Method = Start::Method;
 const Words<Method> method_words{
     {"layers", Method::layers}, {"rain", Method::rain}, {"file", Method::file}, {"grains", Method::grains}};
 
+constexpr std::size_t longest_path = 4096;  // as Linux has it
+
 const char* without_file(const Start& start) {
     return start.method != Method::file ? "the start is not from a file" : nullptr;
 }
@@ -47,10 +49,10 @@ BoundKey<Start> file_key() {
             document.fail(path, fmt::format("lies at {}; rename the folder", wrong));
     };
     return bound_by<Start>(
-               entry(
-                   "file", KeyKind::text, note("required; file"),
-                   "Checkpoint or final.csv of an earlier run, relative to the scene's folder; stiffness and "
-                   "histories follow from it (docs/guide/again.md)."),
+               of_length(entry("file", KeyKind::text, note("required; file"),
+                               "Checkpoint or final.csv of an earlier run, relative to the scene's folder; "
+                               "stiffness and histories follow from it (docs/guide/again.md)."),
+                         longest_path),
                read, [](const Start& start, const Scene&) { return quoted(start.file); })
         .excludes({"settle_limit", "settle_damping"})
         .useless_for(without_file);

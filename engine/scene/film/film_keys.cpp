@@ -10,6 +10,7 @@
 #include "engine/scene/film/colours.hpp"
 #include "engine/scene/film/film_file.hpp"
 #include "engine/scene/film/purposes.hpp"
+#include "engine/scene/film/word_kinds.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "engine/scene/text/data_size.hpp"
 
@@ -161,7 +162,7 @@ const KeyTable<Film>& picture_table() {
                 "Periods of the drive that locked frames, displacements and means go by.")
             .unwritten_if([](const Film& film) { return film.periods == 0; })
             .written_at(1),
-        text("title", &Film::title, note("`title`"), "Shown on the frame.")
+        text("title", &Film::title, note("`title`"), "Shown on the frame; \"\" for none.")
             .usually([](Film& film, const Scene& scene) { film.title = scene.title; }),
     };
     return table;
@@ -194,6 +195,7 @@ const KeyTable<Film>& scenery_table() {
         choice("words", &Film::words, word_place_words, initial(),
                "Words beside the picture, on plates over it, or none; automatic: plates with a "
                "zoom, position or target of your own."),
+        word_kinds_key(),
         // Not written where it is as the camera has it: a finished run may be drawn again with another one.
         flag("axes", &Film::axes, note("true where the camera moves"),
              "Arrows along x, y and z as the camera sees them.")

@@ -128,6 +128,22 @@ struct FilmShows {
     bool operator==(const FilmShows&) const = default;
 };
 
+// Which words and signs stand beside the grains. Film::words says where.
+struct WordKinds {
+    bool title = true;
+    bool legend = true;  // species, colours and marks
+    bool time = true;
+    bool cycle = true;  // of the drive, and its phase
+    bool dial = true;
+    bool drive = true;     // f, Gamma and amplitude
+    bool playback = true;  // what is said of time
+    bool scale = true;     // bar of a length
+    bool arrows = true;    // gravity and vibration
+    bool counts = true;    // of grains that have flowed out or lie in the tray
+    bool captions = true;  // with the headings of panels
+    bool operator==(const WordKinds&) const = default;
+};
+
 // What the film needs of a frame beyond the grains' state: Frame::displacement, ...
 inline bool shows_value(const FilmShows& look, GrainValue value) {
     return look.colour.by == value || look.highlight_if.of == value;

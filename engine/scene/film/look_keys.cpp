@@ -29,7 +29,8 @@ const KeyTable<FilmLook>& look_table() {
         style_key(),
         light("occlusion", &FilmLook::occlusion, "Less light reaches the gaps between grains."),
         light("shadows", &FilmLook::shadows, "Of grains on other grains."),
-        light("ground", &FilmLook::ground, "Under the container, to show its shadow."),
+        light("ground", &FilmLook::ground,
+              "Under the container, to show its shadow; none where grains leave below an outlet."),
         flag("rotation", &FilmLook::rotation, initial(),
              "Grains are light on one half and dark on the other and so show how they turn."),
     };

@@ -66,7 +66,8 @@ std::string value_words(const Key& key) {
         case KeyKind::interval:
             return "[low, high]";
         case KeyKind::name_list:
-            return "list of names";
+            return key.choices.empty() ? std::string("list of names")
+                                       : fmt::format("list of \"{}\"", fmt::join(key.choices, "\", \""));
         case KeyKind::integer_list:
             return "list of whole numbers";
         case KeyKind::seeds:
@@ -112,7 +113,8 @@ std::string Key::example() const {
     if (kind == KeyKind::colour) return "\"orange\"";
     if (kind == KeyKind::species_pair) return "[\"small\", \"wall\"]";
     if (kind == KeyKind::interval) return "[0, 1]";
-    if (kind == KeyKind::name_list) return "[\"small\"]";
+    if (kind == KeyKind::name_list)
+        return choices.size() < 2 ? "[\"small\"]" : fmt::format("[\"{}\", \"{}\"]", choices[0], choices[1]);
     if (kind == KeyKind::integer_list) return "[3, 14]";
     if (kind == KeyKind::seeds) return "3";
     if (kind == KeyKind::value) return "\"2 mm\"";

@@ -73,6 +73,11 @@ inline Key of_choices(Key key, std::vector<std::string> choices) {
     return key;
 }
 
+inline Key of_length(Key key, std::size_t most_letters) {
+    key.most_letters = most_letters;
+    return key;
+}
+
 using Keys = std::vector<Key>;
 
 }  // namespace grainreel::keys

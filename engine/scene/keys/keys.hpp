@@ -32,6 +32,9 @@ enum class KeyKind {
     value_list,    // anything, several times
 };
 
+// Of a text: letters cost time on every picture, and a picture holds far fewer.
+constexpr std::size_t kMostLetters = 1000;
+
 // What numbers may be, ends included unless `open`.
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
@@ -48,9 +51,10 @@ struct Key {
     KeyKind kind = KeyKind::quantity;
     Dimension dimension = Dimension::number;
     Range range;
-    std::vector<std::string> choices;
-    std::string fallback;       // as a scene would write it; empty when there is no such value
-    std::string fallback_note;  // in words instead: "required", "one period"
+    std::vector<std::string> choices;         // of a choice, or of each name in a list
+    std::size_t most_letters = kMostLetters;  // of a text
+    std::string fallback;                     // as a scene would write it; empty when there is no such value
+    std::string fallback_note;                // in words instead: "required", "one period"
     std::string about;
     // Names beside it in its table. Setting a key on the command line takes out of the file what the key
     // excludes, what excludes the key, and, when its value changes, what belongs to that value.

@@ -234,6 +234,9 @@ std::optional<std::string> Document::text(const std::string& path) {
     if (!value)
         fail(path, fmt::format("must be text, but is {}; write for example {}", written_value(*node),
                                key.example()));
+    if (const std::size_t letters = letters_in(*value); letters > key.most_letters)
+        fail(path,
+             fmt::format("has {} characters, and the most are {}; shorten it", letters, key.most_letters));
     const auto& known = key.choices;
     if (key.kind == KeyKind::choice && std::find(known.begin(), known.end(), *value) == known.end())
         fail(path,

@@ -2,17 +2,20 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/base/team.hpp"
 #include "engine/bench/lattice_speed.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/vector/instructions.hpp"
+#include "render/draw/words/missing_letters.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/gl/context.hpp"
 
@@ -123,6 +126,32 @@ std::vector<Finding> find_programs() {
     gnuplot.good = file.has_value();
     gnuplot.state = file ? file->string() : "is not on the PATH";
     return {gnuplot};
+}
+
+// Those that words on films have in any case, and all others.
+std::vector<Finding> find_letters() {
+    std::vector<std::string> here, absent, packages;
+    bool usual = true;
+    for (const ScriptSample& sample : script_samples()) {
+        const std::vector<MissingLetters> missing = missing_letters(sample.letters);
+        (missing.empty() ? here : absent).emplace_back(sample.name);
+        if (missing.empty()) continue;
+        std::string package = missing.front().package;
+        const bool of_ours = std::string(sample.name) == "Latin" || std::string(sample.name) == "Greek";
+        if (of_ours) package = "fonts-dejavu-core", usual = false;
+        if (std::find(packages.begin(), packages.end(), package) == packages.end())
+            packages.push_back(std::move(package));
+    }
+    std::vector<Finding> found;
+    found.push_back({"letters", here.empty() ? "no font at all" : fmt::format("{}", fmt::join(here, ", ")),
+                     usual, true, "on Debian: apt-get install fonts-dejavu-core"});
+    if (!absent.empty())
+        found.push_back(
+            {"letters",
+             fmt::format("no font for {}: a film has boxes in their place", fmt::join(absent, ", ")), false,
+             false,
+             fmt::format("for words on films; on Debian: apt-get install {}", fmt::join(packages, " "))});
+    return found;
 }
 
 std::vector<Finding> find_room(const fs::path& out) {

@@ -35,10 +35,7 @@ ShadowMap::ShadowMap(const Scene& scene)
     const double stroke =
         scene.drive.present ? drive_peaks(scene.drive).offset * std::abs(scene.drive.direction.z()) : 0;
     height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
-    if (container_.tray)
-        height_ = low_plate_ - container_.tray->depth - 0.15 * drawn_thickness(foot_);
-    else if (container_.outlet)
-        height_ = std::min(height_, -container_.outlet->exit_depth);
+    if (container_.tray) height_ = low_plate_ - container_.tray->depth - 0.15 * drawn_thickness(foot_);
 }
 
 Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {

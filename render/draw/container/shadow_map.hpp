@@ -14,7 +14,8 @@ class ShadowMap {
   public:
     static constexpr int kSide = 192;  // cells
 
-    // The ground lies under the lowest point that the container reaches. Only for scenes with a container.
+    // The ground lies under the lowest point that the container reaches. Only for scenes with a container
+    // that grains do not leave below.
     explicit ShadowMap(const Scene& scene);
 
     // to_key: unit, in the lab.

@@ -48,6 +48,23 @@ int bands_of(const GrainColouring& colouring) {
 
 }  // namespace
 
+std::string clipped_words(const GrainColouring& colouring, const ClippedCount& count, const char* of) {
+    const bool banded = bands_of(colouring) > 0;  // the highest band has no upper end
+    std::string parts;
+    const auto part = [&](std::int64_t beyond, const char* side, double end) {
+        if (beyond == 0) return;
+        const std::string unit = colouring.unit.empty() ? "" : " " + colouring.unit;
+        parts += fmt::format("{}{:.2g} % of the {} lie {} {:.3g}{}", parts.empty() ? "" : ", ",
+                             100 * static_cast<double>(beyond) / static_cast<double>(count.all), of, side,
+                             end / unit_size(colouring.unit, dimension_of(colouring.by)), unit);
+    };
+    part(count.below, "below", colouring.range[0]);
+    if (!banded) part(count.above, "above", colouring.range[1]);
+    if (parts.empty()) return "";
+    return fmt::format("colours by {}: {}, where the bar ends (film.colour.range)",
+                       quantity_words(colouring.by), parts);
+}
+
 ColourScale::ColourScale(const GrainColouring& colouring)
     : colouring_(colouring),
       bands_(bands_of(colouring)),

@@ -1,13 +1,31 @@
 // From a quantity's value to a colour, and the words and ticks that the colour bar needs.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "engine/scene/film/film_shows.hpp"
+#include "engine/scene/film/grain_values.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
+
+// How many values have had colours in pictures, and how many of them lie beyond an end of the bar.
+struct ClippedCount {
+    std::int64_t all = 0, below = 0, above = 0;
+    void take(double value, const std::array<double, 2>& range) {
+        if (std::isnan(value)) return;
+        ++all;
+        if (value < range[0]) ++below;
+        if (value > range[1]) ++above;
+    }
+};
+
+// "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where none does. of: "grains".
+std::string clipped_words(const GrainColouring& colouring, const ClippedCount& count, const char* of);
 
 class ColourScale {
   public:
@@ -22,6 +40,9 @@ class ColourScale {
     int bands() const { return bands_; }
     double low() const { return colouring_.range[0]; }  // SI
     double high() const { return colouring_.range[1]; }
+    // Whether there can be values beyond an end, which then stands for all of these.
+    bool open_below() const { return is_signed(colouring_.by) || low() > 0; }
+    bool open_above() const { return true; }
     double unit_size() const { return unit_size_; }  // SI in one of the unit shown
     std::string title() const;                       // "speed (m/s)"
 

@@ -55,7 +55,10 @@ const std::vector<Albedo>& GrainColours::of(const Frame& frame) {
         return colours_;
     }
     const std::vector<double>& values = quantities_.of(frame);
-    for (std::size_t i = 0; i < frame.size(); ++i) colours_[i] = of_value(values[i]);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        colours_[i] = of_value(values[i]);
+        clipped_.take(values[i], {low_, high_});
+    }
     return colours_;
 }
 

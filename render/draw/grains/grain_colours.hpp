@@ -6,6 +6,7 @@
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/draw/grains/colour_scale.hpp"
 #include "render/draw/grains/quantities.hpp"
 
 namespace grainreel {
@@ -25,6 +26,8 @@ class GrainColours {
 
     // One a grain, in the frame's order.
     const std::vector<Albedo>& of(const Frame& frame);
+    // Of all grains that it has coloured by a quantity.
+    const ClippedCount& clipped() const { return clipped_; }
 
   private:
     Albedo of_value(double value) const;
@@ -33,6 +36,7 @@ class GrainColours {
     bool by_species_;
     double low_ = 0, high_ = 1;  // SI
     bool banded_ = false;
+    ClippedCount clipped_;
     std::vector<Albedo> steps_;  // a species each; or along the colour map, or its bands
     std::vector<Albedo> colours_;
 };

@@ -24,6 +24,8 @@ class SpherePainter {
     // See Renderer.
     void start_from(const Frame& frame) { grain_colours_.start_from(frame); }
 
+    const ClippedCount& clipped() const { return grain_colours_.clipped(); }
+
     // One after the other.
     void take(const View& view, const Frame& frame);
     void find_visible();

@@ -62,9 +62,11 @@ void FieldLayer::draw(const View& view, const Frame& frame, Shapes& on) {
         for (std::int64_t j = 0; j < y.count; ++j) {
             const auto c = static_cast<std::size_t>(grid_.index(0, j, k));
             if (mass_[c] <= 0 || shares_[c] < 0.5) continue;
+            const double mean = sum_[c] / mass_[c];
+            clipped_.take(mean, {scale_.low(), scale_.high()});
             const double alpha = strength * std::min(1.0, solid_[c] / full_from);
             on.polygon({corner(j, k), corner(j + 1, k), corner(j + 1, k + 1), corner(j, k + 1)},
-                       {scale_.at(sum_[c] / mass_[c]), alpha});
+                       {scale_.at(mean), alpha});
         }
 }
 

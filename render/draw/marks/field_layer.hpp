@@ -21,6 +21,7 @@ class FieldLayer {
     // See Renderer.
     void start_from(const Frame& frame) { quantities_.start_from(frame); }
     void draw(const View& view, const Frame& frame, Shapes& on);
+    const ClippedCount& clipped() const { return clipped_; }  // cells
 
   private:
     void gather(const Frame& frame);
@@ -31,6 +32,7 @@ class FieldLayer {
     Footprint footprint_;
     Quantities quantities_;
     ColourScale scale_;
+    ClippedCount clipped_;
     std::vector<double> solid_, mass_, sum_;  // in each cell: solid fraction, kg/m3, and that times the mean
 };
 

@@ -29,7 +29,7 @@ bool has_marks(const FilmShows& look) {
 }
 
 double widest_force(const Scene& scene) {
-    return usual_range(GrainValue::contact_force, scene)[1];
+    return widest_chain_force(scene);
 }
 
 double widest_line(int picture_height) {

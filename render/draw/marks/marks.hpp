@@ -35,6 +35,8 @@ class Marks {
     using SeenShare = std::function<double(std::size_t grain)>;
     // Adds them to what is to be painted after the grains. Frames come in the order of time.
     void draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
+    // Of the field's cells.
+    ClippedCount clipped() const { return field_ ? field_->clipped() : ClippedCount(); }
 
   private:
     void draw_chains(const View& view, const Frame& frame, Shapes& on) const;

@@ -108,6 +108,7 @@ std::string words_of_rings(const FilmShows& look) {
 TextSize marks_block(const Writer& writer, const Scene& scene, double scale, double x, double y,
                      double wrap) {
     const FilmShows& look = scene.film.shows;
+    if (!scene.film.word_kinds.legend) return {};
     const Palette& palette = writer.palette;
     MarksLegend legend(writer, x, y, wrap);
     if (look.arrows.across > 0)
@@ -119,8 +120,8 @@ TextSize marks_block(const Writer& writer, const Scene& scene, double scale, dou
                                 look.streamlines.period ? " over a period" : "",
                                 quantity_text(look.streamlines.speed, Dimension::speed)));
     if (look.wall_forces.wanted)
-        legend.arrow(wall_force_scale(scene) * scale, Dimension::force, palette.force, 1.7 * legend.pen(),
-                     "mean force on a wall");
+        legend.arrow(wall_force_scale(scene) * scale, Dimension::force, palette.wall_force,
+                     1.7 * legend.pen(), "mean force on a wall");
     if (look.trails.wanted())
         legend.line(
             palette.accent, 1.5 * legend.pen(),

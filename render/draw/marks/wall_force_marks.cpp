@@ -82,7 +82,7 @@ void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Frame& 
     if (along.norm() > longest) along *= longest / along.norm();
     const Vec3 tip = frame.body(static_cast<std::size_t>(face.body.number)).place + origin + *acts;
     draw_arrow(on, view.project(tip - along), view.project(tip),
-               {palette_.force, palette_.background, 2.4 * pen_, pen_});
+               {palette_.wall_force, palette_.background, 2.4 * pen_, pen_});
 }
 
 }  // namespace grainreel

@@ -78,6 +78,7 @@ ContactSheet::ContactSheet(const Film& film)
       height_(
           std::max(1, static_cast<int>(std::lround(static_cast<double>(width_) * film.height / film.width)))),
       letters_(std::clamp(width_ / 18.0, 11.0, 26.0)),
+      label_(film.word_kinds.time ? static_cast<int>(std::lround(1.6 * letters_)) : 0),
       background_(make_palette(film.background).background),
       ink_(make_palette(film.background).ink) {}
 
@@ -132,8 +133,8 @@ std::vector<ContactSheet::Tile> ContactSheet::chosen(const Picture& last) const 
 }
 
 Picture ContactSheet::draw(const Picture& last) const {
-    const int label = static_cast<int>(std::lround(1.6 * letters_));
-    const Surface page = make_surface(columns_ * (width_ + gap) + gap, rows_ * (height_ + label + gap) + gap);
+    const Surface page =
+        make_surface(columns_ * (width_ + gap) + gap, rows_ * (height_ + label_ + gap) + gap);
     const Context on(cairo_create(page.get()));
     set_colour(on.get(), background_);
     cairo_paint(on.get());
@@ -151,9 +152,8 @@ Picture ContactSheet::draw(const Picture& last) const {
 }
 
 void ContactSheet::draw_tile(cairo_t* on, const Tile& tile, std::size_t place, int decimals) const {
-    const int label = static_cast<int>(std::lround(1.6 * letters_));
     const int column = static_cast<int>(place) % columns_, row = static_cast<int>(place) / columns_;
-    const double x = gap + column * (width_ + gap), y = gap + row * (height_ + label + gap);
+    const double x = gap + column * (width_ + gap), y = gap + row * (height_ + label_ + gap);
     cairo_set_source_surface(on, tile.picture.get(), x, y);
     cairo_paint(on);
     // A hair line, for films whose background is the page's.
@@ -161,6 +161,7 @@ void ContactSheet::draw_tile(cairo_t* on, const Tile& tile, std::size_t place, i
     cairo_set_line_width(on, 1);
     cairo_rectangle(on, x - 0.5, y - 0.5, width_ + 1, height_ + 1);
     cairo_stroke(on);
+    if (label_ == 0) return;
     draw_text(on, x, y + height_ + 0.15 * letters_, fmt::format("t = {:.{}f} s", tile.time, decimals),
               {letters_, false}, ink_);
 }

@@ -37,6 +37,7 @@ class ContactSheet {
     int columns_, rows_;
     int width_, height_;  // of a tile, pixels
     double letters_;      // pixels
+    int label_;           // pixels of the times under the tiles; 0 without them
     Colour background_, ink_;
     std::vector<Tile> kept_;  // by rising time, some times more than there is room for ...
     double apart_ = 0;        // ... and no two nearer than this, s

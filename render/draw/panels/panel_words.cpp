@@ -16,6 +16,7 @@ constexpr int pace_lines = 4;
 // Only what holds for all panels; the rest is in their captions. frame: null to measure the longest.
 TextSize common_drive(const Writer& writer, const Scene& scene, const Common& common, const Frame* frame,
                       double x, double y) {
+    if (!scene.film.word_kinds.drive) return {};
     Frame shown = frame ? *frame : Frame();
     if (!scene.drive.present) shown.cycles = scene.drive.ramp;  // drives that grow in times of their own
     std::vector<std::string> lines = frame ? drive_lines(scene, shown) : longest_drive_lines(scene);
@@ -59,14 +60,15 @@ MarkKinds own_marks_of(const Common& common, double scale) {
             !kinds.trails, !kinds.chains,      !kinds.rings};
 }
 
-WordBlock playback_block(const Writer& measure) {
+WordBlock playback_block(const Writer& measure, const Film& film) {
     const double wrap = 13 * measure.type.minor;
     const TextSize line = measure.write(0, 0, "1 frame", measure.minor(), measure.palette.faint_ink);
-    return {{wrap, 3 * line.height},
-            true,
-            [wrap](const Writer& on, double x, double y, const Frame& frame, const std::string& playback) {
-                on.write(x, y, playback_text(frame, playback), on.minor(), on.palette.faint_ink, wrap, 3);
-            }};
+    return {
+        {wrap, 3 * line.height},
+        true,
+        [film, wrap](const Writer& on, double x, double y, const Frame& frame, const std::string& playback) {
+            on.write(x, y, playback_text(film, frame, playback), on.minor(), on.palette.faint_ink, wrap, 3);
+        }};
 }
 
 // What all scenes say at that time, in a row of its own.
@@ -95,13 +97,14 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
                                      const Common& common, double scale, double width) {
     Scene scene = panels.front().scene;
     scene.drive.present = common.clock;
+    const WordKinds& kinds = scene.film.word_kinds;
     std::vector<WordBlock> blocks;
     if (common.captions) blocks.push_back(captions_block(measure, scene.film, width));
     blocks.push_back({clock_block(measure, scene, widest_frame(), 0, 0), true,
                       [scene](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
                           clock_block(on, scene, frame, x, y);
                       }});
-    if (common.clock) blocks.push_back(dial(measure, scene.drive));
+    if (common.clock && kinds.dial) blocks.push_back(dial(measure, scene.drive));
     if (common.frequency || common.g_level || common.amplitude) {
         blocks.push_back(
             {common_drive(measure, scene, common, nullptr, 0, 0),
@@ -115,14 +118,14 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
                           [film = scene.film](const Writer& on, double x, double y, const Frame&,
                                               const std::string&) { exaggeration_block(on, film, x, y); }});
     }
-    if (common.playback) blocks.push_back(playback_block(measure));
+    if (common.playback && kinds.playback) blocks.push_back(playback_block(measure, scene.film));
     if (common.species) {
         blocks.push_back({legend_block(measure, scene, 0, 0, 0), false,
                           [scene](const Writer& on, double x, double y, const Frame&, const std::string&) {
                               legend_block(on, scene, x, y, 0);
                           }});
     }
-    if (common.colours && scene.film.shows.colour.by != GrainValue::species) {
+    if (common.colours && has_colour_bar(scene.film)) {
         const double wide = common_colour_bar * width;
         blocks.push_back({colour_bar_block(measure, scene, 0, 0, wide), false,
                           [scene, wide](const Writer& on, double x, double y, const Frame&,
@@ -138,7 +141,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
                  marks_block(on, marked, pixels, x, y, wrap);
              }});
     }
-    if (scale > 0) {
+    if (scale > 0 && kinds.scale) {
         // As wide as it may get: the row it stands in must not depend on the scale.
         const double longest = longest_bar * width;
         blocks.push_back({{longest, scale_block(measure, scale, 0, 0, longest).height},
@@ -146,10 +149,12 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
                           [scale, longest](const Writer& on, double x, double y, const Frame&,
                                            const std::string&) { scale_block(on, scale, x, y, longest); }});
     }
+    std::erase_if(blocks, [](const WordBlock& block) { return block.size.height <= 0; });
     return blocks;
 }
 
 double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width) {
+    if (blocks.empty()) return 0;
     const double inner = width - 2 * type.margin, gap = 2 * type.gap;
     double y = 0.5 * type.margin;
     for (std::size_t first = 0; first < blocks.size();) {
@@ -185,9 +190,11 @@ double pace_height(const Writer& measure, const std::vector<Panel>& panels, cons
                    double width) {
     double height = 0;
     if (common.playback) return height;
-    for (const Panel& panel : panels)
+    for (const Panel& panel : panels) {
+        if (!panel.scene.film.word_kinds.playback) continue;
         for (const std::string& words : panel.playback)
             height = std::max(height, pace_block(measure, words, width).height);
+    }
     return height;
 }
 
@@ -228,8 +235,10 @@ double own_bar_height(const Writer& measure, const Panel& panel, const Common& c
 
 double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common, bool scales,
                    double width) {
-    double row = scales ? scale_block(measure, 1, 0, 0, 100).height : 0, bar = 0, marks = 0;
+    double row = 0, bar = 0, marks = 0;
     for (const Panel& panel : panels) {
+        if (scales && panel.scene.film.word_kinds.scale)
+            row = std::max(row, scale_block(measure, 1, 0, 0, 100).height);
         if (!common.species) row = std::max(row, legend_block(measure, panel.scene, 0, 0, 0).height);
         bar = std::max(bar, own_bar_height(measure, panel, common));
         const Scene marked = marked_by(panel.scene, own_marks_of(common, scales ? 0 : 1));
@@ -242,8 +251,9 @@ void draw_foot(const Writer& writer, const Panel& panel, const Common& common, d
                double width) {
     const Writer measure{nullptr, writer.type, writer.palette};
     const double longest = longest_own_bar * width, gap = 3 * writer.type.gap;
+    const bool scales = bar && panel.scene.film.word_kinds.scale;
     const TextSize legend = common.species ? TextSize{} : legend_block(measure, panel.scene, 0, 0, 0);
-    const TextSize length = bar ? scale_block(measure, scale, 0, 0, longest) : TextSize{};
+    const TextSize length = scales ? scale_block(measure, scale, 0, 0, longest) : TextSize{};
     const double both = legend.width + length.width + (legend.width > 0 && length.width > 0 ? gap : 0);
     double y = 0;
     if (own_bar_height(measure, panel, common) > 0)
@@ -252,7 +262,7 @@ void draw_foot(const Writer& writer, const Panel& panel, const Common& common, d
                 .height;
     const double x = 0.5 * (width - both);
     if (!common.species) legend_block(writer, panel.scene, x, y, 0);
-    if (bar) scale_block(writer, scale, x + both - length.width, y, longest);
+    if (scales) scale_block(writer, scale, x + both - length.width, y, longest);
     y += std::max(legend.height, length.height);
     marks_block(writer, marked_by(panel.scene, own_marks_of(common, bar ? 0 : 1)), scale, 0, y, width);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include <fmt/format.h>
+
 #include "engine/base/error.hpp"
 #include "render/draw/container/container_drawing.hpp"
 #include "render/draw/panels/panel_words.hpp"
@@ -17,16 +19,17 @@ namespace grainreel {
 namespace {
 
 double title_height(const Writer& measure, const Film& film) {
-    if (film.title.empty()) return 0.5 * measure.type.margin;
+    const std::string title = shown_title(film);
+    if (title.empty()) return 0.5 * measure.type.margin;
     const double inner = film.width - 2 * measure.type.margin;
-    return measure.write(0, 0, film.title, measure.title(), measure.palette.ink, inner, 2).height +
+    return measure.write(0, 0, title, measure.title(), measure.palette.ink, inner, 2).height +
            measure.type.margin;
 }
 
 double caption_height(const Writer& measure, const std::vector<Panel>& panels, double width) {
     double height = 0;
     for (const Panel& panel : panels) {
-        if (panel.caption.empty()) continue;
+        if (panel.caption.empty() || !panel.scene.film.word_kinds.captions) continue;
         height = std::max(height, caption_block(measure, panel.caption, width).height);
     }
     return height > 0 ? height + 0.3 * measure.type.gap : 0;
@@ -157,9 +160,10 @@ void SideBySide::Impl::renew(const Rectangle& part, const Write& write) {
 void SideBySide::Impl::write_still_words(const std::vector<Panel>& panels, const Film& film) {
     renew({0, 0, film.width, film.height}, [](const Writer&) {});
     renew(layout.top, [&](const Writer& on) {
-        if (film.title.empty()) return;
+        const std::string title = shown_title(film);
+        if (title.empty()) return;
         cairo_translate(on.on, 0, 0.6 * type.margin);
-        write_in_middle(on, film.title, on.title(), palette.ink, film.width, 2);
+        write_in_middle(on, title, on.title(), palette.ink, film.width, 2);
     });
     renew(layout.bottom, [&](const Writer& on) {
         for (const WordBlock& block : blocks)
@@ -167,8 +171,10 @@ void SideBySide::Impl::write_still_words(const std::vector<Panel>& panels, const
     });
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const PanelLayout::Place& place = layout.places[i];
-        renew(place.caption,
-              [&](const Writer& on) { caption_block(on, panels[i].caption, place.caption.width); });
+        renew(place.caption, [&](const Writer& on) {
+            if (!scenes[i].film.word_kinds.captions) return;
+            caption_block(on, panels[i].caption, place.caption.width);
+        });
         const double scale = frame_container(scenes[i], bare_layout(scenes[i].film))
                                  .pixels_per_metre(framed_middle(scenes[i]));
         renew(place.foot, [&](const Writer& on) {
@@ -245,7 +251,7 @@ const Picture& SideBySide::draw(const std::vector<FramePtr>& frames, std::size_t
             std::memcpy(m.picture.pixel(port.x, port.y + y), panel.pixel(0, y),
                         static_cast<std::size_t>(port.width) * 4);
         m.write_note(i, *frames[i]);
-        m.write_pace(i, playback_text(*frames[i], m.pace_of(i, segment)));
+        m.write_pace(i, playback_text(m.scenes[i].film, *frames[i], m.pace_of(i, segment)));
     }
     m.draw_plots(frames);
     m.write_changing_words(*frames[clock], m.pace_of(0, segment));
@@ -254,6 +260,13 @@ const Picture& SideBySide::draw(const std::vector<FramePtr>& frames, std::size_t
 
 const PanelLayout& SideBySide::layout() const {
     return impl_->layout;
+}
+std::string SideBySide::colour_note() const {
+    std::string notes;
+    for (std::size_t i = 0; i < impl_->renderers.size(); ++i)
+        if (const std::string note = impl_->renderers[i]->colour_note(); !note.empty())
+            notes += fmt::format("{}panel {}: {}", notes.empty() ? "" : "; ", i + 1, note);
+    return notes;
 }
 std::string SideBySide::gl_description() const {
     return impl_->renderers.front()->gl_description();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "engine/base/team.hpp"
 #include "render/draw/camera/view.hpp"
@@ -19,7 +20,8 @@ struct Layers {
     const Layer& grains;
     const Layer* ghosts;  // laid over the grains at a part of their strength; may be null
     const Layer& before;
-    const Layer* marks;  // over all others; may be null
+    const Layer* marks;                           // over all others; may be null
+    const std::vector<std::uint32_t>& strengths;  // of grains, 0 to 255, by row; empty: full
 };
 
 // The result goes into the port's part of the picture.

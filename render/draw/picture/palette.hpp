@@ -37,7 +37,9 @@ inline double contrast(const Colour& a, const Colour& b) {
 }
 
 struct Palette {
-    Colour background, ink, faint_ink, solid, accent, force;  // force: of lines between grains
+    Colour background, ink, faint_ink, solid, accent;
+    Colour force;       // of lines between grains, and of arrows at one of them
+    Colour wall_force;  // of arrows at walls
 };
 
 inline Palette make_palette(const Colour& background) {
@@ -51,6 +53,7 @@ inline Palette make_palette(const Colour& background) {
     palette.faint_ink = mix(palette.ink, background, std::max(0.0, faint));
     palette.solid = mix(background, light ? Colour{0.36, 0.42, 0.50} : Colour{0.70, 0.76, 0.84}, 0.62);
     palette.force = light ? Colour{0.40, 0.18, 0.55} : Colour{0.78, 0.62, 1.0};
+    palette.wall_force = light ? Colour{0.0, 0.38, 0.36} : Colour{0.36, 0.86, 0.76};
     palette.accent = light ? Colour{0.72, 0.16, 0.10} : Colour{1.0, 0.55, 0.42};
     return palette;
 }

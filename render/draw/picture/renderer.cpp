@@ -10,6 +10,7 @@
 #include "render/draw/camera/camera_path.hpp"
 #include "render/draw/camera/exaggeration.hpp"
 #include "render/draw/container/container_drawing.hpp"
+#include "render/draw/container/exit_fade.hpp"
 #include "render/draw/container/ground.hpp"
 #include "render/draw/container/side_layer.hpp"
 #include "render/draw/grains/shown_grains.hpp"
@@ -75,7 +76,10 @@ struct Renderer::Impl {
           sphere_painter(s, port.width, port.height, team, false),
           words(s.film.width, s.film.height) {
         if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
-        if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none)
+        // What grains fall through is no ground.
+        const bool falls_through = s.container.outlet && !s.container.tray;
+        if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none &&
+            !falls_through)
             ground.emplace(scene, port);
     }
 
@@ -221,7 +225,7 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
                       palette, std::max(1.0, scene.film.height / 540.0), shapes.over);
     const Layer* marked_alone = draw_before();
     compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
-             walls_behind, grains, ghosts, before.layer(), marked_alone},
+             walls_behind, grains, ghosts, before.layer(), marked_alone, exit_fade(scene, eye, port.height)},
             port, into, team);
     for (const auto& [place, pixel] : covered) *place = pixel;
     covered.clear();
@@ -275,6 +279,12 @@ const Picture& Renderer::draw(const Frame& frame, const std::string& playback, d
 void Renderer::draw_into(Picture& picture, const Frame& frame, const std::string& playback,
                          double film_time) {
     impl_->draw(frame, playback, film_time, picture, nullptr);
+}
+
+std::string Renderer::colour_note() const {
+    const GrainColouring& colour = impl_->scene.film.shows.colour;
+    if (colour.of_grains()) return clipped_words(colour, impl_->sphere_painter.clipped(), "grains");
+    return colour.of_field() ? clipped_words(colour, impl_->marks.clipped(), "layer") : "";
 }
 
 DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) {

@@ -94,6 +94,10 @@ std::vector<std::string> longest_drive_lines(const Scene& scene) {
     return longest;
 }
 
+std::string shown_title(const Film& film) {
+    return film.word_kinds.title ? film.title : std::string();
+}
+
 std::string length_text(double metres) {
     const Unit unit = length_unit(metres * 1.0000001);
     return fmt::format("{:.3g} {}", metres / unit.size, unit.name);
@@ -133,7 +137,8 @@ ShownCycle shown_cycle(const Frame& frame) {
     return {std::max(0LL, static_cast<long long>(std::floor(cycles + 1e-6))), rounded < 1 ? rounded : 0};
 }
 
-std::string playback_text(const Frame& frame, const std::string& playback) {
+std::string playback_text(const Film& film, const Frame& frame, const std::string& playback) {
+    if (!film.word_kinds.playback) return "";
     if (frame.time >= 0) return playback;
     return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;
 }
@@ -151,11 +156,16 @@ std::string mass_text(double kilograms) {
                                   : fmt::format("{:.3g} mg", 1e6 * kilograms);
 }
 
+// Of how many only where all are there from the start: of grains that are fed, some are yet to come.
 std::string outflow_text(const Scene& scene, const FlowedOut& out) {
-    return fmt::format("{} of {} out\n{} out", out.grains, scene.grains(), mass_text(out.mass));
+    const std::int64_t all = scene.grains();
+    const std::string grains = scene.grains_at_start() == all ? fmt::format("{} of {} out", out.grains, all)
+                                                              : fmt::format("{} out", out.grains);
+    return fmt::format("{}\n{} out", grains, mass_text(out.mass));
 }
 
 std::string caption_at(const Film& film, double time) {
+    if (!film.word_kinds.captions) return {};
     for (const FilmCaption& caption : film.captions)
         if (shows_caption(caption, time)) return caption.text;
     return {};
@@ -175,7 +185,7 @@ std::string note_text(const Scene& scene, const Frame& frame) {
                          frame.measure_rows)
                 .front();
         });
-    const bool flows = frame.flowed_out && frame.flowed_out->grains > 0;
+    const bool flows = scene.film.word_kinds.counts && frame.flowed_out && frame.flowed_out->grains > 0;
     const std::string out = flows ? outflow_text(scene, *frame.flowed_out) : "";
     return joined(joined(out, text), caption_at(scene.film, frame.time));
 }
@@ -184,9 +194,12 @@ std::vector<std::string> longest_notes(const Scene& scene) {
     const std::string text =
         live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
     const FlowedOut most{scene.grains(), 0.888};
-    const std::string always = joined(scene.film.shows.outflow ? outflow_text(scene, most) : "", text);
+    const WordKinds& kinds = scene.film.word_kinds;
+    const bool flows = scene.film.shows.outflow && kinds.counts;
+    const std::string always = joined(flows ? outflow_text(scene, most) : "", text);
     std::vector<std::string> notes;
     if (!always.empty()) notes.push_back(always);
+    if (!kinds.captions) return notes;
     for (const FilmCaption& caption : scene.film.captions) notes.push_back(joined(always, caption.text));
     return notes;
 }

@@ -9,6 +9,8 @@
 
 namespace grainreel {
 
+// That the frame has; empty for none.
+std::string shown_title(const Film& film);
 // "5 mm", "1.25 cm", "320 µm": three digits at most, the unit that suits the size.
 std::string length_text(double metres);
 // "20 Hz", "1.5 kHz".
@@ -33,8 +35,8 @@ struct ShownCycle {
     double phase;
 };
 ShownCycle shown_cycle(const Frame& frame);
-// The caption of time, which says so while the grains still settle.
-std::string playback_text(const Frame& frame, const std::string& playback);
+// The caption of time, which says so while the grains still settle. Empty where the film does not show it.
+std::string playback_text(const Film& film, const Frame& frame, const std::string& playback);
 // What has flowed out, the scene's own words (film.text, with values of the last row of measures until the
 // frame), and the caption of this time. And about as long as they get: with each caption, or the one without
 // any.

@@ -23,27 +23,56 @@ void paint_bar(cairo_t* on, const ColourScale& scale, int x, int y, int width, i
     cairo_restore(on);
 }
 
+// An arrow of the end's colour, beyond an end that stands for all values beyond it, too.
+void paint_tip(cairo_t* on, const Colour& colour, const Colour& edge, double x, double tip, double y,
+               int height) {
+    const Colour own = in_bytes(colour);
+    cairo_move_to(on, x, y);
+    cairo_line_to(on, tip, y + 0.5 * height);
+    cairo_line_to(on, x, y + height);
+    cairo_close_path(on);
+    cairo_set_source_rgb(on, own.red, own.green, own.blue);
+    cairo_fill_preserve(on);
+    cairo_set_source_rgb(on, edge.red, edge.green, edge.blue);  // light tips are lost on a light background
+    cairo_set_line_width(on, std::max(1.0, 0.06 * height));
+    cairo_stroke(on);
+}
+
+void paint_tips(const Writer& writer, const ColourScale& scale, const ColourBarPlace& bar) {
+    const Colour& edge = writer.palette.faint_ink;
+    if (bar.tip_below > 0)
+        paint_tip(writer.on, scale.at_share(0), edge, bar.x, bar.x - bar.tip_below, bar.y, bar.height);
+    if (bar.tip_above > 0)
+        paint_tip(writer.on, scale.at_share(1), edge, bar.x + bar.width, bar.x + bar.width + bar.tip_above,
+                  bar.y, bar.height);
+}
+
 }  // namespace
 
-ColourBarPlace colour_bar_place(const TypeScale& type, double x, double y, double width) {
+ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type, double x, double y,
+                                double width) {
     ColourBarPlace place;
-    place.x = static_cast<int>(std::ceil(x));
-    place.y = static_cast<int>(std::ceil(y));
-    place.width = std::max(2, static_cast<int>(std::floor(width)));
     place.height = std::max(4, static_cast<int>(std::lround(0.7 * type.main)));
+    const int tip = std::min(place.height, static_cast<int>(0.2 * width));
+    place.tip_below = scale.open_below() ? tip : 0;
+    place.tip_above = scale.open_above() ? tip : 0;
+    place.x = static_cast<int>(std::ceil(x)) + place.tip_below;
+    place.y = static_cast<int>(std::ceil(y));
+    place.width = std::max(2, static_cast<int>(std::floor(width)) - place.tip_below - place.tip_above);
     return place;
 }
 
 TextSize colour_bar_block(const Writer& writer, const Scene& scene, double x, double y, double width) {
-    if (scene.film.shows.colour.by == GrainValue::species) return {};
+    if (!has_colour_bar(scene.film)) return {};
     const ColourScale scale(scene.film.shows.colour);
     const TypeScale& type = writer.type;
     const TextSize title = writer.write(x, y, scale.title(), writer.minor(), writer.palette.ink, width, 3);
     const double top = y + title.height + 0.4 * type.gap;
-    const ColourBarPlace bar = colour_bar_place(type, x, top, width);
+    const ColourBarPlace bar = colour_bar_place(scale, type, x, top, width);
     const double tick = 0.3 * type.main, below = bar.y + bar.height;
     if (writer.on) {
         paint_bar(writer.on, scale, bar.x, bar.y, bar.width, bar.height);
+        paint_tips(writer, scale, bar);
         const Colour& ink = writer.palette.ink;
         cairo_set_source_rgb(writer.on, ink.red, ink.green, ink.blue);
         cairo_set_line_width(writer.on, std::max(1.0, type.main / 16));

@@ -66,7 +66,7 @@ class Blocks {
     }
     auto scale_bar(double longest) const {
         return [=, this](const Writer& on, double x, double y) {
-            return scale_block(on, scale_, x, y, longest);
+            return scene_.film.word_kinds.scale ? scale_block(on, scale_, x, y, longest) : TextSize();
         };
     }
     auto axes() const {
@@ -86,6 +86,7 @@ class Blocks {
 // A legend with as many species as there is room for, which is said to be left out in part.
 void add_legend(Column& column, const Writer& writer, const Blocks& blocks, double gap, double wrap,
                 double room, FirstPart& part) {
+    if (!blocks.scene().film.word_kinds.legend) return;
     const double left = room - column.end() - gap;
     column.add(writer, "legend", gap, blocks.legend(wrap, left));
     const std::size_t shown = species_in_legend(writer, blocks.scene(), wrap, std::max(left, 1.0));
@@ -100,9 +101,9 @@ FirstPart upright_part(const Writer& writer, const Blocks& blocks, double inner,
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
     const Scene& scene = blocks.scene();
-    const double x = type.margin, aside = 0.24 * inner;
-    const bool both =
-        scene.film.shows.colour.by != GrainValue::species && blocks.marks(inner)(measure, 0, 0).height > 0;
+    const bool has_aside = scene.film.word_kinds.scale || scene.film.axes;
+    const double x = type.margin, aside = has_aside ? 0.24 * inner : 0;
+    const bool both = has_colour_bar(scene.film) && blocks.marks(inner)(measure, 0, 0).height > 0;
     const double half = both ? 0.5 * (inner - 2 * type.gap) : inner;
     const auto colours = blocks.colour_bar(half);
     const auto marks = blocks.marks(half);
@@ -135,11 +136,13 @@ FirstPart row_part(const Writer& writer, const Blocks& blocks, double inner, dou
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
     const double gap = 2 * type.gap, top = 0.6 * type.margin, third = 0.2 * inner;
-    const double bar = 0.12 * inner, axes = blocks.axes()(measure, 0, 0).width;
+    const double bar = blocks.scene().film.word_kinds.scale ? 0.12 * inner : 0,
+                 axes = blocks.axes()(measure, 0, 0).width;
     const double colours = blocks.colour_bar(third)(measure, 0, 0).height > 0 ? third : 0;
     const double marks = blocks.marks(third)(measure, 0, 0).height > 0 ? third : 0;
     const double most_title = 0.3 * inner;
-    const double title = std::min(most_title, blocks.title(0)(measure, 0, 0).width + 1);
+    const double words = blocks.title(0)(measure, 0, 0).width;
+    const double title = words > 0 ? std::min(most_title, words + 1) : 0;
     FirstPart part;
     double x = type.margin, bottom = top;
     const auto put = [&](const char* name, double width, const auto& block, double down = 0) {

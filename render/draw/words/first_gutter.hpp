@@ -18,6 +18,7 @@ struct FirstPart {
     double height = 0;                  // that it takes, margins left out
     std::vector<WordBox> boxes;         // around what stands together
     std::vector<std::string> left_out;  // what there was no room for
+    bool empty() const { return blocks.empty() && left_out.empty(); }
 };
 // Title, legend, colour bar, marks, scale bar, axes and arrows in the first gutter, as far as its height
 // goes; 0: however much they need. view: null while measuring.

@@ -6,6 +6,7 @@
 
 #include "render/draw/container/container_drawing.hpp"
 #include "render/draw/grains/colour_scale.hpp"
+#include "render/draw/words/captions.hpp"
 #include "render/draw/words/first_gutter.hpp"
 #include "render/draw/words/numbers_plan.hpp"
 #include "render/draw/words/writer.hpp"
@@ -65,43 +66,58 @@ PictureLayout stacked(const Scene& scene, PictureLayout layout, const Writer& me
     const int width = scene.film.width, height = scene.film.height;
     layout.stacked = true;
     layout.first.height = static_cast<int>(0.34 * height);
-    const int top = whole(first_part(measure, scene, nullptr, layout, width).height + type.margin);
+    const FirstPart first = first_part(measure, scene, nullptr, layout, width);
+    const int top = first.empty() ? 0 : whole(first.height + type.margin);
     const double most = (1 - least_port) * height - top;
     const auto needed = [&](double room) {
-        return plan_numbers(measure, scene, width, room, true).height + type.margin;
+        const NumbersPlan plan = plan_numbers(measure, scene, width, room, true);
+        return plan.empty ? 0 : plan.height + type.margin;
     };
     double bottom = std::min(most, needed(0));
     // Without the plots, where even the lowest are too high.
     if (needed(0) > most) bottom = std::min(0.36 * height, needed(most));
     const double free = height - top - bottom - natural_height(scene, type, width);
     if (free > 0) bottom = std::max(bottom, needed(bottom + free));
-    layout.first = {0, 0, width, top};
-    layout.second = {0, height - whole(bottom), width, whole(bottom)};
-    layout.port = {0, top, width, layout.second.y - top};
+    const int low = bottom > 0 ? whole(bottom) : 0;
+    layout.first = top > 0 ? Rectangle{0, 0, width, top} : Rectangle();
+    layout.second = low > 0 ? Rectangle{0, height - low, width, low} : Rectangle();
+    layout.port = {0, top, width, height - low - top};
     return layout;
 }
 
 // Pixels, of the longest word above a colour bar.
 double colour_words(const Scene& scene, const Writer& measure) {
-    const GrainColouring& colour = scene.film.shows.colour;
-    if (colour.by == GrainValue::species) return 0;
-    return longest_word(ColourScale(colour).title(), measure.minor());
+    if (!has_colour_bar(scene.film)) return 0;
+    return longest_word(ColourScale(scene.film.shows.colour).title(), measure.minor());
+}
+
+// Pixels between margins, of words at the left or right that wrap as they like.
+double least_column(const Scene& scene, const Writer& measure, const std::string& title) {
+    const double width = scene.film.width;
+    const bool wraps = !title.empty() || has_colour_bar(scene.film) ||
+                       marks_block(measure, scene, 1, 0, 0, width).height > 0;
+    if (!wraps)
+        return std::max(axes_block(measure, scene, nullptr, 0, 0).width,
+                        scene.film.word_kinds.scale ? 4 * measure.type.main : 0);
+    return std::min((width < 1.4 * scene.film.height ? 0.22 : 0.17) * width, 9 * measure.type.title);
 }
 
 PictureLayout side_by_side(const Scene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
     const int width = scene.film.width, height = scene.film.height;
     const double most = 0.33 * width;
-    const std::string& title = scene.film.title.empty() ? scene.title : scene.film.title;
+    const std::string title = shown_title(scene.film);
     const double words =
         std::max({legend_block(measure, scene, 0, 0, 0).width, colour_words(scene, measure),
                   arrows_block(measure, scene, nullptr, 0, 0).width, longest_word(title, measure.title()),
-                  std::min((width < 1.4 * height ? 0.22 : 0.17) * width, 9 * type.title)});
-    const int left = whole(std::min(most, words + 1.5 * type.margin));
-    const double numbers = plan_numbers(measure, scene, endless, height, false).width;
-    const int right = whole(std::min(most, std::max(numbers, 0.12 * width) + 1.5 * type.margin));
-    layout.first = {0, 0, left, height};
-    layout.second = {width - right, 0, right, height};
+                  least_column(scene, measure, title)});
+    const int left = words > 0 ? whole(std::min(most, words + 1.5 * type.margin)) : 0;
+    const NumbersPlan numbers = plan_numbers(measure, scene, endless, height, false);
+    const double least = numbers.wraps ? 0.12 * width : 0;
+    const int right =
+        numbers.empty ? 0 : whole(std::min(most, std::max(numbers.width, least) + 1.5 * type.margin));
+    layout.first = left > 0 ? Rectangle{0, 0, left, height} : Rectangle();
+    layout.second = right > 0 ? Rectangle{width - right, 0, right, height} : Rectangle();
     layout.port = {left, 0, width - left - right, height};
     return layout;
 }
@@ -117,8 +133,10 @@ Judged judged(const Scene& scene, PictureLayout layout, const Writer& measure) {
     layout.left_out = first_part(measure, scene, nullptr, layout, layout.first.width).left_out;
     const NumbersPlan plan =
         plan_numbers(measure, scene, layout.second.width, layout.second.height, layout.stacked);
-    if (scene.drive.present && !plan.has_dial) layout.left_out.emplace_back("dial");
-    if (scene.drive.present && layout.stacked && !plan.has_arrows) layout.left_out.emplace_back("arrows");
+    const WordKinds& kinds = scene.film.word_kinds;
+    const bool drive = scene.drive.present;
+    if (drive && kinds.dial && !plan.has_dial) layout.left_out.emplace_back("dial");
+    if (drive && kinds.arrows && layout.stacked && !plan.has_arrows) layout.left_out.emplace_back("arrows");
     if (plan.plots.size() < scene.film.shows.plots.size()) layout.left_out.emplace_back("plots");
     const double scale = frame_container(scene, layout).pixels_per_metre(framed_middle(scene));
     return {std::move(layout), scale, plan.fits};

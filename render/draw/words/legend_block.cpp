@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "engine/scene/bed.hpp"
 #include "render/draw/grains/grain_colours.hpp"
@@ -48,13 +50,18 @@ class Entries {
     Entries measured() const { return {{nullptr, writer_.type, writer_.palette}, scene_, wrap_}; }
 
   private:
-    // Of a container that empties, those that there were. A species may be there for the walls alone.
-    std::string numbers_of(const Species& species) const {
+    // Where the number changes, how many there are at the start, and how many are fed in the course of the
+    // run. A species may be there for the walls alone.
+    std::vector<std::string> numbers_of(const Species& species) const {
         const std::string wide = diameter_text(species.diameter);
-        if (species.all() == 0) return fmt::format("{}, glued to walls", wide);
+        if (species.all() == 0) return {fmt::format("{}, glued to walls", wide)};
+        if (species.count == 0) return {fmt::format("{} × {}, fed", species.fed, wide)};
         const Container& container = scene_.container;
-        return fmt::format("{} × {}{}", species.all(), wide,
-                           container.outlet && !container.tray ? " at the start" : "");
+        const bool changes = species.fed > 0 || (container.outlet && !container.tray);
+        std::vector<std::string> lines{
+            fmt::format("{} × {}{}", species.count, wide, changes ? " at the start" : "")};
+        if (species.fed > 0) lines.push_back(fmt::format("{} more are fed", species.fed));
+        return lines;
     }
 
     // A ball of the species' colour and relative size, its name, and how many there are.
@@ -74,7 +81,8 @@ class Entries {
         }
         const Species& species = scene_.species[i];
         line(species.name, writer_.main(), writer_.palette.ink);
-        line(numbers_of(species), writer_.minor(), writer_.palette.faint_ink);
+        for (const std::string& numbers : numbers_of(species))
+            line(numbers, writer_.minor(), writer_.palette.faint_ink);
         const bool by_species = scene_.film.shows.colour.by == GrainValue::species;
         const double share =
             std::max(0.25, species.diameter.largest / std::max(largest_diameter(scene_), 1e-30));
@@ -100,6 +108,7 @@ std::size_t species_in_legend(const Writer& writer, const Scene& scene, double w
 
 TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap,
                       double room) {
+    if (!scene.film.word_kinds.legend) return {};
     const std::size_t shown = species_in_legend(writer, scene, wrap, room);
     return shown > 0 ? Entries(writer, scene, wrap).draw(shown, x, y) : TextSize{};
 }

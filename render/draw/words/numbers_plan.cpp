@@ -39,12 +39,15 @@ class Planner {
           inner_(std::max(1.0, width - (stacked ? 2.0 : 1.5) * measure.type.margin)),
           line_(measure.write(0, 0, "0", measure.minor(), {}).height),
           clock_(clock_block(measure, scene, widest_frame(), 0, 0)) {
-        plan_.has_arrows = wanted.arrows && scene.drive.present;
-        plan_.has_dial = wanted.dial && scene.drive.present;
+        plan_.has_arrows = wanted.arrows && scene.drive.present && kinds_.arrows;
+        plan_.has_dial = wanted.dial && scene.drive.present && kinds_.dial;
         plan_.radius = std::min(2.2 * type_.main, stacked ? 0.14 * inner_ : 1e9);
         if (plan_.has_dial) dial_ = dial_block(measure, scene.drive, nullptr, plan_.radius, 0, 0);
         if (scene.drive.present) drive_ = drive_block(measure, scene, nullptr, 0, 0);
         if (plan_.has_arrows && stacked) arrows_ = arrows_block(measure, scene, nullptr, 0, 0);
+        plan_.wraps = kinds_.playback || !longest_notes(scene).empty() || count() > 0;
+        plan_.empty =
+            !plan_.wraps && !plan_.has_dial && std::max({clock_.height, drive_.height, arrows_.height}) <= 0;
     }
 
     NumbersPlan column();
@@ -52,6 +55,7 @@ class Planner {
     NumbersPlan row();
 
   private:
+    bool has_drive() const { return plan_.has_dial || drive_.height > 0; }
     double count() const { return static_cast<double>(scene_.film.shows.plots.size()); }
     // Pixels, of the longest words above a plot.
     double titles() const {
@@ -80,6 +84,7 @@ class Planner {
     const Writer& measure_;
     const TypeScale& type_;
     const Scene& scene_;
+    const WordKinds kinds_ = scene_.film.word_kinds;
     const double width_, height_, x_, inner_;
     const double line_;  // height of a minor one
     const TextSize clock_;
@@ -90,22 +95,23 @@ class Planner {
 // Clock, dial, drive and caption below each other, plots at the lower end.
 NumbersPlan Planner::column() {
     plan_.clock = {x_, type_.margin};
-    double y = type_.margin + clock_.height + 0.3 * type_.gap;
+    double y = type_.margin + (clock_.height > 0 ? clock_.height + 0.3 * type_.gap : 0);
     plan_.clock_part = part(0, 0, width_, y);
     plan_.width = clock_.width;
-    if (scene_.drive.present) {
-        plan_.dial = {x_, y + 0.6 * type_.gap};
+    if (has_drive()) {
+        plan_.dial = {x_, y + (clock_.height > 0 ? 0.6 * type_.gap : 0)};
         plan_.drive = {x_, plan_.dial.y + (plan_.has_dial ? dial_.height + 0.6 * type_.gap : 0)};
         plan_.dial_part = part(0, plan_.dial.y - 0.4 * type_.gap, width_, plan_.drive.y);
         y = plan_.drive.y + drive_.height + type_.gap;
-        if (drive_lines_change(scene_.drive))
+        if (drive_lines_change(scene_.drive) && drive_.height > 0)
             plan_.drive_part = part(0, std::ceil(plan_.drive.y), width_, std::floor(y));
         plan_.width = std::max({plan_.width, dial_.width, drive_.width});
     }
     plan_.caption = {x_, y};
     plan_.caption_wrap = plan_.note_wrap = inner_;
     const double note = note_height(inner_);
-    plan_.caption_lines = std::clamp(static_cast<int>((height_ - type_.margin - y - note) / line_), 1, 4);
+    if (kinds_.playback)
+        plan_.caption_lines = std::clamp(static_cast<int>((height_ - type_.margin - y - note) / line_), 1, 4);
     const double end = y + plan_.caption_lines * line_;
     plan_.caption_part = part(0, y, width_, end);
     plan_.note = {x_, end};
@@ -142,12 +148,15 @@ void Planner::plots_in_row(double x, double y, double width, double height) {
 
 // Clock and caption, dial and numbers, plots: each of them in a row.
 NumbersPlan Planner::rows() {
-    const double top = type_.margin, beside = clock_.width + 2 * type_.gap;
+    const bool has_clock = clock_.height > 0;
+    const double top = type_.margin, beside = has_clock ? clock_.width + 2 * type_.gap : 0;
     const double middle = x_ + beside - 0.5 * type_.gap;
-    const bool caption_beside = inner_ - beside > 8 * type_.minor;
+    const bool caption_beside = has_clock && inner_ - beside > 8 * type_.minor;
     plan_.clock = {x_, top};
-    double y = top + clock_.height + 0.3 * type_.gap;
-    if (caption_beside) {
+    double y = top + (has_clock ? clock_.height + 0.3 * type_.gap : 0);
+    if (!kinds_.playback) {
+        plan_.clock_part = part(0, 0, width_, y);
+    } else if (caption_beside) {
         plan_.clock_part = part(0, 0, middle, y);
         plan_.caption = {x_ + beside, top + 0.3 * type_.minor};
         plan_.caption_wrap = inner_ - beside;
@@ -168,16 +177,16 @@ NumbersPlan Planner::rows() {
     y += note_height(inner_);
     plan_.note_part = part(0, plan_.note.y, width_, y - 0.4 * type_.gap);  // the dial's part begins there
     double right = clock_.width;
-    if (scene_.drive.present) {
+    if (has_drive() || plan_.has_arrows) {
         plan_.dial = {x_, y};
         plan_.drive = {x_ + (plan_.has_dial ? dial_.width + type_.gap : 0), y};
-        plan_.arrows = {plan_.drive.x + drive_.width + 2 * type_.gap, y};
+        plan_.arrows = {plan_.drive.x + (drive_.width > 0 ? drive_.width + 2 * type_.gap : 0), y};
         right = std::max(
             right, (plan_.has_arrows ? plan_.arrows.x + arrows_.width : plan_.drive.x + drive_.width) - x_);
         const double end = y + std::max({dial_.height, drive_.height, arrows_.height});
         plan_.dial_part =
             part(0, y - 0.4 * type_.gap, plan_.drive.x - 0.4 * type_.gap, end + 0.2 * type_.gap);
-        if (drive_lines_change(scene_.drive))
+        if (drive_lines_change(scene_.drive) && drive_.height > 0)
             plan_.drive_part = part(std::ceil(plan_.drive.x - 0.4 * type_.gap), y - 0.4 * type_.gap,
                                     plan_.arrows.x - type_.gap, end + 0.2 * type_.gap);
         y = end;
@@ -199,18 +208,18 @@ NumbersPlan Planner::row() {
         x += width > 0 ? width + gap : 0;
         return WordPoint{at, top};
     };
-    const double first = std::max(clock_.width, caption_letters * type_.minor);
+    const double first = std::max(clock_.width, kinds_.playback ? caption_letters * type_.minor : 0);
     plan_.clock = next(first);
-    plan_.caption = {plan_.clock.x, top + clock_.height + 0.3 * type_.gap};
-    plan_.caption_wrap = first;
-    plan_.caption_lines = 3;
-    const double end = plan_.caption.y + 3 * line_, right = x - 0.5 * gap;
+    plan_.caption = {plan_.clock.x, top + (clock_.height > 0 ? clock_.height + 0.3 * type_.gap : 0)};
+    plan_.caption_wrap = std::max(1.0, first);
+    plan_.caption_lines = kinds_.playback ? 3 : 0;
+    const double end = plan_.caption.y + plan_.caption_lines * line_, right = x - 0.5 * gap;
     plan_.clock_part = part(0, 0, right, plan_.caption.y);
     plan_.caption_part = part(0, plan_.caption.y, right, end);
     plan_.dial = next(dial_.width);
     plan_.dial_part = part(plan_.dial.x - 0.4 * gap, top, x - 0.6 * gap, top + dial_.height + 0.2 * gap);
     plan_.drive = next(drive_.width);
-    if (drive_lines_change(scene_.drive))
+    if (drive_lines_change(scene_.drive) && drive_.height > 0)
         plan_.drive_part =
             part(plan_.drive.x - 0.4 * gap, top, x - 0.6 * gap, top + drive_.height + 0.2 * gap);
     plan_.arrows = next(arrows_.width);

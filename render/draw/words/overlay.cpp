@@ -113,7 +113,8 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
         put(first_.get(), {0, 0, layout_.first.width, layout_.first.height}, layout_.first, picture);
         put(still_.get(), {0, 0, layout_.second.width, layout_.second.height}, layout_.second, picture);
     }
-    const std::string clock = clock_words(scene_, frame), caption = playback_text(frame, playback);
+    const std::string clock = clock_words(scene_, frame),
+                      caption = playback_text(scene_.film, frame, playback);
     if (!written_ || clock != clock_)
         renew(picture, plan_.clock_part, [&](cairo_t* on) {
             clock_block({on, type_, palette_}, scene_, frame, plan_.clock.x, plan_.clock.y);

@@ -82,7 +82,7 @@ void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
 }  // namespace
 
 TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
-    const std::string& title = scene.film.title.empty() ? scene.title : scene.film.title;
+    const std::string title = shown_title(scene.film);
     if (title.empty()) return {};
     return writer.write(x, y, title, writer.title(), writer.palette.ink, wrap, 6);
 }
@@ -105,6 +105,7 @@ TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view
     const double reach = 0.75 * writer.type.main, row = 2.2 * writer.type.main,
                  indent = 1.5 * writer.type.main;
     TextSize size;
+    if (!scene.film.word_kinds.arrows) return size;
     // sample(x, y) draws about its middle.
     const auto entry = [&](const std::string& label, const auto& sample) {
         const double middle = y + size.height + 0.5 * row;
@@ -163,13 +164,15 @@ TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, 
 TextSize drive_block(const Writer& writer, const Scene& scene, const Frame* frame, double x, double y) {
     if (!scene.drive.present) return {};
     TextSize size;
-    for (const std::string& line : frame ? drive_lines(scene, *frame) : longest_drive_lines(scene)) {
+    std::vector<std::string> lines;
+    if (scene.film.word_kinds.drive) lines = frame ? drive_lines(scene, *frame) : longest_drive_lines(scene);
+    for (const std::string& line : lines) {
         const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
         size.width = std::max(size.width, part.width);
         size.height += part.height;
     }
     if (scene.film.exaggerate == 1) return size;
-    size.height += 0.5 * writer.type.gap;
+    if (!lines.empty()) size.height += 0.5 * writer.type.gap;
     const TextSize note = exaggeration_block(writer, scene.film, x, y + size.height);
     return {std::max(size.width, note.width), size.height + note.height};
 }
@@ -196,15 +199,18 @@ std::int64_t count_in_tray(const Frame& frame) {
 
 // Time first, then the lines below it.
 std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
-    std::vector<std::string> lines{time_text(frame.time, scene.run.duration)};
-    if (scene.drive.present && frame.time < 0) {
+    const WordKinds& kinds = scene.film.word_kinds;
+    std::vector<std::string> lines;
+    if (kinds.time) lines.push_back(time_text(frame.time, scene.run.duration));
+    const bool cycle = kinds.cycle && scene.drive.present;
+    if (cycle && frame.time < 0) {
         lines.emplace_back("before the drive");
-    } else if (scene.drive.present) {
+    } else if (cycle) {
         const ShownCycle shown = shown_cycle(frame);
         lines.push_back(fmt::format("cycle {}", shown.cycle));
         lines.push_back(fmt::format("phase {:.2f}", shown.phase));
     }
-    if (scene.container.tray)
+    if (scene.container.tray && kinds.counts)
         lines.push_back(fmt::format("{} of {} in the tray", count_in_tray(frame), frame.size()));
     return lines;
 }
@@ -218,9 +224,9 @@ std::string clock_words(const Scene& scene, const Frame& frame) {
 TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y) {
     TextSize size;
     for (const std::string& line : clock_lines(scene, frame)) {
-        const bool first = size.height == 0;
-        const TextSize part = writer.write(x, y + size.height, line, first ? writer.strong() : writer.minor(),
-                                           first ? writer.palette.ink : writer.palette.faint_ink);
+        const bool time = size.height == 0 && scene.film.word_kinds.time;
+        const TextSize part = writer.write(x, y + size.height, line, time ? writer.strong() : writer.minor(),
+                                           time ? writer.palette.ink : writer.palette.faint_ink);
         size = {std::max(size.width, part.width), size.height + part.height};
     }
     return size;

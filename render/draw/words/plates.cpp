@@ -49,6 +49,7 @@ std::vector<Rectangle> plates_around(const std::vector<WordBox>& boxes, const Ty
     const double room = 0.45 * type.margin;
     std::vector<Rectangle> plates;
     for (const WordBox& box : boxes) {
+        if (box.width <= 0 || box.height <= 0) continue;
         const int left = std::max(0, static_cast<int>(box.x - room)),
                   top = std::max(0, static_cast<int>(box.y - room)),
                   right = std::min(gutter.width, static_cast<int>(std::ceil(box.x + box.width + room))),

@@ -117,6 +117,11 @@ TextSize size_of(PangoLayout* layout) {
 
 }  // namespace
 
+bool has_fonts_for(const std::string& text) {
+    const TextStyle style;
+    return pango_layout_get_unknown_glyphs_count(make_layout(text, style, 0, 1).get()) == 0;
+}
+
 double longest_word(const std::string& text, const TextStyle& style) {
     double longest = 0;
     for (std::size_t from = 0; from < text.size();) {

@@ -25,6 +25,9 @@ struct TextStyle {
 // long breaks.
 TextSize measure_text(const std::string& text, const TextStyle& style, double wrap = 0, int lines = 1);
 
+// Whether some font here has what it takes to draw the text; else it has boxes in it.
+bool has_fonts_for(const std::string& text);
+
 // Pixels, of one line; words end at spaces.
 double longest_word(const std::string& text, const TextStyle& style);
 

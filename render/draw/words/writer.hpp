@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/frame.hpp"
+#include "render/draw/grains/colour_scale.hpp"
 #include "render/draw/picture/palette.hpp"
 #include "render/draw/words/layout.hpp"
 #include "render/draw/words/text.hpp"
@@ -37,12 +38,18 @@ TextSize title_block(const Writer& writer, const Scene& scene, double x, double 
 TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap,
                       double room = 0);
 std::size_t species_in_legend(const Writer& writer, const Scene& scene, double wrap, double room);
-// Where the colours are inside the colour bar's block, whose words end at y; whole pixels.
+// Where the colours are inside the colour bar's block, whose words end at y; whole pixels. Beside them lie
+// the tips of arrows, where an end stands for all values beyond it, too.
 struct ColourBarPlace {
     int x = 0, y = 0, width = 0, height = 0;
+    int tip_below = 0, tip_above = 0;  // how long; 0: none
 };
-ColourBarPlace colour_bar_place(const TypeScale& type, double x, double y, double width);
-// Nothing when the grains are coloured by species.
+ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type, double x, double y,
+                                double width);
+// Not when the grains are coloured by species.
+inline bool has_colour_bar(const Film& film) {
+    return film.word_kinds.legend && film.shows.colour.by != GrainValue::species;
+}
 TextSize colour_bar_block(const Writer& writer, const Scene& scene, double x, double y, double width);
 // What the marks over the grains mean, with a sample of each; nothing without marks. scale: pixels a metre.
 TextSize marks_block(const Writer& writer, const Scene& scene, double scale, double x, double y, double wrap);

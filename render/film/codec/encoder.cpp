@@ -79,7 +79,7 @@ void Encoder::open_file() {
         throw RunError(fmt::format("film: this libavformat writes no {}", settings_.codec->words));
     stream->time_base = codec_->time_base;
     stream->avg_frame_rate = codec_->framerate;
-    av_dict_set(&context->metadata, "title", settings_.title.c_str(), 0);
+    if (!settings_.title.empty()) av_dict_set(&context->metadata, "title", settings_.title.c_str(), 0);
     av_dict_set(&context->metadata, "comment", settings_.comment.c_str(), 0);
 
     // Each fragment reaches the disk whole as soon as it ends.

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/draw/words/layout.hpp"
+#include "render/draw/words/missing_letters.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/files/smaller_film.hpp"
 
@@ -139,6 +140,8 @@ std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames) 
         warnings.push_back(fmt::format("{}: {}x{} has no room for {}, left out; make it wider or show less",
                                        scene.where("film.size"), film.width, film.height,
                                        fmt::join(names, ", ")));
+    if (std::string line = missing_letters_warning(texts_of_film(scene)); !line.empty())
+        warnings.push_back(std::move(line));
     warn_of_digits(scene, frames, warnings);
     if (film.purpose != "journal") return warnings;
     constexpr int most_lines = 720, least_rate = 15, most_seconds = 300;

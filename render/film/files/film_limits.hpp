@@ -25,7 +25,8 @@ void check_schedule(const Scene& scene, const std::vector<SegmentCount>& counts)
 // Throws UserError when film.max_size leaves so few bits for a pixel that no film could be read.
 void check_max_size(const Scene& scene, std::int64_t frames);
 
-// Words that the picture has no room for; where a film for a journal is not what the journals take.
+// Words that the picture has no room for, and letters that no font has; where a film for a journal is not
+// what the journals take.
 std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames);
 
 }  // namespace grainreel

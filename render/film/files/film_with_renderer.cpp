@@ -17,6 +17,7 @@ class RendererDrawer final : public Drawer {
     }
     std::string description() const override { return renderer_.gl_description(); }
     std::string note() const override { return renderer_.gl_note(); }
+    std::string last_note() const override { return renderer_.colour_note(); }
 
   private:
     static Scene with_orbit(Scene scene, const FilmOptions& options) {

@@ -20,7 +20,7 @@ EncoderSettings encoder_settings(const Scene& scene, const FilmWriterOptions& op
     settings.preset = scene.film.preset;
     settings.alpha = scene.film.transparent;
     settings.threads = options.threads;
-    settings.title = scene.title.empty() ? scene.name : scene.title;
+    settings.title = scene.film.title;
     settings.comment = fmt::format("grainreel, scene {}, seed {}", scene.name, scene.run.seed);
     return settings;
 }

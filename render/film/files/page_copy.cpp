@@ -55,7 +55,7 @@ EncoderSettings settings_of_copy(const Scene& scene, const fs::path& path, int w
     settings.rate = scene.film.rate;
     settings.quality = least_legible;  // its digits still read
     settings.threads = threads;
-    settings.title = scene.title.empty() ? scene.name : scene.title;
+    settings.title = scene.film.title;
     return settings;
 }
 

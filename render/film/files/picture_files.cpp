@@ -43,7 +43,7 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
     : folder_(options.folder),
       check_folder_(options.check_folder),
       name_(scene.name),
-      title_(scene.title),
+      title_(scene.film.title),
       frames_wanted_(options.frames || (options.film && scene.film.format == FilmFormat::png)),
       transparent_(scene.film.transparent),
       poster_time_(poster_time(scene.film, scene.run.duration)),

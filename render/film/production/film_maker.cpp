@@ -100,6 +100,7 @@ struct FilmMaker::Impl {
             pictures.push({{std::move(*canvas), std::move(order->frames.front()), std::move(order->playback)},
                            order->more});
         }
+        last_note = drawer->last_note();
         pictures.close();
     }
 
@@ -185,6 +186,7 @@ struct FilmMaker::Impl {
     std::atomic<bool> drawer_known = false;  // it is made, or something failed
     std::string gl, note;                    // of the drawer: read once it is known
     // From here on: written by one thread, read after join().
+    std::string last_note;  // of the drawer
     double draw_seconds = 0, encode_seconds = 0, waited_seconds = 0;
     std::thread drawing, encoding;
 };
@@ -228,7 +230,8 @@ FilmReport FilmMaker::finish(const std::function<bool()>& in_a_hurry) {
     report.sheet = impl_->files.has_sheet();
     report.encoder = impl_->files.encoder();
     report.notes = impl_->files.notes();
-    if (!impl_->note.empty()) report.notes.push_back(impl_->note);
+    for (const std::string& note : {impl_->note, impl_->last_note})
+        if (!note.empty()) report.notes.push_back(note);
     return report;
 }
 

@@ -56,7 +56,8 @@ class Drawer {
     // Into an empty picture, or one that it has drawn before.
     virtual void draw(const Frames& frames, const std::string& playback, Picture& into) = 0;
     virtual std::string description() const = 0;
-    virtual std::string note() const { return {}; }  // what its user should know about it
+    virtual std::string note() const { return {}; }       // what its user should know about it
+    virtual std::string last_note() const { return {}; }  // and about all that it has drawn
 };
 using DrawerMaker = std::function<std::unique_ptr<Drawer>()>;
 

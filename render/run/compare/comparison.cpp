@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/draw/panels/side_by_side.hpp"
 #include "render/run/compare/comparison_words.hpp"
 #include "render/run/compare/vary.hpp"
@@ -52,6 +54,10 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     const std::vector<Scene> scenes = scenes_of(all);
     std::vector<std::string> captions = all.labels.empty() ? captions_of(scenes) : all.labels;
     if (what.captions) captions = split(*what.captions);
+    for (const std::string& caption : captions)
+        if (letters_in(caption) > kMostLetters)
+            throw UserError(fmt::format("--captions: one has {} characters, and the most are {}; shorten it",
+                                        letters_in(caption), kMostLetters));
     if (captions.size() != scenes.size())
         throw UserError(
             fmt::format("--captions: has {} parts between its bars for {} panels; write one for each, "
@@ -76,6 +82,7 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     warn_of_single_moments(all);
     warn_of_pace(all);
     warn_of_what_is_left_out(layout, all);
+    warn_of_missing_letters(all);
 }
 
 // Name, title and film of the whole: those of the first, a title only when all have it.

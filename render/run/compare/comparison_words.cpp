@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "render/draw/words/missing_letters.hpp"
 #include "render/film/sampling/pacing.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/run/frames/choice.hpp"
@@ -67,6 +71,17 @@ void warn_of_single_moments(Comparison& all) {
              single_moment_warnings(member->scene(), "beside a finished run, frames are single moments"))
             all.warnings.push_back(std::move(line));
     }
+}
+
+void warn_of_missing_letters(Comparison& all) {
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const Panel& panel : all.panels) {
+        for (auto& text : texts_of_film(panel.scene)) texts.push_back(std::move(text));
+        if (panel.scene.film.word_kinds.captions)
+            texts.emplace_back("the captions of the panels", panel.caption);
+    }
+    if (std::string line = missing_letters_warning(texts); !line.empty())
+        all.warnings.push_back(std::move(line));
 }
 
 void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all) {

@@ -21,6 +21,9 @@ void warn_of_pace(Comparison& all);
 // them.
 void warn_of_single_moments(Comparison& all);
 
+// Letters of words on the film that no font has.
+void warn_of_missing_letters(Comparison& all);
+
 // What a film of one scene would show and this one does not. The film of the whole has its moments.
 void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all);
 

@@ -1,0 +1,264 @@
+// Which words a film has, what they say, and that what is left out leaves no hole.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "render/draw/container/exit_fade.hpp"
+#include "render/draw/panels/side_by_side.hpp"
+#include "render/draw/words/captions.hpp"
+#include "render/draw/words/first_gutter.hpp"
+#include "render/draw/words/missing_letters.hpp"
+#include "render/draw/words/numbers_plan.hpp"
+#include "tests/draw/support.hpp"
+
+namespace grainreel::test {
+namespace {
+
+constexpr bool WordKinds::*every_kind[] = {&WordKinds::title,    &WordKinds::legend,  &WordKinds::time,
+                                           &WordKinds::cycle,    &WordKinds::dial,    &WordKinds::drive,
+                                           &WordKinds::playback, &WordKinds::scale,   &WordKinds::arrows,
+                                           &WordKinds::counts,   &WordKinds::captions};
+
+WordKinds none() {
+    WordKinds kinds;
+    for (const auto kind : every_kind) kinds.*kind = false;
+    return kinds;
+}
+
+Scene with_all_words(int width, int height) {
+    Scene scene = wedge(width, height);
+    scene.container.outlet = Outlet{Outlet::Shape::slot, 0.02, 0, 0.05};
+    scene.film.shows.outflow = true;
+    scene.film.captions = {{0, 5, "Words that stand there for a while", 0}};
+    return scene;
+}
+
+Frame flowing() {
+    Frame frame = frame_of({{Vec3(0, 0, 0.02)}});
+    frame.time = 1.25;
+    frame.cycles = 25.25;
+    frame.phase = 0.25;
+    frame.flowed_out = {12, 0.003};
+    return frame;
+}
+
+std::vector<std::string> names_of(const Scene& scene) {
+    const Palette palette = make_palette(scene.film.background);
+    const PictureLayout layout = plan_layout(scene);
+    const Writer measure{nullptr, layout.type, palette};
+    std::vector<std::string> names;
+    for (const FirstPart::Block& block :
+         first_part(measure, scene, nullptr, layout, layout.first.width).blocks)
+        names.push_back(block.name);
+    return names;
+}
+
+int area(const Rectangle& r) {
+    return r.width * r.height;
+}
+
+TEST(WordsShown, WithoutAnyTheGrainsHaveThePicture) {
+    for (const auto& [width, height] : {std::pair{640, 360}, {360, 640}}) {
+        Scene scene = with_all_words(width, height);
+        scene.film.word_kinds = none();
+        const PictureLayout layout = plan_layout(scene);
+        EXPECT_EQ(area(layout.port), width * height);
+        EXPECT_EQ(area(layout.first), 0);
+        EXPECT_EQ(area(layout.second), 0);
+        EXPECT_TRUE(layout.left_out.empty());
+        Renderer worded(scene, 1, gl::Provider::automatic);
+        Renderer bare(scene, bare_layout(scene.film), 1, gl::Provider::automatic);
+        EXPECT_EQ(worded.draw(flowing(), "as it is").rgba, bare.draw(flowing(), "as it is").rgba);
+    }
+}
+
+// Each kind by itself is there, and takes less room than all of them.
+TEST(WordsShown, EachKindStandsAlone) {
+    for (const auto& [width, height] : {std::pair{640, 360}, {360, 640}})
+        for (const auto kind : every_kind) {
+            Scene scene = with_all_words(width, height);
+            const int all = area(plan_layout(scene).port);
+            scene.film.word_kinds = none();
+            Renderer without(scene, 1, gl::Provider::automatic);
+            const std::vector<std::uint8_t> nothing = without.draw(flowing(), "as it is").rgba;
+            scene.film.word_kinds.*kind = true;
+            Renderer with(scene, 1, gl::Provider::automatic);
+            const bool upright = width < height;
+            // Upright pictures have arrows where they have something to do with the drive.
+            EXPECT_NE(with.draw(flowing(), "as it is").rgba, nothing) << upright;
+            EXPECT_GE(area(plan_layout(scene).port), all);
+        }
+}
+
+TEST(WordsShown, AnEmptyTitleIsNone) {
+    Scene scene = wedge();
+    EXPECT_THAT(names_of(scene), testing::Contains("title"));
+    scene.film.title.clear();
+    EXPECT_THAT(names_of(scene), testing::Not(testing::Contains("title")));
+    EXPECT_EQ(shown_title(scene.film), "");
+    const Palette palette = make_palette(scene.film.background);
+    const PictureLayout layout = plan_layout(scene);
+    const Writer measure{nullptr, layout.type, palette};
+    // The legend moves up to where the title was.
+    const FirstPart part = first_part(measure, scene, nullptr, layout, layout.first.width);
+    EXPECT_EQ(part.blocks.front().box.y, layout.type.margin);
+    scene.film.title = "A title";
+    scene.film.word_kinds.title = false;
+    EXPECT_THAT(names_of(scene), testing::Not(testing::Contains("title")));
+    EXPECT_EQ(shown_title(scene.film), "");
+}
+
+TEST(WordsShown, TextsFollow) {
+    Scene scene = with_all_words(640, 360);
+    const Frame frame = flowing();
+    EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("12 of 1620 out"));
+    EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("Words that stand"));
+    scene.film.word_kinds.counts = false;
+    EXPECT_EQ(note_text(scene, frame), "Words that stand there for a while");
+    scene.film.word_kinds.captions = false;
+    EXPECT_EQ(note_text(scene, frame), "");
+    EXPECT_TRUE(longest_notes(scene).empty());
+    EXPECT_EQ(clock_words(scene, frame), "t = 1.250 s\ncycle 25\nphase 0.25");
+    scene.film.word_kinds.cycle = false;
+    EXPECT_EQ(clock_words(scene, frame), "t = 1.250 s");
+    scene.film.word_kinds.time = false;
+    EXPECT_EQ(clock_words(scene, frame), "");
+    EXPECT_EQ(playback_text(scene.film, frame, "slow"), "slow");
+    scene.film.word_kinds.playback = false;
+    EXPECT_EQ(playback_text(scene.film, frame, "slow"), "");
+}
+
+// Of grains that are still to come nobody knows how many will have flowed out of how many.
+TEST(WordsShown, OutflowOfFedGrainsNamesNoTotal) {
+    Scene scene = with_all_words(640, 360);
+    scene.species[0].fed = 300;
+    EXPECT_THAT(note_text(scene, flowing()), testing::StartsWith("12 out\n"));
+}
+
+TEST(WordsShown, PanelsFollow) {
+    std::vector<Panel> panels{{wedge(), "left"}, {wedge(), "right"}};
+    panels[1].scene.species[0].count = 700;
+    Film film = panels[0].scene.film;
+    film.title = "Together";
+    const PanelLayout all = layout_of(panels, film);
+    for (Panel& panel : panels) panel.scene.film.word_kinds = none();
+    film.word_kinds = none();
+    const PanelLayout bare = layout_of(panels, film);
+    EXPECT_EQ(bare.bottom.height, 0);
+    EXPECT_EQ(bare.places[0].caption.height, 0);
+    EXPECT_EQ(bare.places[0].foot.height, 0);
+    EXPECT_LT(bare.top.height, all.top.height);
+    EXPECT_GT(area(bare.places[0].port), area(all.places[0].port));
+}
+
+// A legend is higher by a line where a feed gives more than there are at the start.
+TEST(WordsShown, ALegendTellsFedGrainsFromThoseAtTheStart) {
+    Scene at_start = wedge(), fed = wedge(), both = wedge();
+    fed.species[0].fed = fed.species[0].count;
+    fed.species[0].count = 0;
+    both.species[0].fed = 300;
+    const Palette palette = make_palette(at_start.film.background);
+    const TypeScale type = type_scale(at_start.film);
+    const Writer measure{nullptr, type, palette};
+    const auto size = [&](const Scene& scene) { return legend_block(measure, scene, 0, 0, 0); };
+    EXPECT_NE(size(at_start).width, size(fed).width);
+    EXPECT_EQ(size(at_start).height, size(fed).height);
+    EXPECT_NEAR(size(both).height - size(fed).height, measure.write(0, 0, "0", measure.minor(), {}).height,
+                0.5);
+}
+
+TEST(WordsShown, ForcesOnWallsAndBetweenGrainsHaveUnlikeColours) {
+    for (const Colour& background : {Colour{1, 1, 1}, Colour{0.07, 0.08, 0.1}}) {
+        const Palette palette = make_palette(background);
+        const std::vector<Colour> colours{palette.force, palette.wall_force, palette.accent, palette.ink};
+        for (const Colour& a : colours) {
+            EXPECT_GT(contrast(a, background), 4.5);
+            for (const Colour& b : colours)
+                if (&a != &b) {
+                    const double apart =
+                        std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue);
+                    EXPECT_GT(apart, 0.4);
+                }
+        }
+    }
+}
+
+// Beyond 0 there is no speed, but upwards there is always more; a velocity has both signs.
+TEST(WordsShown, ABarHasTipsWhereThereMayBeMore) {
+    const TypeScale type = type_scale(wedge().film);
+    const auto place = [&](GrainValue by, double low) {
+        return colour_bar_place(ColourScale({by, ColourMap::viridis, {low, 1}, false, "", 5}), type, 0, 0,
+                                200);
+    };
+    const ColourBarPlace speed = place(GrainValue::speed, 0);
+    EXPECT_EQ(speed.tip_below, 0);
+    EXPECT_GT(speed.tip_above, 0);
+    EXPECT_EQ(speed.width + speed.tip_above, 200);
+    EXPECT_GT(place(GrainValue::speed, 0.1).tip_below, 0);
+    const ColourBarPlace upward = place(GrainValue::vertical_velocity, 0);
+    EXPECT_GT(upward.tip_below, 0);
+    EXPECT_EQ(upward.x, upward.tip_below);
+}
+
+TEST(WordsShown, ClippedGrainsAreCounted) {
+    GrainColouring speed{GrainValue::speed, ColourMap::viridis, {0, 0.5}, false, "cm/s", 5};
+    ClippedCount count;
+    for (const double value : {0.0, 0.5, 0.6, 0.2, std::nan("")}) count.take(value, speed.range);
+    EXPECT_EQ(count.all, 4);
+    EXPECT_EQ(
+        clipped_words(speed, count, "grains"),
+        "colours by speed: 25 % of the grains lie above 50 cm/s, where the bar ends (film.colour.range)");
+    EXPECT_EQ(clipped_words(speed, {4, 0, 0}, "grains"), "");
+}
+
+// A private-use letter is in no font.
+TEST(WordsShown, LettersWithoutAFontAreNamed) {
+    const std::string nowhere = "\xf3\xb0\x80\x81";  // U+F0001
+    EXPECT_TRUE(missing_letters("Big and small, Γ = 3, µm").empty());
+    EXPECT_EQ(missing_letters_warning({{"a.toml:1:1", "plain"}}), "");
+    const std::string one =
+        missing_letters_warning({{"a.toml:1:1", "plain"}, {"a.toml:2:8", "x" + nowhere + nowhere}});
+    if (!missing_letters(nowhere).empty()) {
+        EXPECT_THAT(one, testing::StartsWith("a.toml:2:8: no font here has " + nowhere + " ("));
+        EXPECT_THAT(one, testing::HasSubstr("apt-get install fonts-noto"));
+    }
+    const std::vector<MissingLetters> chinese = missing_letters("振动");
+    if (!chinese.empty()) {
+        EXPECT_EQ(chinese.size(), 1u);
+        EXPECT_EQ(chinese[0].letters, "振动");
+        EXPECT_EQ(chinese[0].script, "Chinese");
+        EXPECT_EQ(chinese[0].package, "fonts-noto-cjk");
+    }
+    Scene scene = wedge();
+    scene.species[0].name = nowhere;
+    EXPECT_EQ(texts_of_film(scene).size(), 3u);  // title and two species
+    scene.film.word_kinds.legend = false;
+    EXPECT_EQ(texts_of_film(scene).size(), 1u);
+    scene.film.words = WordPlace::none;
+    EXPECT_TRUE(texts_of_film(scene).empty());
+}
+
+// Grains are as they are down to the floor, and gone where they leave.
+TEST(WordsShown, GrainsFadeBeforeTheyLeave) {
+    Scene scene = wedge(640, 360);
+    const View view = view_of(scene);
+    EXPECT_TRUE(exit_fade(scene, view, 360).empty());
+    scene.container.outlet = Outlet{Outlet::Shape::slot, 0.02, 0, 0.08};
+    const View open = view_of(scene);
+    const std::vector<std::uint32_t> rows = exit_fade(scene, open, 360);
+    ASSERT_EQ(rows.size(), 360u);
+    const auto row_of = [&](double z) { return static_cast<std::size_t>(open.project(Vec3(0, 0, z)).y()); };
+    EXPECT_EQ(rows[row_of(0)], 255u);
+    EXPECT_EQ(rows[row_of(-0.039)], 255u);
+    EXPECT_NEAR(static_cast<double>(rows[row_of(-0.06)]), 128, 20);
+    EXPECT_LT(rows[row_of(-0.08)], 8u);
+    EXPECT_TRUE(std::is_sorted(rows.rbegin(), rows.rend()));
+    scene.container.tray = Tray{};
+    EXPECT_TRUE(exit_fade(scene, open, 360).empty());
+}
+
+}  // namespace
+}  // namespace grainreel::test
