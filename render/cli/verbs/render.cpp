@@ -54,7 +54,7 @@ class Render final : public Verb {
         film_.program = program_info();
         RecordedRun record(request_.run, request_.sets);
         if (request_.at) {
-            print_result(draw_still(film_, *request_.at, reporter, record).string() + "\n");
+            print_exact(draw_still(film_, *request_.at, reporter, record).string() + "\n");
             return 0;
         }
         record.leave_out_damaged();
