@@ -43,22 +43,93 @@ std::size_t letters_in(std::string_view text) {
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
+namespace {
+
+// The number of the control character of so many bytes at `at`: C0, DEL, C1, and the two ends of lines that
+// Unicode has beside those. None for another character.
+std::optional<unsigned> control_at(std::string_view text, std::size_t at, std::size_t length) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
+    if (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7f)) return byte(0);
+    if (length == 2 && byte(0) == 0xc2 && byte(1) < 0xa0) return byte(1);
+    if (length == 3 && byte(0) == 0xe2 && byte(1) == 0x80 && (byte(2) == 0xa8 || byte(2) == 0xa9))
+        return 0x2000u + (byte(2) & 0x3fu);
+    return std::nullopt;
+}
+
+// The character at `at` as it may be shown, and how many bytes it has in the text.
+struct Shown {
+    std::string text;
+    std::size_t length = 1;
+};
+Shown shown_at(std::string_view text, std::size_t at) {
+    const std::size_t length = length_of_character(text, at);
+    if (length == 0) return {fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at])), 1};
+    if (const auto control = control_at(text, at, length))
+        return {fmt::format("\\u{:04x}", *control), length};
+    return {std::string(text.substr(at, length)), length};
+}
+
+// Where the first character ends that begins at `from` or behind it.
+std::size_t end_of_character(std::string_view text, std::size_t from) {
+    while (follows(text, from)) ++from;
+    return from;
+}
+
+// Without its middle, where it has more bytes than that; more of its beginning stays than of its end.
+std::string without_middle(std::string_view text, std::size_t most) {
+    if (text.size() <= most) return std::string(text);
+    const std::size_t head = end_of_character(text, most * 2 / 3),
+                      tail = end_of_character(text, text.size() - most / 3);
+    return fmt::format("{}...{}", text.substr(0, head), text.substr(tail));
+}
+
+}  // namespace
+
 std::string excerpt(std::string_view text, std::size_t most) {
     std::string result;
     std::size_t characters = 0;
     for (std::size_t at = 0; at < text.size(); ++characters) {
         if (characters == most) return result + "...";
-        const std::size_t length = length_of_character(text, at);
-        const auto byte = static_cast<unsigned char>(text[at]);
-        if (length == 0 || byte < 0x20 || byte == 0x7f) {
-            result += fmt::format("\\x{:02x}", byte);
-            ++at;
-        } else {
-            result += text.substr(at, length);
-            at += length;
-        }
+        const Shown shown = shown_at(text, at);
+        result += shown.text;
+        at += shown.length;
     }
     return result;
+}
+
+std::optional<unsigned> first_control_character(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = length_of_character(text, at);
+        if (const auto control = control_at(text, at, length)) return control;
+        at += length == 0 ? 1 : length;
+    }
+    return std::nullopt;
+}
+
+std::string visible(std::string_view text, std::string_view kept) {
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        if (kept.find(text[at]) != std::string_view::npos) {
+            result += text[at++];
+            continue;
+        }
+        const Shown shown = shown_at(text, at);
+        result += shown.text;
+        at += shown.length;
+    }
+    return result;
+}
+
+std::string message_text(std::string_view text) {
+    constexpr std::size_t longest_word = 300, longest = 4000;  // bytes
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.size(), text.find(' ', at));
+        result += without_middle(visible(text.substr(at, end - at)), longest_word);
+        if (end < text.size()) result += ' ';
+        at = end + 1;
+    }
+    return without_middle(result, longest);
 }
 
 std::string complaint_of_utf8(std::string_view text) {

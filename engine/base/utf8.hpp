@@ -17,9 +17,21 @@ std::size_t letters_in(std::string_view text);
 
 constexpr std::size_t kExcerpt = 60;  // characters of a user's text in a message
 
-// For messages: at most so many characters of the text, with "..." for the rest. Bytes that are no UTF-8 and
-// control characters are written as \xff.
+// For messages: at most so many characters of the text, with "..." for the rest. Control characters are
+// written as TOML has them, \u001b, and bytes that are no UTF-8 as \xff.
 std::string excerpt(std::string_view text, std::size_t most = kExcerpt);
+
+// The first control character of the text: the ASCII and the C1 ones, and U+2028 and U+2029, which end lines.
+std::optional<unsigned> first_control_character(std::string_view text);
+
+// All of the text, with control characters and what is no UTF-8 written out as in an excerpt, but for the
+// characters in `kept`. A terminal obeys nothing in it.
+std::string visible(std::string_view text, std::string_view kept = "");
+
+// A message of one line, as it goes to the terminal and to logs: visible, and without the middle of words
+// that are longer than a path, and of a whole that is longer than a screen. What somebody typed, or a file
+// held, may stand in it at any length.
+std::string message_text(std::string_view text);
 
 // "\"Gr\\xf6sse\" is not UTF-8 at byte 3, 0xf6" for text that is not; empty for text that is.
 std::string complaint_of_utf8(std::string_view text);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/bench/peers_cases.hpp"
+#include "engine/bench/rest_case.hpp"
 #include "engine/bench/scene_cases.hpp"
 
 namespace grainreel {
@@ -11,6 +12,7 @@ const std::vector<BenchCase>& bench_cases() {
     static const std::vector<BenchCase> all = [] {
         std::vector<BenchCase> cases = peers_cases();
         for (BenchCase& scene : scene_cases()) cases.push_back(scene);
+        cases.push_back(rest_case());
         return cases;
     }();
     return all;

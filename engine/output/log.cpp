@@ -4,6 +4,7 @@
 #include <spdlog/sinks/basic_file_sink.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 
 namespace grainreel {
 
@@ -22,13 +23,13 @@ RunLog::RunLog(const std::filesystem::path& path, bool goes_on) {
 RunLog::~RunLog() = default;
 
 void RunLog::info(const std::string& message) {
-    logger_->log(spdlog::level::info, message);
+    logger_->log(spdlog::level::info, message_text(message));
 }
 void RunLog::warning(const std::string& message) {
-    logger_->log(spdlog::level::warn, message);
+    logger_->log(spdlog::level::warn, message_text(message));
 }
 void RunLog::error(const std::string& message) {
-    logger_->log(spdlog::level::err, message);
+    logger_->log(spdlog::level::err, message_text(message));
 }
 
 }  // namespace grainreel

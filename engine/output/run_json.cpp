@@ -57,6 +57,21 @@ Json drawn(const RunRecord& r) {
     return runs;
 }
 
+Json final_table(const RunRecord& r) {
+    if (!r.final_table) return nullptr;
+    return {{"grains", r.final_table->grains}, {"xxh64", fmt::format("{:016x}", r.final_table->checksum)}};
+}
+
+Json accepted(const RunRecord& r) {
+    Json keys = Json::array();
+    for (const AcceptedKey& one : r.accepted)
+        keys.push_back({{"step", one.step},
+                        {"key", one.key},
+                        {"then", text_or_null(one.then)},
+                        {"now", text_or_null(one.now)}});
+    return keys;
+}
+
 // Room on disk that run.json has beyond its end while the run goes on: when the disk is full and no new file
 // can be had, its last word is written there, over the first.
 constexpr off_t reserve = 32768;  // bytes
@@ -121,6 +136,7 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"threads",
          {{"engine", r.engine_threads}, {"raster", r.raster_threads}, {"encoder", r.encoder_threads}}},
         {"engine", r.drawn.empty() && r.panels.empty() ? engine(r) : Json(nullptr)},
+        {"accepted", accepted(r)},
         {"drawn", drawn(r)},
         {"panels", r.panels},
         {"wall_s", table(r.wall_seconds)},
@@ -128,6 +144,7 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
          {{"film_frames", r.film_frames ? Json(*r.film_frames) : Json(nullptr)},
           {"trajectory_frames", r.trajectory_frames},
           {"measures_rows", r.measures_rows},
+          {"final_csv", final_table(r)},
           {"page", text_or_null(r.page)}}},
         {"peak_memory_bytes", r.peak_memory},
         {"warnings", r.warnings}};
@@ -169,6 +186,21 @@ std::vector<std::string> panels_in_run_json(const std::filesystem::path& path) {
     for (const Json& panel : document["panels"])
         if (panel.is_string()) panels.push_back(panel.get<std::string>());
     return panels;
+}
+
+std::vector<AcceptedKey> accepted_in_run_json(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    const Json document = Json::parse(file, nullptr, false);
+    std::vector<AcceptedKey> keys;
+    if (!document.is_object() || !document.contains("accepted")) return keys;
+    const auto words = [](const Json& one, const char* name) {
+        return one.contains(name) && one[name].is_string() ? one[name].get<std::string>() : "";
+    };
+    for (const Json& one : document["accepted"])
+        if (one.is_object() && one.contains("step") && one["step"].is_number_integer())
+            keys.push_back(
+                {one["step"].get<std::int64_t>(), words(one, "key"), words(one, "then"), words(one, "now")});
+    return keys;
 }
 
 }  // namespace grainreel

@@ -10,6 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/start/continuation.hpp"
+#include "engine/start/table_mark.hpp"
+
 namespace grainreel {
 
 enum class RunStatus { running, complete, interrupted, failed };
@@ -57,8 +60,10 @@ struct RunRecord : ProgramInfo {
     double particle_steps_per_second = 0;                      // of vibration, time in the engine alone
     std::optional<std::int64_t> film_frames = 0;               // none while the film is being closed
     std::int64_t trajectory_frames = 0, measures_rows = 0;
-    std::string page;              // file name of the run's page; empty without one
-    std::int64_t peak_memory = 0;  // bytes
+    std::optional<TableMark> final_table;  // of final.csv, once it is written
+    std::vector<AcceptedKey> accepted;     // in the order of time
+    std::string page;                      // file name of the run's page; empty without one
+    std::int64_t peak_memory = 0;          // bytes
     std::vector<std::string> warnings;
 };
 
@@ -75,5 +80,7 @@ std::string scene_in_run_json(const std::filesystem::path& path);
 std::string status_in_run_json(const std::filesystem::path& path);
 // `panels` of such a file; empty when it has none or is no such file.
 std::vector<std::string> panels_in_run_json(const std::filesystem::path& path);
+// What was accepted on the run's way; empty when nothing was, or there is no such file.
+std::vector<AcceptedKey> accepted_in_run_json(const std::filesystem::path& path);
 
 }  // namespace grainreel

@@ -145,9 +145,31 @@ std::vector<KeyDifference> deciding_differences(std::string_view then, std::stri
     return differences;
 }
 
+namespace {
+
+// From the first change of its key after the checkpoint to the last.
+bool was_accepted(const KeyDifference& difference, std::int64_t step,
+                  const std::vector<AcceptedKey>& accepted) {
+    const auto later = [&](const AcceptedKey& one) { return one.step > step && one.key == difference.key; };
+    const auto first = std::find_if(accepted.begin(), accepted.end(), later);
+    const auto last = std::find_if(accepted.rbegin(), accepted.rend(), later);
+    return first != accepted.end() && first->then == difference.then && last->now == difference.now;
+}
+
+}  // namespace
+
+std::vector<KeyDifference> differences_of_future(const std::string& kept, const std::string& today,
+                                                 std::int64_t step,
+                                                 const std::vector<AcceptedKey>& accepted) {
+    std::vector<KeyDifference> differences = deciding_differences(kept, today);
+    std::erase_if(differences,
+                  [&](const KeyDifference& difference) { return was_accepted(difference, step, accepted); });
+    return differences;
+}
+
 void check_same_future(const std::string& kept, const Scene& scene, const Plan& plan) {
     const std::string today = scene_to_keep(scene, plan);
-    const std::vector<KeyDifference> differences = deciding_differences(kept, today);
+    const std::vector<KeyDifference> differences = differences_of_future(kept, today, 0, {});
     if (differences.empty()) return;
     const auto& [key, then, now] = differences.front();
     const std::vector<Value> values = deciding_values_of(today);

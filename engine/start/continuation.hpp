@@ -5,6 +5,7 @@
 // nothing may change; their entries say so (`decides_nothing`), and a new key decides until its entry does.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,18 @@ std::vector<KeyDifference> deciding_differences(std::string_view then, std::stri
 // Likewise, all keys of one table, such as "output".
 std::vector<KeyDifference> differences_of_table(std::string_view then, std::string_view now,
                                                 std::string_view table);
+
+// A key that `resume --accept` changed at a step of a run. Checkpoints from before have it as it was.
+struct AcceptedKey {
+    std::int64_t step = 0;
+    std::string key, then, now;  // as in a KeyDifference
+};
+
+// What differs between the scene that a checkpoint of `step` holds and the run's, by the keys that decide.
+// What was accepted after that step is no difference. None: the checkpoint is of this run. kept: as text, of
+// the scene's writer.
+std::vector<KeyDifference> differences_of_future(const std::string& kept, const std::string& today,
+                                                 std::int64_t step, const std::vector<AcceptedKey>& accepted);
 
 // Throws UserError, at the key that differs, when a run of the kept scene cannot go on in this one.
 void check_same_future(const std::string& kept, const Scene& scene, const Plan& plan);

@@ -121,7 +121,7 @@ void read_grain(Row& row, const TableForm& form, std::unordered_set<std::int32_t
 
 }  // namespace
 
-void write_grain_table(const std::filesystem::path& path, const Frame& frame) {
+TableMark write_grain_table(const std::filesystem::path& path, const Frame& frame) {
     const bool with_orientation = !frame.orientation.empty();
     fmt::memory_buffer text;
     fmt::format_to(std::back_inserter(text), "{}{}\n", plain_header,
@@ -136,6 +136,7 @@ void write_grain_table(const std::filesystem::path& path, const Frame& frame) {
         text.push_back('\n');
     }
     replace_file(path, {text.data(), text.size()});
+    return mark_of_table(static_cast<std::int64_t>(frame.size()), {text.data(), text.size()});
 }
 
 Frame read_grain_table(const std::filesystem::path& path) {
@@ -160,6 +161,7 @@ Frame read_grain_table(const std::filesystem::path& path) {
         read_grain(row, *form, ids, frame);
     }
     if (frame.size() == 0) throw UserError(fmt::format("{}:2:1: no grains in the table", path.string()));
+    check_as_written(path, static_cast<std::int64_t>(frame.size()));
     return frame;
 }
 

@@ -11,15 +11,18 @@
 #include <filesystem>
 
 #include "engine/frame.hpp"
+#include "engine/start/table_mark.hpp"
 
 namespace grainreel {
 
-// Throws RunError when the file cannot be written; what it held before stays then.
-void write_grain_table(const std::filesystem::path& path, const Frame& frame);
+// What run.json is to keep of it. Throws RunError when the file cannot be written; what it held before stays
+// then.
+TableMark write_grain_table(const std::filesystem::path& path, const Frame& frame);
 
 // The frame's step, time and wall poses stay at their defaults: the table does not hold them.
 // Throws UserError with line and column when the file is missing, is not such a table, or holds a value that
-// no grain can have (a radius of 0, an infinite speed, an id twice).
+// no grain can have (a radius of 0, an infinite speed, an id twice); and when it is a final.csv that is not
+// what the run.json beside it says.
 Frame read_grain_table(const std::filesystem::path& path);
 
 }  // namespace grainreel

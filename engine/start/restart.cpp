@@ -155,6 +155,16 @@ bool is_checkpoint(const std::filesystem::path& path) {
     return in && name == kName;
 }
 
+bool is_whole_checkpoint(const std::filesystem::path& path) {
+    Scene scene;
+    scene.start.file = path.string();
+    try {
+        return !body_of(scene, read_whole(scene)).empty();
+    } catch (const UserError&) {
+        return false;
+    }
+}
+
 std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path) {
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(path, failed);

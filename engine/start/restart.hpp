@@ -46,6 +46,9 @@ struct CheckpointLabel {
 };
 std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path);
 
+// Whether it has the bytes that were written, by its checksum.
+bool is_whole_checkpoint(const std::filesystem::path& path);
+
 // Both throw UserError, at the scene's `start.file` or at the key that differs, when the file is missing,
 // damaged, of another version, or does not fit the scene; nothing in it is believed.
 //

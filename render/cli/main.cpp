@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "render/cli/options/command_line.hpp"
 #include "render/cli/report/reporter.hpp"
 #include "render/cli/report/result.hpp"
@@ -45,8 +46,9 @@ int parse_and_run(int argc, char** argv) {
         close_results();
         return 0;
     };
-    return status_of(work,
-                     [](const std::string& text) { std::fprintf(stderr, "error: %s\n", text.c_str()); });
+    return status_of(work, [](const std::string& text) {
+        std::fprintf(stderr, "error: %s\n", message_text(text).c_str());
+    });
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ SceneRun::SceneRun(const Scene& scene, const Plan& plan, ResumePoint point)
       packed_(true),
       first_step_(point.first),
       goes_on_(true),
-      pictures_kept_(point.pictures) {}
+      pictures_kept_(point.pictures),
+      accepted_(std::move(point.accepted)) {}
 
 void SceneRun::use_folder(const FolderLock& folder, const std::string& program_version) {
     folder_ = &folder;
@@ -303,7 +304,7 @@ void SceneRun::close(FirstFailure& failure) {
             files_->last_measures()->at("step") != static_cast<double>(simulation_.step()))
             add_measures();
     });
-    failure.attempt([&] { write_grain_table(path_of("final.csv"), simulation_.frame()); });
+    failure.attempt([&] { final_table_ = write_grain_table(path_of(kFinalTable), simulation_.frame()); });
     failure.attempt([&] { save_checkpoint(); });
     failure.attempt([&] { state_hash_ = simulation_.state_hash(); });
 }
@@ -340,6 +341,7 @@ void SceneRun::describe(RunRecord& record) const {
     record.grains = scene_.grains();
     record.steps_planned = plan_.steps;
     record.step = plan_.clock.step;
+    record.accepted = accepted_;
 }
 
 void SceneRun::conclude(RunRecord& record) const {
@@ -347,6 +349,7 @@ void SceneRun::conclude(RunRecord& record) const {
     record.trajectory_frames = files_ ? files_->trajectory_frames() : 0;
     record.measures_rows = files_ ? files_->measures_rows() : 0;
     record.state_hash = state_hash_;
+    record.final_table = final_table_;
     if (!packed_) return;
     record.steps = simulation_.step();
     record.simulated = plan_.clock.time(record.steps);

@@ -105,6 +105,7 @@ class SceneRun final : public FrameSource {
     bool keys_wanted_ = false;
     bool goes_on_ = false;           // in the folder of an earlier run, which it is
     std::size_t pictures_kept_ = 0;  // of that
+    std::vector<AcceptedKey> accepted_;
     std::optional<EarlierPictures> earlier_;
     std::optional<RunFiles> files_;
     std::optional<Agenda> agenda_;
@@ -122,6 +123,7 @@ class SceneRun final : public FrameSource {
     double particle_steps_ = 0;                // of vibration
     RecentRate rate_;                          // particle-steps/s
     std::optional<std::uint64_t> state_hash_;  // of the end state
+    std::optional<TableMark> final_table_;     // of its table
 };
 
 }  // namespace grainreel

@@ -33,5 +33,23 @@ TEST(WedgeCase, CountsTheMemoryOfItsBedAlone) {
     EXPECT_NEAR(first / second, 1, 0.1) << first << ' ' << second;
 }
 
+// A grain of a bed at rest has four to five contacts, two of each pair; what falls has less than one.
+TEST(RestCase, IsABedAtRest) {
+    const auto& all = bench_cases();
+    const auto& rest =
+        *std::find_if(all.begin(), all.end(), [](const BenchCase& c) { return c.name == "rest"; });
+    BenchRequest request;
+    request.threads = 1;
+    request.particles = 600;
+    request.quick = true;
+    const BenchReport report = run_bench(rest, request, [](auto&&...) { return true; }).report;
+    ASSERT_EQ(report.phases.size(), 1u);
+    EXPECT_EQ(report.phases[0].name, "at rest");
+    const double contacts =
+        2 * static_cast<double>(report.phases[0].touching) / static_cast<double>(report.particles);
+    EXPECT_GT(contacts, 3.5);
+    EXPECT_LT(contacts, 5.5);
+}
+
 }  // namespace
 }  // namespace grainreel

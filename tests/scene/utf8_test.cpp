@@ -34,11 +34,35 @@ TEST(Utf8, KnowsWhatItIs) {
 
 TEST(Utf8, AnExcerptIsShortAndPrintable) {
     EXPECT_EQ(excerpt("Γ = 3"), "Γ = 3");
-    EXPECT_EQ(excerpt("a\nb\xff\x1b"), "a\\x0ab\\xff\\x1b");
+    EXPECT_EQ(excerpt("a\nb\xff\x1b"), "a\\u000ab\\xff\\u001b");
+    EXPECT_EQ(excerpt("\x7f\xc2\x9b\xe2\x80\xa8"), "\\u007f\\u009b\\u2028");
     std::string greek;
     for (std::size_t i = 0; i < kExcerpt; ++i) greek += "Γ";
     EXPECT_EQ(excerpt(greek), greek);
     EXPECT_EQ(excerpt(greek + "Γ"), greek + "...");
+}
+
+TEST(Utf8, ATerminalObeysNothingOfWhatIsShown) {
+    EXPECT_EQ(visible("\x1b[31mΓ\n\tend\r\xc2\x9b\xff", "\n\t"), "\\u001b[31mΓ\n\tend\\u000d\\u009b\\xff");
+    EXPECT_EQ(message_text("a\nb \x1b c"), "a\\u000ab \\u001b c");
+    EXPECT_EQ(first_control_character("Γ\xc2\xa0"), std::nullopt);  // a space that holds words together
+    EXPECT_EQ(first_control_character("Γ\xc2\x85"), 0x85u);
+}
+
+// A path stays whole; what nobody reads to its end loses its middle, and says so.
+TEST(Utf8, AMessageHasNoEndlessWords) {
+    const std::string path(200, 'p'), argument(100000, 'x');
+    EXPECT_EQ(message_text(path + ": is missing"), path + ": is missing");
+    const std::string message = message_text("--at " + argument + ": is no time; give one");
+    EXPECT_LT(message.size(), 400u);
+    EXPECT_THAT(message, testing::StartsWith("--at xxx"));
+    EXPECT_THAT(message, testing::HasSubstr("xxx...xxx"));
+    EXPECT_THAT(message, testing::EndsWith("xxx: is no time; give one"));
+    std::string words, greek;
+    for (int i = 0; i < 20000; ++i) words += "x ", greek += "Γ";
+    EXPECT_LT(message_text("--where " + words + "; mend it").size(), 4100u);
+    EXPECT_THAT(message_text("--where " + words + "; mend it"), testing::EndsWith("; mend it"));
+    EXPECT_EQ(first_byte_not_utf8(message_text(greek)), std::nullopt);
 }
 
 TEST(Utf8, TextThatIsNotIsRefusedAtTheStartAndTheByteNamed) {
@@ -63,13 +87,14 @@ TEST(Utf8, AnyTextThatIsTakenCanBeReadAgain) {
     std::string all = "Γ \"'\\ ";
     for (char c = 1; c < 0x20; ++c) all += c;
     all += "\x7f\u0080\u2028\U0001F4A5";
+    const std::string name = "xΓ \"'\\ \U0001F4A5";  // a name holds no control characters
     Scene scene =
-        read_text(wedge_text, {Assignment("film.title=" + all), Assignment("species.big.name=x" + all)});
+        read_text(wedge_text, {Assignment("film.title=" + all), Assignment("species.big.name=" + name)});
     scene.film.shows.text = all;
     const Scene back =
         read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in);
     EXPECT_EQ(back.film.title, scene.film.title);
-    EXPECT_EQ(back.species[1].name, scene.species[1].name);
+    EXPECT_EQ(back.species[1].name, name);
     EXPECT_EQ(back.film.shows.text, all);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/measure/energy/energy.hpp"
 
@@ -22,7 +23,7 @@ EnergyBalance::EnergyBalance(const Surroundings& around, const Grains& grains, c
 void EnergyBalance::note(std::int64_t step) {
     const Powers before = powers_;
     look(step);
-    end_contacts(step);
+    end_contacts();
     terms_.damping += half_step_ * (before.damping + powers_.damping);
 }
 
@@ -34,6 +35,11 @@ void EnergyBalance::look(std::int64_t step) {
     terms_.stored = 0;
     powers_ = {};
     const Pose pose = around_.motion.at(step);
+    std::swap(before_, contacts_);
+    contacts_.clear();
+    goes_on_.assign(before_.size(), 0);
+    if (!places_.empty()) places_.clear();
+    place_ = 0;
     loop_.visit_contacts(step, [&](const ContactView& c) {
         add_contact(step, c);
         terms_.stored += c.stored_energy;
@@ -60,26 +66,47 @@ void EnergyBalance::note_traffic() {
     terms_.left = now.energy_out - left_at_start_;
 }
 
+// The contact as it was at the step before; none where it did not touch.
+const EnergyBalance::Kept* EnergyBalance::found(std::uint64_t key) {
+    constexpr std::size_t nearby = 4;
+    const std::size_t end = std::min(before_.size(), place_ + nearby);
+    for (std::size_t at = place_; at < end; ++at) {
+        if (before_[at].key != key) continue;
+        place_ = at + 1;
+        goes_on_[at] = 1;
+        return &before_[at].kept;
+    }
+    if (touching_.insert(key).second) return nullptr;
+    if (places_.empty())
+        for (std::size_t k = 0; k < before_.size(); ++k) places_.emplace(before_[k].key, k);
+    const std::size_t at = places_.at(key);
+    goes_on_[at] = 1;
+    return &before_[at].kept;
+}
+
 void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
-    Kept& kept = contacts_[key(c)];
+    const std::uint64_t key_of_c = key(c);
+    const Kept* const known = found(key_of_c);
+    const Kept kept = known != nullptr ? *known : Kept{step};
     terms_.latching += c.latched_energy - kept.latched;
     add_friction(half_step_ * (kept.rubbing + c.rubbing_power) - (c.sideways_energy - kept.sideways));
-    kept = {step, c.latched_energy, c.sideways_energy, c.rubbing_power};
+    contacts_.push_back({key_of_c, {step, c.latched_energy, c.sideways_energy, c.rubbing_power}});
 }
 
 // What a tangential spring still held when its contact parted goes to friction. Where a grain has left, or
-// an outlet has opened below it, it went out with that. Rising keys make the sum the same whatever the map
-// has been through.
-void EnergyBalance::end_contacts(std::int64_t step) {
+// an outlet has opened below it, it went out with that. Rising keys make the sum the same in whatever order
+// the contacts stood.
+void EnergyBalance::end_contacts() {
     ended_.clear();
-    for (const auto& [key, kept] : contacts_)
-        if (kept.step != step) ended_.push_back(key);
-    std::sort(ended_.begin(), ended_.end());
-    for (const std::uint64_t key : ended_) {
-        const Kept& kept = contacts_.at(key);
+    for (std::size_t k = 0; k < before_.size(); ++k)
+        if (!goes_on_[k]) ended_.push_back(k);
+    std::sort(ended_.begin(), ended_.end(),
+              [&](std::size_t a, std::size_t b) { return before_[a].key < before_[b].key; });
+    for (const std::size_t k : ended_) {
+        const auto& [key, kept] = before_[k];
         const bool went_out = (some_left_ && !are_there(key)) || (opened_ && is_at_wall(key));
         if (!went_out) add_friction(half_step_ * kept.rubbing + kept.sideways);
-        contacts_.erase(key);
+        touching_.erase(key);
     }
 }
 
@@ -94,11 +121,11 @@ void EnergyBalance::transfer(Balance& balance, const Each& each) {
 }
 
 void EnergyBalance::save(std::ostream& out) const {
+    std::vector<Touching> sorted = contacts_;
+    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
     std::vector<std::uint64_t> keys;
-    for (const auto& one : contacts_) keys.push_back(one.first);
-    std::sort(keys.begin(), keys.end());
     std::vector<Kept> kept;
-    for (const std::uint64_t key : keys) kept.push_back(contacts_.at(key));
+    for (const Touching& one : sorted) keys.push_back(one.key), kept.push_back(one.kept);
     const Writing each{out};
     each(keys), each(kept);
     transfer(*this, each);
@@ -121,7 +148,8 @@ void EnergyBalance::load(Bytes& in) {
                                left_at_start_ + terms_.given_back);
     if (in.failed() || !sound) return in.fail();
     contacts_.clear();
-    for (std::size_t k = 0; k < keys.size(); ++k) contacts_.emplace(keys[k], kept[k]);
+    touching_ = {keys.begin(), keys.end()};
+    for (std::size_t k = 0; k < keys.size(); ++k) contacts_.push_back({keys[k], kept[k]});
 }
 
 void EnergyBalance::add_friction(double spent) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "engine/base/binary.hpp"
@@ -67,6 +68,12 @@ class EnergyBalance {
         double latched = 0, sideways = 0;  // J
         double rubbing = 0;                // W
     };
+    // What touched at a step, in the order in which the loop shows it. From one step to the next few contacts
+    // come or go, so each is found where the one before it was: no map is searched for it.
+    struct Touching {
+        std::uint64_t key;
+        Kept kept;
+    };
 
     // W, at one step.
     struct Powers {
@@ -77,7 +84,8 @@ class EnergyBalance {
     static void transfer(Balance& balance, const Each& each);
     void look(std::int64_t step);
     void add_contact(std::int64_t step, const ContactView& contact);
-    void end_contacts(std::int64_t step);
+    const Kept* found(std::uint64_t key);
+    void end_contacts();
     void note_traffic();
     bool are_there(std::uint64_t key) const;
     static bool is_at_wall(std::uint64_t key) { return (key >> 31 & 1) != 0; }
@@ -87,8 +95,12 @@ class EnergyBalance {
     const Surroundings& around_;
     const Grains& grains_;
     const StepLoop& loop_;
-    const double half_step_;  // s
-    std::unordered_map<std::uint64_t, Kept> contacts_;
+    const double half_step_;                      // s
+    std::vector<Touching> contacts_, before_;     // at the last step looked at, and at the one before it
+    std::vector<char> goes_on_;                   // of before_: whether it touches still
+    std::size_t place_ = 0;                       // in before_, behind the last that was found in order
+    std::unordered_set<std::uint64_t> touching_;  // the keys of contacts_
+    std::unordered_map<std::uint64_t, std::size_t> places_;  // of before_, where the order has changed
     Powers powers_;
     EnergyTerms terms_;
     double held_at_start_ = 0, work_at_start_ = 0;  // J
@@ -96,7 +108,7 @@ class EnergyBalance {
     double came_at_start_ = 0, left_at_start_ = 0;  // J
     bool some_left_ = false, opened_ = false;       // in the last step
     std::vector<std::int32_t> present_;             // ids, rising, when that was so
-    std::vector<std::uint64_t> ended_;              // in the last step, rising
+    std::vector<std::size_t> ended_;                // in the last step: places in before_, by rising key
 };
 
 }  // namespace grainreel

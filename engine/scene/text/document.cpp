@@ -226,6 +226,17 @@ std::optional<bool> Document::flag(const std::string& path) {
     return value;
 }
 
+// A name stands on a line of its own, in tables and in comments. U+0000 cuts text off wherever C reads it.
+void Document::check_characters(const std::string& path, const std::string& text) const {
+    const bool a_name = name_of(path) == "name";
+    const auto control = a_name                                 ? first_control_character(text)
+                         : text.find('\0') != std::string::npos ? std::optional(0u)
+                                                                : std::nullopt;
+    if (control)
+        fail(path, fmt::format("holds the control character U+{:04X} in \"{}\"; take it out", *control,
+                               excerpt(text)));
+}
+
 std::optional<std::string> Document::text(const std::string& path) {
     const toml::node* node = read(path);
     if (node == nullptr) return std::nullopt;
@@ -234,6 +245,7 @@ std::optional<std::string> Document::text(const std::string& path) {
     if (!value)
         fail(path, fmt::format("must be text, but is {}; write for example {}", written_value(*node),
                                key.example()));
+    check_characters(path, *value);
     if (const std::size_t letters = letters_in(*value); letters > key.most_letters)
         fail(path,
              fmt::format("has {} characters, and the most are {}; shorten it", letters, key.most_letters));

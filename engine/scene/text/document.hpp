@@ -84,6 +84,7 @@ class Document {
     const toml::node* find(const std::string& path) const;
     const toml::node* read(const std::string& path);  // find, and remember that it was read
     double number_in(const std::string& path, const toml::node& node, const Key& key) const;
+    void check_characters(const std::string& path, const std::string& text) const;
     void check_bare_phase(const std::string& path, const toml::node& node) const;
     std::string written_value(const toml::node& node) const;
     void record(const std::string& path, const toml::node& node);

@@ -19,6 +19,9 @@ namespace {
 void check_name(const std::filesystem::path& file) {
     const std::string wrong = complaint_of_utf8(file.filename().string());
     if (!wrong.empty()) throw UserError(fmt::format("{}; rename the file", wrong));
+    if (const auto control = first_control_character(file.filename().string()))
+        throw UserError(fmt::format("{}: the file's name holds the control character U+{:04X}; rename it",
+                                    file.string(), *control));
 }
 
 void check_instruments(const Document& document, const Scene& scene) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/utf8.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"
 
@@ -46,7 +47,7 @@ class SceneText {
   public:
     void table(std::string_view name) { text_ += "\n[" + std::string(name) + "]\n"; }
     void element(std::string_view name) { text_ += "\n[[" + std::string(name) + "]]\n"; }
-    void comment(const std::string& words) { text_ += "# " + words + "\n"; }
+    void comment(const std::string& words) { text_ += "# " + visible(words) + "\n"; }
     // A comment above the next key of that name.
     void remark(const std::string& key, const std::string& words) { remarks_[key] = words; }
     // value: TOML; empty: the key is left out.

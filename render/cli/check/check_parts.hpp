@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/utf8.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
@@ -21,7 +22,7 @@ class Listing {
   public:
     explicit Listing(std::ostream& out) : out_(out) {}
     void line(std::string_view name, const std::string& text) {
-        fmt::print(out_, "{:<13}{}\n", name, text);
+        fmt::print(out_, "{:<13}{}\n", name, message_text(text));
         lines_.emplace_back(name, text);
     }
     void gap() { out_ << '\n'; }

@@ -18,6 +18,7 @@ struct MachineFigures {
     double frame_seconds = 0;    // of processor time, to draw and encode a frame of one moment
     double frame_drawing = 0.5;  // share of it that is drawing
     int processors = 1;          // that the program may use
+    double gain_of_two = 2;      // what two threads do over what one does, from 1 to 2
 };
 
 struct CostEstimate {

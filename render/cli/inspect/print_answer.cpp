@@ -187,7 +187,7 @@ Json json_table(const AnswerTable& table) {
 }
 
 std::string csv_words(const std::string& words) {
-    if (words.find_first_of(",\"\n") == std::string::npos) return words;
+    if (words.find_first_of(",\"\n\r") == std::string::npos) return words;
     std::string quoted = "\"";
     for (const char c : words) quoted += c == '"' ? "\"\"" : std::string(1, c);
     return quoted + "\"";
@@ -227,7 +227,7 @@ std::string json_of(const Answer& answer) {
         all["moment"] = {{"time", std::isfinite(moment->time) ? Json(moment->time) : Json(nullptr)},
                          {"step", moment->step},
                          {"how", moment->how}};
-    return all.dump(2) + "\n";
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string csv_of(const Answer& answer) {

@@ -2,13 +2,15 @@
 
 #include <cstdio>
 
+#include "engine/base/utf8.hpp"
 #include "render/cli/report/result.hpp"
 
 namespace grainreel {
 
 int tell_folder(const FilmRun::Ended& ended, const FilmRequest& request) {
-    if (ended.folder && request.to_stdout) std::fprintf(stderr, "%s\n", ended.folder->c_str());
-    if (ended.folder && !request.to_stdout) print_result(ended.folder->string() + "\n");
+    if (ended.folder && request.to_stdout)
+        std::fprintf(stderr, "%s\n", visible(ended.folder->string()).c_str());
+    if (ended.folder && !request.to_stdout) print_exact(ended.folder->string() + "\n");
     return ended.exit_status;
 }
 

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/utf8.hpp"
 #include "render/cli/report/progress_text.hpp"
 #include "render/cli/report/stop_signal.hpp"
 
@@ -87,7 +88,8 @@ void Reporter::print(const char* kind, const char* colour, const std::string& te
     put(line(kind, colour, text));
 }
 
-std::string Reporter::line(const char* kind, const char* colour, const std::string& text) const {
+std::string Reporter::line(const char* kind, const char* colour, const std::string& said) const {
+    const std::string text = message_text(said);
     if (options_.form == ReporterOptions::Form::json) {
         const nlohmann::ordered_json object = {{"event", kind}, {"text", text}};
         return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

@@ -1,5 +1,7 @@
 #include "render/cli/report/result.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -7,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 
 namespace grainreel {
 
@@ -18,10 +21,18 @@ void note_error() {
     if (first_error == 0) first_error = errno != 0 ? errno : EIO;
 }
 
+void put(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
+}
+
 }  // namespace
 
 void print_result(std::string_view text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
+    put(visible(text, "\n\t"));
+}
+
+void print_exact(std::string_view text) {
+    ::isatty(STDOUT_FILENO) != 0 ? print_result(text) : put(text);
 }
 
 void close_results() {

@@ -6,8 +6,12 @@
 
 namespace grainreel {
 
+// Text of many lines. Control characters that a title or a name brought along are written out (visible).
 // Keeps in mind when it cannot be written.
 void print_result(std::string_view text);
+
+// What a script takes as it is, the name of a folder or a command: written out on a terminal only.
+void print_exact(std::string_view text);
 
 // To be called once, at the end. Throws RunError when some of what was printed did not get there.
 void close_results();

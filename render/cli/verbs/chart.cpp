@@ -58,7 +58,7 @@ class ChartVerb final : public Verb {
             return signal_base + stop_signal();
         }
         draw_pictures(*chart, request.folder, reporter);
-        print_result(request.folder.string() + "\n");
+        print_exact(request.folder.string() + "\n");
         return 0;
     }
 

@@ -117,10 +117,7 @@ class Inspect final : public Verb {
         if (average_ && !(where_ || profile_ || wall_ || pairs_))
             throw UserError("--average: goes with --where, --profile, --wall or --pair-distribution");
         const std::unique_ptr<const Record> record = open_record();
-        for (const std::string& line : record->news()) {
-            reporter.detail(line);
-            if (!fs::is_directory(run_)) missing_.push_back(line);
-        }
+        tell_news(*record, reporter);
         MomentFinder finder(*record);
         Answer answer =
             average_ ? mean_answer(finder, *record, reporter) : single_answer(finder, *record, reporter);
@@ -199,6 +196,17 @@ class Inspect final : public Verb {
         return std::make_unique<RecordedRun>(run_, sets_for_contacts(), true);
     }
 
+    // What is damaged or not of this run is left out of answers, and the user is to know.
+    void tell_news(const Record& record, Reporter& reporter) {
+        const std::vector<std::string> faults = record.faults();
+        for (const std::string& line : record.news()) {
+            if (std::find(faults.begin(), faults.end(), line) == faults.end()) reporter.detail(line);
+            if (!fs::is_directory(run_)) missing_.push_back(line);
+        }
+        for (const auto& lines : {faults, record.checkpoint_news()})
+            for (const std::string& line : lines) reporter.warning(line);
+    }
+
     // With what has contacts read, when the run kept them.
     Assignments sets_for_contacts() const {
         std::error_code ignored;
@@ -232,8 +240,20 @@ class Inspect final : public Verb {
                                const Record& record) const {
         if (!asked.kept || asks_for_forces()) return true;
         if (grain_) return finder.can_bring_back(asked);
-        return (takes(Needs::contacts) && !record.supply().contacts) || takes(Needs::forces) ||
+        return (takes(Needs::contacts) && !record.has_contacts_of(*asked.kept)) || takes(Needs::forces) ||
                takes(Needs::period) || (asks_nothing() && finder.is_checkpoint(asked));
+    }
+
+    // A kept moment. None where it is damaged and can be brought back.
+    std::optional<Snapshot> kept_moment(const MomentFinder& finder, const AskedMoment& asked,
+                                        Reporter& reporter) const {
+        try {
+            return finder.kept(asked.nearest);
+        } catch (const DamagedFrame& damage) {
+            if (no_replay_ || !asked.kept || !finder.can_bring_back(asked)) throw;
+            reporter.warning(fmt::format("{}; the moment is brought back", damage.what()));
+            return std::nullopt;
+        }
     }
 
     struct ChosenMoment {
@@ -249,12 +269,13 @@ class Inspect final : public Verb {
             throw UserError(
                 "--no-replay: forces on walls and overlaps are not kept, they are brought back; leave it "
                 "out");
-        if (no_replay_ || !is_to_be_brought_back(finder, asked, record)) {
+        const bool as_kept = no_replay_ || !is_to_be_brought_back(finder, asked, record);
+        if (auto kept = as_kept ? kept_moment(finder, asked, reporter) : std::nullopt) {
             if (!asked.kept)
                 missing_.push_back(
                     fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
             const Frame& moment = record.moments()[asked.nearest];
-            return {finder.kept(asked.nearest),
+            return {std::move(*kept),
                     {moment.time, moment.step,
                      fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
                                  record.moments().size())}};

@@ -55,7 +55,7 @@ class New final : public Verb {
         replace_file(file, scene.text);
         reporter.info(fmt::format("wrote {}, a copy of {}; change it, then: grainreel check {}",
                                   file.string(), scene.name, file.string()));
-        print_result(file.string() + "\n");
+        print_exact(file.string() + "\n");
         return 0;
     }
 

@@ -81,7 +81,7 @@ class Render final : public Verb {
         RevisitedRun source(request_.run, sets_for_still(request_.sets), request_.replay);
         const auto file = draw_still(film_, *request_.at, reporter, source);
         if (!file) return signal_base + reporter.stop_signal();
-        print_result(file->string() + "\n");
+        print_exact(file->string() + "\n");
         return 0;
     }
 

@@ -58,7 +58,7 @@ class Report final : public Verb {
         for (const std::string& line : made.news) reporter.warning(line);
         reporter.info(fmt::format("wrote {} ({}); open it in a browser", made.file.string(),
                                   data_size_text(static_cast<double>(made.bytes))));
-        print_result(made.file.string() + "\n");
+        print_exact(made.file.string() + "\n");
         return 0;
     }
 

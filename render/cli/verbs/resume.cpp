@@ -14,6 +14,7 @@
 #include "engine/replay/checkpoint_ring.hpp"
 #include "engine/replay/replay.hpp"
 #include "engine/scene/text/reader.hpp"
+#include "engine/start/continuation.hpp"
 #include "render/cli/options/option_groups.hpp"
 #include "render/cli/report/film_report.hpp"
 #include "render/cli/report/page_of_run.hpp"
@@ -83,6 +84,7 @@ class Resume final : public Verb {
         const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
         const int threads = plan_threads(processors, film_.film, scene.grains()).engine;
         ResumePoint point = find_resume_point(scene, plan, folder, film_.film, threads);
+        point.accepted = accepted_in_run_json(folder / "run.json");
         if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
                                   plan.clock.time(point.simulation.step()), scene.run.duration));
@@ -128,6 +130,9 @@ class Resume final : public Verb {
             throw UserError(
                 fmt::format("{}: is in use by {}; wait until it has ended", folder.string(), *holder));
         point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
+        for (const KeyDifference& one :
+             deciding_differences(scene_to_keep(scene, plan), scene_to_keep(changed, changed_plan)))
+            point.accepted.push_back({point.simulation.step(), one.key, one.then, one.now});
         scene = changed;
         plan = changed_plan;
         const fs::path ring = place_in_ring(folder, point.simulation.step());

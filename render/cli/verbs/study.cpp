@@ -155,7 +155,7 @@ class StudyVerb final : public Verb {
             for (std::string& word : run_command(study, *member, folder_, request_.films))
                 words.push_back(word);
             words.push_back("--quiet");
-            print_result(shell_words(words) + "\n");
+            print_exact(shell_words(words) + "\n");
         }
         return 0;
     }
@@ -205,7 +205,7 @@ class StudyVerb final : public Verb {
         reporter.info(fmt::format("{} of {} members are complete{}; wrote study.csv, charts/, index.html",
                                   complete, results_.size(),
                                   failed > 0 ? fmt::format(", {} failed", failed) : ""));
-        print_result(folder_.path.string() + "\n");
+        print_exact(folder_.path.string() + "\n");
         if (reporter.stop_signal() != 0) {
             reporter.info("stopped; the same command goes on");
             return signal_base + reporter.stop_signal();

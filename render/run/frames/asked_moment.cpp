@@ -106,7 +106,7 @@ std::int64_t MomentFinder::step_of_frame(std::int64_t frame) {
 }
 
 Snapshot MomentFinder::kept(std::size_t index) const {
-    Snapshot snapshot{record_.scene(), record_.frame(index), record_.supply().contacts, record_.first()};
+    Snapshot snapshot{record_.scene(), record_.frame(index), record_.has_contacts_of(index), record_.first()};
     snapshot.measured = record_.measured_near(index);
     return snapshot;
 }

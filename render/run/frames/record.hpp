@@ -20,6 +20,12 @@ class Record : public FrameSource, public FrameArchive {
     virtual const Clock& clock() const = 0;
     // From which its other moments, and its forces, are brought back. By rising step.
     virtual std::vector<KeptCheckpoint> checkpoints() const = 0;
+    // Of those that are passed over since they are not of this run, or damaged: which, and why.
+    virtual std::vector<std::string> checkpoint_news() const { return {}; }
+    // Damage of the files beside the checkpoints, which makes answers poorer than the run was.
+    virtual std::vector<std::string> faults() const { return {}; }
+    // Whether all contacts of a moment are among what was kept of it.
+    virtual bool has_contacts_of(std::size_t index) const = 0;
     // The run's first moment, from which ways are counted; without grains where it is not known.
     virtual Frame first() const = 0;
     // What was measured about then; nothing where it does not lie beside the moments.

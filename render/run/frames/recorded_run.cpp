@@ -29,7 +29,8 @@ constexpr const char* without_trajectory =
 }  // namespace
 
 RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use use)
-    : folder_(folder_of_run(folder)),
+    : for_questions_(use.for_questions),
+      folder_(folder_of_run(folder)),
       scene_(scene_of_run(folder_, sets)),
       trajectory_(file_of_run(folder_, "trajectory.nc", without_trajectory)) {
     const std::string name = name_of("trajectory.nc");
@@ -41,13 +42,15 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use us
     if (clock_.step == 0 && scene_.run.step) clock_.step = *scene_.run.step;  // with one moment at step 0
     measures_ = read_measures(name_of("measures.csv"));
     check_same_run();
+    if (use.for_questions) look_at_measures();
     if (scene_.film.look.rotation && !trajectory_.info().orientation)
         throw UserError(
             fmt::format("{}: has no orientations, and the film shows rotation; run it with "
                         "output.orientation = true, or let film.rotation be false",
                         name));
-    if (!use.as_filmed) frame_what_is_reached();
-    if (needs_touches(scene_.film.shows)) read_contacts(use);
+    if (!use.for_questions) frame_what_is_reached();
+    if (needs_touches(scene_.film.shows))
+        use.for_questions ? read_contacts_for_questions() : read_contacts(use.alone);
     if (needs_measures(scene_.film.shows)) read_measures_of_run();
     if (scene_.film.shows.outflow) read_outflow_of_run();
     find_periods();
@@ -57,7 +60,7 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use us
 
 // The trajectory holds single moments, and of those its own.
 void RecordedRun::do_without_others() {
-    if (needs_touches(scene_.film.shows) && !contacts_) read_contacts({});
+    if (needs_touches(scene_.film.shows) && !contacts_ && !for_questions_) read_contacts(true);
     for (std::string& line :
          single_moment_warnings(scene_,
                                 "frames that a run kept are single moments; let them be brought back, "
@@ -78,12 +81,12 @@ void RecordedRun::read_moments() {
                         "numbers would not show",
                         name));
     if (trajectory_.cut_off())
-        news_.push_back(fmt::format(
+        faults_.push_back(fmt::format(
             "{}: frame {} (the first is 0) is not whole, and is left out; the run was killed while "
             "it wrote that frame, or the copy of the file was cut off",
             name, trajectory_.frames()));
     if (trajectory_.uncounted() > 0)
-        news_.push_back(
+        faults_.push_back(
             fmt::format("{}: counts {} frames and holds {} more; they are left out. The run goes on, or the "
                         "file's header "
                         "is damaged",
@@ -129,7 +132,7 @@ void RecordedRun::keep_those(const std::function<void(std::size_t)>& read, bool 
     std::string others;
     for (std::size_t i = 1; i < std::min(damaged.size(), named); ++i)
         others += fmt::format(", {}", damaged[i]);
-    news_.push_back(fmt::format(
+    faults_.push_back(fmt::format(
         "{}; {} {}{}", first, damaged.size() == 1 ? "it is" : fmt::format("{} frames are", damaged.size()),
         brought_back ? "brought back" : "left out",
         damaged.size() == 1
@@ -152,18 +155,18 @@ void RecordedRun::frame_what_is_reached() {
         camera.reach = known_reach(trajectory_);
 }
 
-void RecordedRun::read_contacts(const Use& use) {
+void RecordedRun::read_contacts(bool alone) {
     std::error_code ignored;
-    if (!use.alone && !fs::exists(folder_ / "contacts.nc", ignored)) return;
+    if (!alone && !fs::exists(folder_ / "contacts.nc", ignored)) return;
     const fs::path file = file_of_run(folder_, "contacts.nc",
                                       "the run was not told to keep contacts (output.contacts = true); let "
                                       "film.colour.by be something else and film.force_chains false");
     contacts_.emplace(file);
     if (contacts_->cut_off())
-        news_.push_back(
+        faults_.push_back(
             fmt::format("{}: was cut off; the last frames are drawn without contacts", file.string()));
     if (contacts_->uncounted() > 0)
-        news_.push_back(fmt::format(
+        faults_.push_back(fmt::format(
             "{}: holds more rows than it counts; the last frames may lack contacts. The run goes on, or the "
             "file's header is damaged",
             file.string()));
@@ -172,6 +175,39 @@ void RecordedRun::read_contacts(const Use& use) {
             "{}: has no checksums; damage that leaves possible numbers would not show", file.string()));
     leave_out_unfinished_contacts();
     check_contacts_of_run();
+}
+
+void RecordedRun::read_contacts_for_questions() {
+    const std::size_t before = faults_.size();
+    try {
+        read_contacts(true);
+    } catch (const UserError& fault) {
+        contacts_.reset();
+        faults_.resize(before);
+        faults_.emplace_back(fault.what());
+    }
+}
+
+// Those of a file that was cut off are not all there, and those of a damaged row are not known.
+bool RecordedRun::has_contacts_of(std::size_t index) const {
+    if (!contacts_ || !contacts_->has_all(places_.at(index))) return false;
+    try {
+        contacts_->touches(places_.at(index));
+        return true;
+    } catch (const UserError&) {
+        return false;
+    }
+}
+
+const OwnCheckpoints& RecordedRun::own() const {
+    if (!own_) own_ = own_checkpoints(folder_, scene_);
+    return *own_;
+}
+
+std::vector<std::string> RecordedRun::news() const {
+    std::vector<std::string> all = faults_;
+    all.insert(all.end(), news_.begin(), news_.end());
+    return all;
 }
 
 // A run that goes on writes a frame's contacts after the frame.
@@ -215,6 +251,26 @@ void RecordedRun::read_measures_of_run() {
             fmt::format("{}: ends at {:.4g} s, the trajectory at {:.4g} s; plots and live words "
                         "stand still from there on",
                         name, last, end));
+}
+
+// A question gets the row that is nearest, however far that is.
+void RecordedRun::look_at_measures() {
+    const std::string name = name_of("measures.csv");
+    const auto time = measures_ ? column_of(*measures_, "time_s") : std::nullopt;
+    std::error_code ignored;
+    if (!time || measures_->rows() == 0) {
+        faults_.push_back(fmt::format("{}: {}, so that what was measured is left out", name,
+                                      fs::exists(name, ignored) ? "holds no rows" : "is missing"));
+        return;
+    }
+    const std::size_t rows = measures_->rows();
+    const std::vector<double> times = measures_->values(*time, 0, rows);
+    const double interval = rows > 1 ? times[rows - 1] - times[rows - 2] : 0, end = moments_.back().time;
+    if (times.back() < end - 1.5 * interval - 1e-9)
+        faults_.push_back(
+            fmt::format("{}: ends at {:.4g} s, the trajectory at {:.4g} s; it was cut off, or a row "
+                        "is damaged",
+                        name, times.back(), end));
 }
 
 // Empty plots, and words without their values, would look as if the run had been so.
@@ -294,7 +350,9 @@ FramePtr RecordedRun::at(std::int64_t step) const {
 }
 
 std::vector<Touch> RecordedRun::touches(const Frame& frame) const {
-    return contacts_ ? contacts_->touches(places_.at(nearest(frame.time))) : std::vector<Touch>();
+    const std::size_t index = nearest(frame.time);
+    if (!contacts_ || (for_questions_ && !has_contacts_of(index))) return {};
+    return contacts_->touches(places_.at(index));
 }
 
 std::optional<FlowedOut> RecordedRun::flowed_out(const Frame& frame) const {

@@ -12,6 +12,7 @@
 #include "engine/measure/measure_table.hpp"
 #include "engine/output/contacts_file.hpp"
 #include "engine/output/trajectory.hpp"
+#include "engine/replay/own_checkpoints.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/run/frames/picture_parts.hpp"
@@ -27,16 +28,17 @@ class RecordedRun final : public Record, private PartSupply {
     // frame, when its files are of two runs, and when the film shows contacts or orientations and the run
     // kept none.
     //
-    // Pictures are framed by how high the run's grains got (known_reach), or, as_filmed, as the run's own
-    // film was, which did not know that yet. alone: what the kept frames lack is to be had nowhere else, and
-    // is complained of.
+    // Pictures are framed by how high the run's grains got (known_reach), or, for_questions, as the run's own
+    // film was, which did not know that yet. For questions, contacts that cannot be used are left out with a
+    // line of faults(): they can be brought back. alone: what the kept frames lack is to be had nowhere else,
+    // and is complained of.
     struct Use {
-        bool as_filmed = false;
+        bool for_questions = false;
         bool alone = true;
     };
     RecordedRun(const std::filesystem::path& folder, const Assignments& sets, Use use);
-    RecordedRun(const std::filesystem::path& folder, const Assignments& sets, bool as_filmed = false)
-        : RecordedRun(folder, sets, Use{as_filmed, true}) {}
+    RecordedRun(const std::filesystem::path& folder, const Assignments& sets, bool for_questions = false)
+        : RecordedRun(folder, sets, Use{for_questions, true}) {}
 
     // Reads all there is and leaves out the frames whose grains are damaged, with a line of news, so that no
     // damage shows up when half a film is made. Throws UserError when none is left, or contacts are damaged.
@@ -54,7 +56,8 @@ class RecordedRun final : public Record, private PartSupply {
     void start(const Pictures& pictures) override;
     std::optional<Taken> next(const GoOn& go_on) override;
     // What the film shows and the files lack.
-    std::vector<std::string> news() const override { return news_; }
+    std::vector<std::string> news() const override;
+    std::vector<std::string> faults() const override { return faults_; }
 
     const std::filesystem::path& folder() const override { return folder_; }
     const std::vector<Frame>& moments() const override { return moments_; }
@@ -62,7 +65,9 @@ class RecordedRun final : public Record, private PartSupply {
     Frame frame(std::size_t index) const override;
     int periods() const override { return periods_; }
     const Clock& clock() const override { return clock_; }
-    std::vector<KeptCheckpoint> checkpoints() const override { return kept_checkpoints(folder_); }
+    std::vector<KeptCheckpoint> checkpoints() const override { return own().kept; }
+    std::vector<std::string> checkpoint_news() const override { return own().news; }
+    bool has_contacts_of(std::size_t index) const override;
     Frame first() const override { return first_whole(); }
     // Rows of measures.csv; null when there are none.
     const std::shared_ptr<const MeasureTable>& measures() const { return measures_; }
@@ -83,10 +88,13 @@ class RecordedRun final : public Record, private PartSupply {
     void keep_those(const std::function<void(std::size_t)>& read, bool brought_back = false);
     void check_same_run() const;
     void frame_what_is_reached();
-    void read_contacts(const Use& use);
+    void read_contacts(bool alone);
+    void read_contacts_for_questions();
+    const OwnCheckpoints& own() const;
     void leave_out_unfinished_contacts();
     void check_contacts_of_run() const;
     void read_measures_of_run();
+    void look_at_measures();
     void leave_out_measures(const std::string& why);
     void check_columns() const;
     void read_outflow_of_run();
@@ -95,6 +103,7 @@ class RecordedRun final : public Record, private PartSupply {
     void look_for_earlier_frames();
     std::string name_of(const char* file) const { return (folder_ / file).string(); }
 
+    bool for_questions_;
     std::filesystem::path folder_;
     Scene scene_;
     TrajectoryReader trajectory_;
@@ -107,7 +116,8 @@ class RecordedRun final : public Record, private PartSupply {
     std::vector<double> measured_;                  // s, their times
     std::optional<OutflowRecord> outflow_;          // of a film that counts it
     std::optional<PictureParts> parts_;
-    std::vector<std::string> news_;
+    std::vector<std::string> faults_, news_;
+    mutable std::optional<OwnCheckpoints> own_;  // once they were asked for
 
     Pictures pictures_;
     std::size_t next_ = 0;  // of them

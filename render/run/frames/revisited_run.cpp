@@ -24,7 +24,7 @@ int engine_threads(const Scene& scene, int sharers) {
 
 RevisitedRun::RevisitedRun(const std::filesystem::path& folder, const Assignments& sets, bool replay,
                            int sharers)
-    : run_(folder, sets, RecordedRun::Use{.as_filmed = false, .alone = false}),
+    : run_(folder, sets, RecordedRun::Use{.for_questions = false, .alone = false}),
       replay_(replay),
       reachable_(run_, replay ? engine_threads(run_.scene(), sharers) : 0),
       film_(run_, sets) {

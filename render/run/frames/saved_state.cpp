@@ -108,6 +108,7 @@ void SavedState::read_table(const Assignments& sets) {
                 fmt::format("{}: has grains of type {}, but the scene.toml beside it has {} species; "
                             "they are of two runs",
                             file_.string(), last + 1, scene_.species.size()));
+        check_all_are_there();
         return;
     }
     if (last >= most_types)
@@ -119,6 +120,17 @@ void SavedState::read_table(const Assignments& sets) {
     scene_ = scene_of_types(frame_);
     news_.push_back(fmt::format("{}: there is no scene.toml beside it; names, masses and walls are not known",
                                 file_.string()));
+}
+
+// Where no grain comes or goes, the table of a run has as many as its scene.
+void SavedState::check_all_are_there() const {
+    const bool traffic = !scene_.feeds.empty() || (scene_.container.outlet && !scene_.container.tray);
+    const auto grains = static_cast<std::int64_t>(frame_.size());
+    if (traffic || file_.filename() != kFinalTable || grains == scene_.grains()) return;
+    throw UserError(
+        fmt::format("{}: has {} grains, but the scene.toml beside it has {}; it was cut off, or they "
+                    "are of two runs",
+                    file_.string(), grains, scene_.grains()));
 }
 
 std::vector<Frame> SavedState::moments(const Pictures& pictures) const {

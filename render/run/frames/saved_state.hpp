@@ -35,12 +35,14 @@ class SavedState final : public Record {
     int periods() const override { return 1; }
     const Clock& clock() const override { return clock_; }
     std::vector<KeptCheckpoint> checkpoints() const override { return checkpoints_; }
+    bool has_contacts_of(std::size_t) const override { return false; }
     Frame first() const override { return Frame(); }
     std::optional<MeasuredRow> measured_near(std::size_t) const override { return measured_; }
 
   private:
     void read_checkpoint(const Assignments& sets);
     void read_table(const Assignments& sets);
+    void check_all_are_there() const;
 
     std::filesystem::path file_;
     Scene scene_;

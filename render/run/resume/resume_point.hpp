@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "engine/output/run_json.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"
@@ -16,7 +17,8 @@ struct ResumePoint {
     std::int64_t first = 0;    // step at which the run began
     std::size_t pictures = 0;  // of the film, that are drawn again from their kept moments
     std::filesystem::path checkpoint{};
-    std::string held_back{};  // why it is not the run's last checkpoint; empty: it is
+    std::string held_back{};              // why it is not the run's last checkpoint; empty: it is
+    std::vector<AcceptedKey> accepted{};  // what was changed on the run's way up to there
 };
 
 // The last checkpoint from which all files of the run's folder can go on. Its film, where `film` says that it

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "engine/scene/text/reader.hpp"
+#include "render/cli/estimate/engine_cost.hpp"
 #include "render/cli/estimate/film_probe.hpp"
 #include "render/cli/estimate/speed_cache.hpp"
 #include "tests/cli/small_scene.hpp"
@@ -49,6 +50,55 @@ TEST(CostEstimate, EngineAndFilmTakeTurnsOrDoNot) {
     EXPECT_DOUBLE_EQ(turns.frame_seconds, machine.frame_seconds);
     const double rest = turns.total_seconds - turns.engine_seconds - turns.film_seconds;
     EXPECT_NEAR(together.total_seconds, rest + std::max(turns.engine_seconds, turns.film_seconds), 1e-12);
+}
+
+// 4.5 contacts a grain, of which few are left where the bed is thrown up. Stages count by their time.
+TEST(CostEstimate, ABedAtRestHasItsContactsAllTheTime) {
+    const auto contacts = [](const std::vector<std::string>& sets) {
+        const Scene scene = scene_with(sets);
+        return mean_contacts(scene, make_plan(scene));
+    };
+    EXPECT_DOUBLE_EQ(contacts({"drive.g_level=0.9"}), 4.5);
+    EXPECT_DOUBLE_EQ(contacts({"drive.g_level=3", "drive.direction=[0, 1, 0]"}), 4.5);  // along the floor
+    EXPECT_EQ(contacts({"gravity=0", "drive.amplitude=1 mm"}), 0);
+    const double two = contacts({"drive.g_level=2"}), three = contacts({"drive.g_level=3"});
+    EXPECT_LT(two, 0.2 * 4.5);
+    EXPECT_LT(three, two);
+    const std::vector<std::string> rests = {"drive.g_level=2",
+                                            "drive.stage=[{from = \"0.05 s\", kind = \"rest\"}]"};
+    EXPECT_NEAR(contacts(rests), 0.25 * two + 0.75 * 4.5, 1e-12);
+    const double thrown = cost_of(scene_with({"drive.g_level=3"}), in_turn, machine).engine_one;
+    const double lies = cost_of(scene_with({"drive.g_level=0.9"}), in_turn, machine).engine_one;
+    EXPECT_GT(thrown / lies, 2);
+}
+
+TEST(CostEstimate, WhatIsMeasuredCosts) {
+    const auto seconds = [](const std::vector<std::string>& sets) {
+        return cost_of(scene_with(sets), in_turn, machine).engine_seconds;
+    };
+    const double none = seconds({});
+    const double walls = seconds({"output.instruments=[\"walls\"]"});
+    const double balance = seconds({"output.instruments=[\"energy_balance\"]"});
+    const double fields = seconds({"output.fields.grid=yz", "output.fields.periods=1"});
+    EXPECT_GT(walls, none);
+    EXPECT_LT(walls, 1.1 * none);
+    EXPECT_GT(balance, 1.5 * none);
+    EXPECT_GT(fields, none);
+    // Twice as many moments cost twice as much.
+    const double often =
+        seconds({"output.fields.grid=yz", "output.fields.periods=1", "output.fields.samples=32"});
+    EXPECT_NEAR((often - none) / (fields - none), 2, 0.05);
+}
+
+// Two threads that share a core do not halve a film's time.
+TEST(CostEstimate, AFilmGainsWhatTwoThreadsGain) {
+    MachineFigures shared = machine;
+    shared.gain_of_two = 1.25;
+    const CostEstimate two = cost_of(scene_with({}), in_turn, machine);
+    const CostEstimate one_core = cost_of(scene_with({}), in_turn, shared);
+    const double used = 13 * machine.frame_seconds;
+    EXPECT_NEAR(two.film_seconds, used * (1 - machine.frame_drawing) + film_setup_seconds, 1e-12);
+    EXPECT_NEAR(one_core.film_seconds, used / 1.25 + film_setup_seconds, 1e-12);
 }
 
 TEST(CostEstimate, ABoxThatIsOnlyFedIsNotPacked) {

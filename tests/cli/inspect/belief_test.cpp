@@ -1,0 +1,223 @@
+// What `inspect` believes of a run's folder: nothing that is not of this run, or damaged, goes into an answer
+// without a word.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/start/restart.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+using Words = std::vector<std::string>;
+
+class Belief : public testing::Test {
+  protected:
+    Belief() { write_small_scene(here.path()); }
+
+    Ended run(const Words& words) const { return run_program(words, {.folder = here.path()}); }
+    void make(const char* folder, const Words& more = {}, const char* duration = "0.1 s") const {
+        Words words = {"movie",      "fifty.toml", "--no-film", "--no-report",
+                       "--duration", duration,     "--threads", "1",
+                       "--out",      folder,       "--set",     "output.contacts=true"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = run(words);
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+    Ended ask(const Words& question) const {
+        Words words = {"inspect", "run"};
+        words.insert(words.end(), question.begin(), question.end());
+        return run(words);
+    }
+    void cut(const char* file, double share) const {
+        const fs::path path = here / "run" / file;
+        fs::resize_file(path, static_cast<std::uintmax_t>(share * static_cast<double>(fs::file_size(path))));
+    }
+
+    TemporaryFolder here;
+};
+
+TEST_F(Belief, ACheckpointOfAnotherSeedOrSceneIsPassedOver) {
+    make("run");
+    make("seed", {"--seed", "7"});
+    make("drive", {"--set", "drive.g_level=2.5"});
+    const Words question = {"--at", "0.0443 s", "--grain", "7", "--json"};
+    const Ended before = ask(question);
+    ASSERT_EQ(before.status, 0) << before.err;
+    const fs::path first = here / "run/checkpoints/000000000000.grs";
+    ASSERT_TRUE(fs::exists(first));
+    for (const char* other : {"seed", "drive"}) {
+        // Nearer to the moment than the run's own.
+        const fs::path foreign = here / "run/checkpoints" / fs::path("000000000001.grs");
+        fs::copy(here / other / "checkpoints/000000000000.grs", foreign);
+        const Ended renamed = ask(question);
+        EXPECT_EQ(renamed.out, before.out);
+        EXPECT_THAT(renamed.err, HasSubstr("000000000001.grs: is of another moment, step 0"));
+        fs::remove(foreign);
+        // Alone in the folder: nothing can be brought back, and the run cannot go on.
+        fs::rename(here / "run/checkpoints", here / "ring");
+        fs::rename(here / "run/checkpoint.grs", here / "last.grs");
+        fs::create_directory(here / "run/checkpoints");
+        fs::copy(here / other / "checkpoints/000000000000.grs", first);
+        const Ended alone = ask(question);
+        EXPECT_EQ(alone.status, 2) << alone.out;
+        EXPECT_THAT(alone.err, HasSubstr("000000000000.grs: is of another run: '"));
+        EXPECT_EQ(run({"resume", "run", "--for", "0.1 s"}).status, 2) << "as resume refuses it";
+        fs::remove_all(here / "run/checkpoints");
+        fs::rename(here / "ring", here / "run/checkpoints");
+        fs::rename(here / "last.grs", here / "run/checkpoint.grs");
+    }
+    // As the run's last one, which says how far it has come.
+    make("longer", {"--seed", "7"}, "0.15 s");
+    const Ended last_before = ask({"--json"});
+    fs::rename(here / "run/checkpoint.grs", here / "last.grs");
+    fs::copy(here / "longer/checkpoint.grs", here / "run/checkpoint.grs");
+    const Ended last = ask({"--json"});
+    EXPECT_THAT(last.err, HasSubstr("run/checkpoint.grs: is of another run: 'run.seed' is 7 there, but "));
+    EXPECT_EQ(nlohmann::json::parse(last.out)["moment"]["step"],
+              nlohmann::json::parse(last_before.out)["moment"]["step"]);
+}
+
+TEST_F(Belief, ADamagedLastCheckpointDoesNotSayHowFarTheRunCame) {
+    make("run");
+    const std::int64_t last = nlohmann::json::parse(ask({"--json"}).out)["moment"]["step"];
+    fs::path file = here / "run/checkpoint.grs";
+    std::string bytes = text_of(file);
+    std::uint64_t scene_length = 0;
+    const std::size_t at_length = 8 + 8;  // name with version, checksum
+    std::memcpy(&scene_length, bytes.data() + at_length, sizeof scene_length);
+    bytes[at_length + 8 + scene_length + 4] ^= 1;  // its step is 2^32 larger
+    fs::remove(file);                              // a hard link to one of the ring
+    write_text(file, bytes);
+    ASSERT_GT(label_of_checkpoint(file)->step, std::int64_t{1} << 32);
+    const Ended ended =
+        run_program({"inspect", "run", "--json"}, {.folder = here.path(), .seconds_limit = 60});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("checkpoint.grs: is damaged"));
+    EXPECT_LE(nlohmann::json::parse(ended.out)["moment"]["step"].get<std::int64_t>(), last);
+}
+
+// What --accept changed is told from what another run had.
+TEST_F(Belief, ACheckpointFromBeforeAnAcceptedChangeIsOfTheRun) {
+    make("run", {"--seed", "3"});
+    make("strange", {"--seed", "3", "--set", "contact.friction=0.3"});
+    const Words question = {"--at", "0.0443 s", "--grain", "7", "--json"};
+    const Ended before = ask(question);
+    ASSERT_EQ(
+        run({"resume", "run", "--for", "0.05 s", "--no-report", "--accept", "contact.friction=0.2"}).status,
+        0);
+    const Ended after = ask(question);
+    EXPECT_EQ(after.out, before.out) << after.err;
+    EXPECT_EQ(after.err, "");
+    ASSERT_EQ(run({"resume", "run", "--for", "0.05 s", "--no-report"}).status, 0) << "which writes run.json";
+    EXPECT_EQ(ask(question).out, before.out);
+    fs::copy(here / "strange/checkpoints/000000000000.grs", here / "run/checkpoints/000000000000.grs",
+             fs::copy_options::overwrite_existing);
+    const Ended strange = ask(question);
+    EXPECT_EQ(strange.status, 2);
+    EXPECT_THAT(strange.err, HasSubstr("friction' is 0.3 there, but 0.2 in scene.toml"));
+}
+
+TEST_F(Belief, ContactsThatWereCutOffAreBroughtBack) {
+    make("run", {"--set", "output.trajectory_interval=20 ms"});
+    const Words question = {"--at", "0.1 s", "--where", "contacts > 0", "--json"};
+    const Ended before = ask(question);
+    ASSERT_EQ(before.status, 0) << before.err;
+    const auto matching = [](const Ended& ended) {
+        return nlohmann::json::parse(ended.out)["tables"]["count"]["rows"];
+    };
+    ASSERT_THAT(before.out, Not(HasSubstr("brought back")));
+    const std::string whole = text_of(here / "run/contacts.nc");
+    const auto expect_brought_back = [&](const char* why) {
+        const Ended ended = ask(question);
+        ASSERT_EQ(ended.status, 0) << why << ended.err;
+        EXPECT_EQ(matching(ended), matching(before)) << why;
+        EXPECT_THAT(ended.out, HasSubstr("brought back")) << why;
+        EXPECT_THAT(ended.err, HasSubstr("warning: run/contacts.nc: ")) << why;
+    };
+    cut("contacts.nc", 0.6);
+    expect_brought_back("cut off");
+    EXPECT_EQ(ask({"--at", "0.1 s", "--where", "contacts > 0", "--no-replay"}).status, 2);
+    write_text(here / "run/contacts.nc", "");
+    expect_brought_back("empty");
+    std::string damaged = whole;
+    damaged[damaged.size() - 20] ^= 4;  // a number of the last row
+    write_text(here / "run/contacts.nc", damaged);
+    const Ended ended = ask(question);
+    EXPECT_EQ(matching(ended), matching(before)) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("brought back"));
+}
+
+TEST_F(Belief, ADamagedFrameIsBroughtBackAndSaidSo) {
+    make("run", {"--set", "output.trajectory_interval=20 ms"});
+    const Words question = {"--at", "0.1 s", "--where", "height > 5 mm", "--json"};
+    const Ended before = ask(question);
+    const std::string whole = text_of(here / "run/trajectory.nc");
+    std::string damaged = whole;
+    damaged[damaged.size() - 600] ^= 8;  // of the last frame's grains
+    write_text(here / "run/trajectory.nc", damaged);
+    const Ended ended = ask(question);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("warning: run/trajectory.nc: frame 5 (the first is 0) is damaged"));
+    // Velocities are not rounded then, as kept ones are.
+    EXPECT_EQ(nlohmann::json::parse(ended.out)["tables"]["count"],
+              nlohmann::json::parse(before.out)["tables"]["count"]);
+    cut("trajectory.nc", 0.99);
+    EXPECT_THAT(ask(question).err,
+                HasSubstr("warning: run/trajectory.nc: frame 5 (the first is 0) is not whole"));
+}
+
+// A table knows no end; the run.json beside it does.
+TEST_F(Belief, AFinalTableThatWasCutAtARowsEndIsRefused) {
+    make("run");
+    const std::string whole = text_of(here / "run/final.csv");
+    EXPECT_EQ(nlohmann::json::parse(text_of(here / "run/run.json"))["written"]["final_csv"]["grains"], 50);
+    EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 51);
+    const auto rows = [&](int count) {
+        std::size_t end = 0;
+        for (int k = 0; k <= count; ++k) end = whole.find('\n', end) + 1;
+        return whole.substr(0, end);
+    };
+    write_text(here / "go_on.toml",
+               std::string(small_scene_text)
+                       .replace(std::string(small_scene_text).find("count = 10"), 10, "count = 4") +
+                   "[start]\nmethod = \"file\"\nfile = \"run/final.csv\"\n");
+    const auto expect_refused = [&](const std::string& text, const char* why) {
+        write_text(here / "run/final.csv", text);
+        for (const Words& words : {Words{"inspect", "run/final.csv"}, Words{"check", "go_on.toml"}}) {
+            const Ended ended = run(words);
+            EXPECT_EQ(ended.status, 2) << words[0] << ended.out;
+            EXPECT_THAT(ended.err, HasSubstr(why));
+        }
+    };
+    expect_refused(rows(44), "run/final.csv: was cut off: it has 44 of the 50 grains that its run wrote");
+    std::string changed = whole;
+    const std::size_t digit = changed.find("0.0", 300) + 3;
+    changed[digit] = changed[digit] == '9' ? '8' : '9';
+    expect_refused(changed, "run/final.csv: is not what its run wrote");
+    // Under another name it is whatever its owner made of it.
+    write_text(here / "run/mine.csv", rows(44));
+    EXPECT_EQ(run({"inspect", "run/mine.csv"}).status, 0);
+    // Without a run.json the scene beside it knows how many there are.
+    fs::rename(here / "run/run.json", here / "run.json");
+    write_text(here / "run/final.csv", rows(44));
+    const Ended alone = run({"inspect", "run/final.csv"});
+    EXPECT_EQ(alone.status, 2);
+    EXPECT_THAT(alone.err, HasSubstr("has 44 grains, but the scene.toml beside it has 50"));
+    write_text(here / "run/final.csv", whole);
+    EXPECT_EQ(run({"inspect", "run/final.csv"}).status, 0);
+    fs::rename(here / "run.json", here / "run/run.json");
+    ASSERT_EQ(run({"resume", "run", "--for", "0.05 s", "--no-report"}).status, 0);
+    EXPECT_EQ(run({"inspect", "run/final.csv"}).status, 0) << "a longer run has marked its table anew";
+}
+
+}  // namespace
+}  // namespace grainreel
