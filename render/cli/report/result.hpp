@@ -9,7 +9,8 @@ namespace grainreel {
 // Keeps in mind when it cannot be written.
 void print_result(std::string_view text);
 
-// To be called once, at the end. Throws RunError when some of what was printed did not get there.
+// To be called once, at the end. Throws RunError when some of what was printed did not get there. A reader
+// that has closed the pipe wants no more, which is no failure.
 void close_results();
 
 }  // namespace grainreel
