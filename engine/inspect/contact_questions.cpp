@@ -162,7 +162,7 @@ Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most)
     }
     answer.tables.push_back(species_table(s, on_wall));
     answer.tables.push_back(height_table(s, name_of_body(s, wall), on_wall));
-    answer.tables.push_back(touching_table(s, on_wall, most));
+    if (most > 0) answer.tables.push_back(touching_table(s, on_wall, most));
     return answer;
 }
 
@@ -223,7 +223,8 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
                               name_of_body(s, one->second), one->overlap, one->overlap / one->smaller_radius,
                               one->normal_force, (one->point - s.frame.floor().place).z()});
     }
-    Answer answer{{touching_pairs_table(s), std::move(table)}, {}};
+    Answer answer{{touching_pairs_table(s)}, {}};
+    if (most > 0) answer.tables.push_back(std::move(table));
     if (s.forces->contacts.empty()) answer.notes.emplace_back("nothing touches");
     return answer;
 }

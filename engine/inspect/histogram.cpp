@@ -25,8 +25,8 @@ void Histogram::add(const Snapshot& s) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!std::isfinite(values[i])) continue;
         if (++count_ > kMostValues)
-            throw UserError(fmt::format("{} moments of {} grains are too many; ask for fewer periods", moments_,
-                                        s.frame.size()));
+            throw UserError(fmt::format("{} moments of {} grains are too many; ask for fewer periods",
+                                        moments_, s.frame.size()));
         values_[static_cast<std::size_t>(s.frame.species[i])].push_back(values[i]);
     }
 }

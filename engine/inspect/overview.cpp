@@ -40,7 +40,7 @@ AnswerTable moment_table(const Snapshot& s) {
 
 AnswerTable species_table(const Snapshot& s) {
     AnswerTable table{"species",
-                      "By species",
+                      "By species (kinetic energy with that of rotation: kinetic_J and rotational_J below)",
                       {{"species", Dimension::number, "", AnswerColumn::kKey},
                        {"grains", Dimension::number, ""},
                        {"mass", Dimension::mass, "of all"},

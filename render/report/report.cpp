@@ -107,7 +107,7 @@ class Page {
             title += (k == 0 ? "" : ", ") + html_text(part.name());
             columns += filled(files.variant, {{"n", fmt::format("-{}", k)},
                                               {"name", html_text(part.name())},
-                                              {"folder", html_text(part.folder().filename().string())},
+                                              {"folder", folder_line(part)},
                                               {"lead", part.lead()},
                                               {"film", part.film(beside)},
                                               {"bed", part.bed()},
@@ -123,7 +123,7 @@ class Page {
             "</section>\n",
             filled(files.charts, {{"about", ""}}));
         return frame(
-            {{"title", title},
+            {{"title", common_title() + title},
              {"body_class", " class=\"several\""},
              {"lead",
               fmt::format("<p class=\"lead\">{} runs side by side, at the same time of each run.</p>\n",
@@ -133,6 +133,22 @@ class Page {
              {"words", words},
              {"facts", json_in_html(facts())},
              {"blobs", beds + late}});
+    }
+
+    // Where the name says something else.
+    static std::string folder_line(const RunPart& part) {
+        const std::string folder = part.folder().filename().string();
+        return part.name() == folder ? ""
+                                     : fmt::format("<p class=\"faint\">Folder {}</p>\n", html_text(folder));
+    }
+
+    // "Brazil nut: " where all runs have that title, and names that say what differs.
+    std::string common_title() const {
+        const std::string& title = parts_.front().scene().title;
+        const bool common =
+            !title.empty() && std::all_of(parts_.begin(), parts_.end(),
+                                          [&](const RunPart& part) { return part.scene().title == title; });
+        return common ? html_text(title) + ": " : "";
     }
 
     std::string differences() const {

@@ -207,7 +207,8 @@ std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) con
 }
 
 std::string RunPart::facts() const {
-    return facts_json({name_, scene(), span(), film_, times_, bed_, table_.get(), measures_, fields_});
+    return facts_json({name_, folder().filename().string(), scene(), span(), film_, times_, bed_,
+                       table_.get(), measures_, fields_});
 }
 
 std::string RunPart::bed_blob() const {

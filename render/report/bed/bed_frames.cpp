@@ -156,7 +156,7 @@ class BedWriter {
         const std::size_t begin = bytes_.size();
         bytes_.resize(begin + kept_.size(), 0);
         const std::vector<std::uint8_t> colours = contacts_.film->of(index, frame, touches);
-        bool known = false;
+        bool known = frame.size() == 0;
         for (std::size_t i = 0; i < frame.size(); ++i)
             if (const auto found = slot_.find(frame.id[i]); found != slot_.end()) {
                 bytes_[begin + found->second] = colours[i];

@@ -27,7 +27,8 @@ bool FilmColours::add_displacement(std::size_t index, Frame& frame) const {
     const double time = clock_.time(clock_.step_at(clock_.cycles(now.step) - periods));
     const std::size_t before = run_.nearest(time);
     constexpr double some_periods = 1e-3, some_steps = 1.01;
-    if (std::abs(run_.moments()[before].time - time) > std::max(some_periods / frequency_, some_steps * clock_.step))
+    if (std::abs(run_.moments()[before].time - time) >
+        std::max(some_periods / frequency_, some_steps * clock_.step))
         return false;
     set_displacement(frame, run_.grains(before), periods, depth_);
     return true;

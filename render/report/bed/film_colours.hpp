@@ -15,14 +15,15 @@ namespace grainreel {
 
 class FilmColours {
   public:
-    // start: s, of the film's first picture, from which start heights count. The run outlives it. For a film whose
-    // grains are coloured by a quantity (film_has_scale).
+    // start: s, of the film's first picture, from which start heights count. The run outlives it. For a film
+    // whose grains are coloured by a quantity (film_has_scale).
     FilmColours(const Scene& scene, const FrameArchive& run, const Clock& clock, double start);
 
-    // Of the grains of a moment of the run, in the frame's order: 0 where the quantity is not known, else 1 to 255
-    // from the low end of the film's range to its high end, of bands their middle. touches: of that moment, where
-    // they are known.
-    std::vector<std::uint8_t> of(std::size_t index, Frame& frame, const std::optional<std::vector<Touch>>& touches);
+    // Of the grains of a moment of the run, in the frame's order: 0 where the quantity is not known, else 1
+    // to 255 from the low end of the film's range to its high end, of bands their middle. touches: of that
+    // moment, where they are known.
+    std::vector<std::uint8_t> of(std::size_t index, Frame& frame,
+                                 const std::optional<std::vector<Touch>>& touches);
 
     bool wants_touches() const { return by_ == GrainValue::coordination || by_ == GrainValue::contact_force; }
 

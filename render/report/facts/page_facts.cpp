@@ -219,6 +219,7 @@ std::string all_measures_json(const MeasureTable& table, const PageMeasures& mea
 
 std::string facts_json(const PageFacts& facts) {
     Json json = {{"name", facts.name},
+                 {"folder", facts.folder},
                  {"begin", facts.span.from},
                  {"end", facts.span.to},
                  {"bed", facts.bed.moments.empty() ? Json() : bed_json(facts.scene, facts.bed)}};

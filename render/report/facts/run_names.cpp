@@ -56,7 +56,8 @@ std::string value_text(const std::string& key, const std::string& value) {
     if (*end != '\0') return value;
     const Key* known = find_key(path_of(key));
     const bool has_unit = known != nullptr && known->dimension != Dimension::number;
-    return fmt::format("{:.4g}{}", number, has_unit ? fmt::format(" {}", text_of(known->dimension).unit) : "");
+    return fmt::format("{:.4g}{}", number,
+                       has_unit ? fmt::format(" {}", text_of(known->dimension).unit) : "");
 }
 
 // Of each differing key its name and values; those of one name with the same values once.
@@ -72,7 +73,8 @@ std::vector<std::pair<std::string, Values>> differences(const std::vector<RunToN
     std::vector<std::pair<std::string, Values>> differing;
     for (const auto& [key, values] : all) {
         const std::pair<std::string, Values> one{name_of(key), values};
-        const bool differs = std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) != values.end();
+        const bool differs =
+            std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) != values.end();
         if (differs && std::find(differing.begin(), differing.end(), one) == differing.end())
             differing.push_back(one);
     }
@@ -80,7 +82,8 @@ std::vector<std::pair<std::string, Values>> differences(const std::vector<RunToN
 }
 
 // Experimenters speak of Γ rather than of the amplitude.
-void say_as_level(const std::vector<RunToName>& runs, std::vector<std::pair<std::string, Values>>& differing) {
+void say_as_level(const std::vector<RunToName>& runs,
+                  std::vector<std::pair<std::string, Values>>& differing) {
     const auto amplitude = std::find_if(differing.begin(), differing.end(),
                                         [](const auto& one) { return one.first == "amplitude"; });
     const bool shaken = std::all_of(runs.begin(), runs.end(), [](const RunToName& run) {
@@ -89,7 +92,8 @@ void say_as_level(const std::vector<RunToName>& runs, std::vector<std::pair<std:
     if (amplitude == differing.end() || !shaken) return;
     amplitude->first = "Γ";
     for (std::size_t k = 0; k < runs.size(); ++k)
-        amplitude->second[k] = fmt::format("{:.3g}", runs[k].scene.drive.g_level(runs[k].scene.gravity.norm()));
+        amplitude->second[k] =
+            fmt::format("{:.3g}", runs[k].scene.drive.g_level(runs[k].scene.gravity.norm()));
 }
 
 // Nothing where too much differs, or too little.

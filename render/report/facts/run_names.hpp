@@ -14,8 +14,9 @@ struct RunToName {
     const Scene& scene;
 };
 
-// The titles of the scenes, where no two are the same. Else what differs between the scenes, "frequency = 20 Hz", where
-// that tells all of them apart and is short. Else the folders' names; their whole paths where two have the same.
+// The titles of the scenes, where no two are the same. Else what differs between the scenes, "frequency = 20
+// Hz", where that tells all of them apart and is short. Else the folders' names; their whole paths where two
+// have the same.
 std::vector<std::string> names_of_runs(const std::vector<RunToName>& runs);
 
 }  // namespace grainreel
