@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
 
 namespace grainreel {
 
@@ -28,22 +31,30 @@ bool run_gnuplot(const std::filesystem::path& folder, std::string commands) {
     return started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-std::string gnuplot_text(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '\'') result += '\'';
-        result += byte < 0x20 || byte == 0x7f ? ' ' : c;
-    }
-    return result + "'";
-}
-
 namespace {
 
-constexpr const char* line_end = ".\"\\n\".";
+bool is_control(char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
+// In double quotes, where these characters mean something unless they are written as numbers.
+std::string in_double_quotes(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (std::string_view("'\"\\`@$").find(c) != std::string_view::npos)
+            result += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+        else
+            result += c;
+    }
+    return result + "\"";
+}
 
 bool begins_character(char c) {
     return (c & 0xC0) != 0x80;
+}
+
+std::size_t length(const std::string& utf8) {
+    return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), begins_character));
 }
 
 std::string first_characters(const std::string& utf8, std::size_t count) {
@@ -55,27 +66,40 @@ std::string first_characters(const std::string& utf8, std::size_t count) {
 
 }  // namespace
 
-std::string gnuplot_lines(const std::string& text, std::size_t most) {
-    const auto length = [](const std::string& utf8) {
-        return std::count_if(utf8.begin(), utf8.end(), begins_character);
+std::string gnuplot_text(const std::string& text) {
+    std::string line = text;
+    std::replace_if(line.begin(), line.end(), is_control, ' ');
+    // A doubled quote where the text begins ends it, for gnuplot (5.4).
+    return line.find('\'') == std::string::npos ? "'" + line + "'" : in_double_quotes(line);
+}
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
+    std::vector<std::string> lines;
+    std::string line, word;
+    const auto end_line = [&] {
+        if (!line.empty()) lines.push_back(line);
+        line.clear();
     };
-    std::string result, line, word;
     std::istringstream words(text);
     while (words >> word) {
-        while (length(word) > static_cast<std::ptrdiff_t>(most)) {  // a piece of it on a line of its own
-            const std::string piece = first_characters(word, most);
-            if (!line.empty()) result += gnuplot_text(line) + line_end;
-            result += gnuplot_text(piece) + line_end;
-            line.clear();
-            word.erase(0, piece.size());
+        while (length(word) > most) {  // a piece of it on a line of its own
+            end_line();
+            line = first_characters(word, most);
+            word.erase(0, line.size());
+            end_line();
         }
-        if (!line.empty() && length(line) + 1 + length(word) > static_cast<std::ptrdiff_t>(most)) {
-            result += gnuplot_text(line) + line_end;
-            line.clear();
-        }
+        if (!line.empty() && length(line) + 1 + length(word) > most) end_line();
         line += (line.empty() ? "" : " ") + word;
     }
-    return result + gnuplot_text(line);
+    if (!line.empty() || lines.empty()) lines.push_back(line);
+    return lines;
+}
+
+std::string gnuplot_lines(const std::string& text, std::size_t most) {
+    std::string result;
+    for (const std::string& line : wrapped(text, most))
+        result += (result.empty() ? "" : ".\"\\n\".") + gnuplot_text(line);
+    return result;
 }
 
 }  // namespace grainreel

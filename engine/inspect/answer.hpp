@@ -15,10 +15,12 @@ struct AnswerColumn {
     std::string name;  // of letters, digits and _
     Dimension dimension = Dimension::number;
     std::string about{};
-    // For means over moments (mean_answer.hpp): kKey in columns that say which row it is, else the column
-    // that weighs this one; empty: nothing does.
+    // For means over moments (mean_answer.hpp): kKey in columns that say which row it is; kThere where
+    // moments without a value have no say; else the column that weighs this one. Empty: a sum, of which a
+    // moment without the row has 0.
     std::string weight{};
-    static constexpr const char* kKey = "key";
+    std::string unit{};  // of a pure number that has one: "m3"
+    static constexpr const char *kKey = "key", *kThere = "there";
 };
 
 // Empty, a number in SI, a count, or words.
@@ -32,6 +34,9 @@ struct AnswerTable {
     bool has_mean = false;                      // whether rows of several moments can be joined
     // Where each row is a quantity of its own: theirs, of the columns of numbers.
     std::vector<Dimension> row_dimensions{};
+    std::string mean_title{};  // in place of the title, where that says more of the moment than of the table
+    // A list of those with most of this column. Of several moments it has those with most at any of them.
+    std::string most_of{};
 };
 
 // Of which moment an answer is.

@@ -31,7 +31,7 @@ AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
     if (weight > 0) share = force.dot(down) / weight;
     return {"wall",
             "What the grains do to it",
-            {{"contacts", Dimension::number, ""},
+            {{"contacts", Dimension::number, "that push"},
              {"force_x", Dimension::force, ""},
              {"force_y", Dimension::force, ""},
              {"force_z", Dimension::force, ""},
@@ -57,8 +57,7 @@ AnswerTable height_table(const Snapshot& s, const std::string& wall, const Force
                        {"pressure", Dimension::pressure, "of a wall that stands"}},
                       {},
                       true};
-    double width = 0;
-    for (const double radius : s.frame.radius) width += 2 * radius / static_cast<double>(s.frame.size());
+    const double width = s.bin();
     std::map<std::int64_t, std::pair<std::int64_t, double>> bins;
     for (const ContactForce* one : on_wall) {
         auto& [count, force] =
@@ -138,6 +137,14 @@ std::int32_t wall_number(const Snapshot& s, std::string name) {
                                                 fmt::join(names, ", ")));
 }
 
+double overlap_limit(const Scene& scene) {
+    return 2 * scene.run.overlap;
+}
+
+std::string overlap_limit_words(const Snapshot& s) {
+    return fmt::format("run.overlap allows {:.4g} of the smaller radius", overlap_limit(s.scene));
+}
+
 std::vector<const ContactForce*> pushes_on_wall(const Snapshot& s, std::int32_t wall) {
     std::vector<const ContactForce*> on_wall;
     for (const ContactForce& one : s.forces->contacts)
@@ -155,9 +162,38 @@ Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most)
     }
     answer.tables.push_back(species_table(s, on_wall));
     answer.tables.push_back(height_table(s, name_of_body(s, wall), on_wall));
-    answer.tables.push_back(touching_table(s, on_wall, most));
+    if (most > 0) answer.tables.push_back(touching_table(s, on_wall, most));
     return answer;
 }
+
+namespace {
+
+// How many touch, how far they overlap, and what is allowed.
+AnswerTable touching_pairs_table(const Snapshot& s) {
+    const std::vector<ContactForce>& all = s.forces->contacts;
+    double most = 0, sum = 0;
+    std::int64_t pushing = 0;
+    for (const ContactForce& one : all) {
+        const double share = one.overlap / one.smaller_radius;
+        most = std::max(most, share), sum += share;
+        pushing += one.normal_force > 0;
+    }
+    AnswerCell largest, mean;
+    if (!all.empty()) largest = most, mean = sum / static_cast<double>(all.size());
+    return {"touching",
+            "All that touch, grains at walls too (shares are of the smaller radius)",
+            {{"touching", Dimension::number, "pairs, and grains at walls"},
+             {"contacts", Dimension::number, "those of them that push, as in all other answers"},
+             {"largest_share", Dimension::number,
+              "overlap over the smaller radius, as largest_overlap of measures.csv", AnswerColumn::kThere},
+             {"mean_share", Dimension::number, "of all that touch", "touching"},
+             {"limit_share", Dimension::number, "what run.overlap allows; that is over the diameter",
+              AnswerColumn::kThere}},
+            {{static_cast<std::int64_t>(all.size()), pushing, largest, mean, overlap_limit(s.scene)}},
+            true};
+}
+
+}  // namespace
 
 Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
     Forces all;
@@ -168,7 +204,7 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
     });
     AnswerTable table{
         "overlaps",
-        fmt::format("The largest overlaps of {} contacts", all.size()),
+        fmt::format("The largest overlaps ({})", overlap_limit_words(s)),
         {{"first", Dimension::number, "id"},
          {"species", Dimension::number, "of the first"},
          {"second", Dimension::number, "id; empty of a wall"},
@@ -178,6 +214,7 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
          {"normal_force", Dimension::force, ""},
          {"height", Dimension::length, "of the contact above the floor"}},
         {}};
+    table.most_of = "overlap";
     all.resize(std::min(all.size(), most));
     for (const ContactForce* one : all) {
         AnswerCell second;
@@ -186,8 +223,9 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
                               name_of_body(s, one->second), one->overlap, one->overlap / one->smaller_radius,
                               one->normal_force, (one->point - s.frame.floor().place).z()});
     }
-    Answer answer{{std::move(table)}, {}};
-    if (all.empty()) answer.notes.emplace_back("nothing touches");
+    Answer answer{{touching_pairs_table(s)}, {}};
+    if (most > 0) answer.tables.push_back(std::move(table));
+    if (s.forces->contacts.empty()) answer.notes.emplace_back("nothing touches");
     return answer;
 }
 

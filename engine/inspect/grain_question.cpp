@@ -16,9 +16,12 @@ AnswerTable columns_table(const Snapshot& s, std::size_t grain) {
                       {},
                       {{}}};
     const auto& columns = grain_columns();
+    table.has_mean = true;
     for (std::size_t k = 0; k < columns.size(); ++k) {
         if (!s.has(columns[k].needs)) continue;
-        table.columns.push_back({columns[k].name, columns[k].dimension, columns[k].about});
+        const bool says_who = columns[k].is_species || columns[k].name == "id";
+        table.columns.push_back({columns[k].name, columns[k].dimension, columns[k].about,
+                                 says_who ? AnswerColumn::kKey : AnswerColumn::kThere});
         if (columns[k].is_species) {
             table.rows[0].emplace_back(name_of_body(s, s.frame.id[grain]));
         } else if (columns[k].name == "id") {
@@ -33,7 +36,7 @@ AnswerTable columns_table(const Snapshot& s, std::size_t grain) {
 AnswerTable contacts_table(const Snapshot& s, std::size_t grain) {
     const std::int32_t id = s.frame.id[grain];
     AnswerTable table{"contacts",
-                      "What it touches",
+                      "What pushes it",
                       {{"partner", Dimension::number, "id; empty of a wall"},
                        {"what", Dimension::number, "species or wall"},
                        {"normal_force", Dimension::force, ""},
@@ -56,7 +59,7 @@ AnswerTable contacts_table(const Snapshot& s, std::size_t grain) {
 AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
     const std::int32_t id = s.frame.id[grain];
     AnswerTable table{"contacts",
-                      "What it touches",
+                      fmt::format("What pushes or pulls it (overlaps: {})", overlap_limit_words(s)),
                       {{"partner", Dimension::number, "id; empty of a wall"},
                        {"what", Dimension::number, "species or wall"},
                        {"overlap", Dimension::length, ""},
@@ -84,14 +87,16 @@ AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
 }
 
 AnswerTable forces_table(const Snapshot& s, std::size_t grain) {
-    AnswerTable table{"forces",
-                      "What pushes it",
-                      {{"what", Dimension::number, ""},
-                       {"x", Dimension::force, ""},
-                       {"y", Dimension::force, ""},
-                       {"z", Dimension::force, ""},
-                       {"magnitude", Dimension::force, ""}},
-                      {}};
+    AnswerTable table{
+        "forces",
+        "What pushes it",
+        {{"what", Dimension::number, "", AnswerColumn::kKey},
+         {"x", Dimension::force, "", AnswerColumn::kThere},
+         {"y", Dimension::force, "", AnswerColumn::kThere},
+         {"z", Dimension::force, "", AnswerColumn::kThere},
+         {"magnitude", Dimension::force, "with --average the mean of magnitudes", AnswerColumn::kThere}},
+        {},
+        true};
     const auto add = [&](const char* what, const Vec3& force) {
         table.rows.push_back({what, force.x(), force.y(), force.z(), force.norm()});
     };
@@ -108,18 +113,21 @@ AnswerTable torque_table(const Snapshot& s, std::size_t grain) {
     const Vec3 sum = contact_torque_on(s, s.frame.id[grain]);
     return {"torque",
             "What turns it, about its centre",
-            {{"x", Dimension::moment, ""},
-             {"y", Dimension::moment, ""},
-             {"z", Dimension::moment, ""},
-             {"magnitude", Dimension::moment, ""}},
-            {{sum.x(), sum.y(), sum.z(), sum.norm()}}};
+            {{"x", Dimension::moment, "", AnswerColumn::kThere},
+             {"y", Dimension::moment, "", AnswerColumn::kThere},
+             {"z", Dimension::moment, "", AnswerColumn::kThere},
+             {"magnitude", Dimension::moment, "with --average the mean of magnitudes", AnswerColumn::kThere}},
+            {{sum.x(), sum.y(), sum.z(), sum.norm()}},
+            true};
 }
 
 AnswerTable neighbours_table(const Snapshot& s, std::size_t grain) {
     AnswerTable table{"neighbours",
                       "Grains closer than a quarter of the smallest species' diameter",
-                      {{"species", Dimension::number, ""}, {"grains", Dimension::number, ""}},
-                      {}};
+                      {{"species", Dimension::number, "", AnswerColumn::kKey},
+                       {"grains", Dimension::number, "", AnswerColumn::kThere}},
+                      {},
+                      true};
     const double gap = gap_of_neighbours(s.scene), period = period_of_depth(s.scene.container);
     const Place own{s.frame.position[grain], s.frame.radius[grain]};
     std::vector<std::int64_t> count(s.scene.species.size(), 0);

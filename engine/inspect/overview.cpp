@@ -19,35 +19,39 @@ namespace grainreel {
 namespace {
 
 AnswerTable moment_table(const Snapshot& s) {
-    AnswerTable table{"moment",
-                      "The moment",
-                      {{"time", Dimension::time, "since the drive started"},
-                       {"step", Dimension::number, ""},
-                       {"cycles", Dimension::number, "periods of the drive"},
-                       {"floor", Dimension::length, "the floor's height against its place at rest"},
-                       {"grains", Dimension::number, ""},
-                       {"contacts", Dimension::number, "empty where the run kept none"}},
-                      {}};
-    AnswerCell contacts;
+    AnswerTable table{
+        "moment",
+        "The moment",
+        {{"time", Dimension::time, "since the drive started"},
+         {"step", Dimension::number, ""},
+         {"cycles", Dimension::number, "periods of the drive"},
+         {"floor", Dimension::length, "the floor's height against its place at rest"},
+         {"grains", Dimension::number, ""},
+         {"contacts", Dimension::number, "that push, at walls too; empty where the run kept none"},
+         {"touching", Dimension::number, "without a force too; empty of a kept moment"}},
+        {}};
+    AnswerCell contacts, touching;
     if (s.contacts) contacts = static_cast<std::int64_t>(s.frame.touches.size());
+    if (s.forces) touching = static_cast<std::int64_t>(s.forces->contacts.size());
     table.rows.push_back({s.frame.time, s.frame.step, s.frame.cycles, s.frame.floor().place.z(),
-                          static_cast<std::int64_t>(s.frame.size()), contacts});
+                          static_cast<std::int64_t>(s.frame.size()), contacts, touching});
     return table;
 }
 
 AnswerTable species_table(const Snapshot& s) {
     AnswerTable table{"species",
-                      "By species",
-                      {{"species", Dimension::number, ""},
+                      "By species (kinetic energy with that of rotation: kinetic_J and rotational_J below)",
+                      {{"species", Dimension::number, "", AnswerColumn::kKey},
                        {"grains", Dimension::number, ""},
                        {"mass", Dimension::mass, "of all"},
-                       {"mean_height", Dimension::length, "above the floor"},
-                       {"lowest", Dimension::length, ""},
-                       {"highest", Dimension::length, ""},
-                       {"mean_rise", Dimension::length, "since the run's first moment"},
-                       {"mean_speed", Dimension::speed, ""},
+                       {"mean_height", Dimension::length, "above the floor", "grains"},
+                       {"lowest", Dimension::length, "", AnswerColumn::kThere},
+                       {"highest", Dimension::length, "", AnswerColumn::kThere},
+                       {"mean_rise", Dimension::length, "since the run's first moment", "grains"},
+                       {"mean_speed", Dimension::speed, "", "grains"},
                        {"kinetic_energy", Dimension::energy, "of all"}},
-                      {}};
+                      {},
+                      true};
     const GrainVocabulary words(s);
     const auto column = [&](const char* name) { return values_of(s, words.find(name)->column); };
     const std::vector<double> height = column("height"), rise = column("rise"), speed = column("speed"),
@@ -113,22 +117,34 @@ AnswerTable extremes_table(const Snapshot& s) {
     return table;
 }
 
-// Forces of a moment that was brought back; else the names alone.
+// What contacts.nc has of a wall: not in which direction friction pushes.
+std::vector<AnswerCell> kept_wall_row(const Snapshot& s, std::int32_t wall) {
+    std::int64_t count = 0;
+    double normal = 0;
+    for (const Touch& touch : s.frame.touches)
+        if (touch.second == wall) ++count, normal += touch.force;
+    return {name_of_body(s, wall), count, {}, {}, {}, normal};
+}
+
+// Forces of a moment that was brought back; else what the run kept; else the names alone.
 AnswerTable walls_table(const Snapshot& s) {
     AnswerTable table{"walls",
                       "Walls, and the force of the grains on them",
-                      {{"wall", Dimension::number, "as --wall has it"},
-                       {"contacts", Dimension::number, ""},
+                      {{"wall", Dimension::number, "as --wall has it", AnswerColumn::kKey},
+                       {"contacts", Dimension::number, "that push"},
                        {"force_x", Dimension::force, ""},
                        {"force_y", Dimension::force, ""},
                        {"force_z", Dimension::force, ""},
                        {"normal_force", Dimension::force, "sum"}},
-                      {}};
+                      {},
+                      true};
     const std::size_t count = faces_of(s.scene).size();
     for (std::size_t k = 0; k < count; ++k) {
         const auto wall = static_cast<std::int32_t>(-1 - static_cast<std::int64_t>(k));
         if (!s.forces) {
-            table.rows.push_back({name_of_body(s, wall), {}, {}, {}, {}, {}});
+            table.rows.push_back(s.contacts
+                                     ? kept_wall_row(s, wall)
+                                     : std::vector<AnswerCell>{name_of_body(s, wall), {}, {}, {}, {}, {}});
             continue;
         }
         Vec3 force(0, 0, 0);
@@ -154,11 +170,13 @@ std::string in_short(std::string about) {
 AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
     AnswerTable table{"measured",
                       fmt::format("Measured at {:.6g} s", row.time),
-                      {{"quantity", Dimension::number, "a column of measures.csv"},
-                       {"value", Dimension::number, "in the column's unit, or SI"},
-                       {"about", Dimension::number, ""},
-                       {"more", Dimension::number, ""}},
-                      {}};
+                      {{"quantity", Dimension::number, "a column of measures.csv", AnswerColumn::kKey},
+                       {"value", Dimension::number, "in the column's unit, or SI", AnswerColumn::kThere},
+                       {"about", Dimension::number, "", AnswerColumn::kKey},
+                       {"more", Dimension::number, "", AnswerColumn::kKey}},
+                      {},
+                      true};
+    table.mean_title = "Measured";
     // Where the centres are is in the table of the species, when the row comes is its title.
     const auto said_already = [](const std::string& name) {
         return name == "step" || name == "time_s" || name == "cycles" || name.starts_with("phase") ||
@@ -173,8 +191,9 @@ AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
             }
     for (std::size_t k = 0; k < row.columns.size(); ++k) {
         const std::string& name = row.columns[k];
-        if (!said_already(name) && std::isfinite(row.values[k]))
-            table.rows.push_back({name, row.values[k], labels[name], abouts[name]});
+        if (said_already(name) || !std::isfinite(row.values[k])) continue;
+        if (name == "largest_overlap") abouts[name] += "; " + overlap_limit_words(s);
+        table.rows.push_back({name, row.values[k], labels[name], abouts[name]});
     }
     return table;
 }
@@ -207,6 +226,11 @@ Answer overview_of(const Snapshot& s) {
     if (!s.contacts)
         answer.notes.emplace_back(
             "contacts of a kept moment are not known; --grain, --wall and --largest-overlap bring it back");
+    else if (!s.forces)
+        answer.notes.emplace_back(
+            "contacts are those that the run kept, which have no directions; --wall brings the moment back "
+            "with "
+            "them");
     return answer;
 }
 

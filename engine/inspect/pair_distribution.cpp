@@ -126,13 +126,8 @@ class Neighbourhood {
 
 Answer pair_distribution_answer(const Snapshot& s) {
     if (s.frame.size() < 2) throw UserError("there are fewer than two grains at this moment");
-    const double diameter = [&] {
-        double sum = 0;
-        for (const double radius : s.frame.radius) sum += 2 * radius;
-        return sum / static_cast<double>(s.frame.size());
-    }();
     const double period = period_of_depth(s.scene.container);
-    const double most = farthest * diameter, width = most / static_cast<double>(bin_count);
+    const double most = farthest * s.bin(), width = most / static_cast<double>(bin_count);
     const Box box = box_of(s, period);
     const double volume = (box.high - box.low).prod();
     if (!(volume > 0))

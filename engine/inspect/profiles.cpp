@@ -6,40 +6,15 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_name.hpp"
 #include "engine/inspect/columns/grain_columns.hpp"
 #include "engine/inspect/questions.hpp"
+#include "engine/inspect/solid_fraction.hpp"
 #include "engine/inspect/statistics.hpp"
 
 namespace grainreel {
 namespace {
 
 constexpr std::size_t most_bins = 10000;
-
-double mean_diameter(const Snapshot& s) {
-    double sum = 0;
-    for (const double radius : s.frame.radius) sum += 2 * radius;
-    return sum / static_cast<double>(s.frame.size());
-}
-
-int column_called(const Snapshot& s, const std::string& name) {
-    const GrainVocabulary words(s);
-    const auto word = words.find(name);
-    if (word && word->column >= 0) return word->column;
-    std::vector<std::string> names;
-    for (const GrainColumn& column : grain_columns()) names.push_back(column.name);
-    const std::optional<std::string> meant = nearest_name(name, names);
-    throw UserError(fmt::format("'{}' is no quantity of a grain{}", name,
-                                meant ? fmt::format("; did you mean '{}'?", *meant) : ""));
-}
-
-void check_grains(const Snapshot& s) {
-    if (s.frame.size() == 0) throw UserError("there are no grains at this moment");
-}
-
-std::vector<double> along_axis(const Snapshot& s, const std::string& along) {
-    return values_of(s, column_called(s, along));
-}
 
 struct Bin {
     std::int64_t grains = 0;
@@ -54,7 +29,7 @@ struct Bins {
 };
 
 Bins bins_along(const Snapshot& s, const std::vector<double>& at, double low) {
-    Bins all{low, mean_diameter(s), {}, 0};
+    Bins all{low, s.bin(), {}, 0};
     for (std::size_t i = 0; i < at.size(); ++i) {
         const double place = std::floor((at[i] - low) / all.width);
         if (!(place >= 0 && place < static_cast<double>(most_bins))) {
@@ -92,18 +67,44 @@ std::vector<AnswerCell> row_of(const Bins& all, std::size_t k) {
     return row;
 }
 
+// Up to the top of the highest grain, which may be in the bin above its centre's.
+void add_bins_of_tops(const Snapshot& s, const std::vector<double>& at, Bins& all) {
+    constexpr double hair = 1e-9;  // of a bin
+    double highest = 0;            // bins
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const double top = (at[i] + s.frame.radius[i] - all.low) / all.width - hair;
+        if (top < static_cast<double>(most_bins)) highest = std::max(highest, std::ceil(top));
+    }
+    const Bin empty{0, 0, 0, std::vector<double>(s.scene.species.size(), 0)};
+    all.bins.resize(std::max(all.bins.size(), static_cast<std::size_t>(highest)), empty);
+}
+
+// Where the floor alone moves, heights above it are not heights in the container.
+void add_solid_fraction(const Snapshot& s, const Bins& all, bool above_floor, AnswerTable& table) {
+    table.columns.push_back({"solid_fraction", Dimension::number,
+                             "volume of the parts of grains that are there, over the room in the container"});
+    const double container = s.frame.container().place.z(),
+                 zero = above_floor ? s.frame.floor().place.z() : 0;
+    const std::vector<double> fractions =
+        solid_fractions(s, all.low + zero - container, all.width, all.bins.size());
+    for (std::size_t k = 0; k < fractions.size(); ++k) {
+        AnswerCell& cell = table.rows[k].emplace_back();
+        if (std::isfinite(fractions[k])) cell = fractions[k];
+    }
+}
+
 }  // namespace
 
 Answer profile_answer(const Snapshot& s, const std::string& along) {
     const std::vector<std::string> directions = {"height", "x", "y", "z", "r"};
     if (std::find(directions.begin(), directions.end(), along) == directions.end())
         throw UserError(fmt::format("'{}' is no direction; there are height, x, y, z and r", along));
-    check_grains(s);
-    const std::vector<double> at = along_axis(s, along);
+    if (s.frame.size() == 0) throw UserError("there are no grains at this moment");
+    const std::vector<double> at = values_of(s, column_called(s, along));
     const bool across = along == "x" || along == "y";
     // Edges are multiples of the width, so that those of several moments agree.
-    const double width = mean_diameter(s);
-    const Bins all = bins_along(s, at, across ? std::floor(statistics_of(at).least / width) * width : 0);
+    const double width = s.bin();
+    Bins all = bins_along(s, at, across ? std::floor(statistics_of(at).least / width) * width : 0);
     AnswerTable table{"profile",
                       fmt::format("Along {}, in bins of the mean diameter", along),
                       {{along + "_from", Dimension::length, "", AnswerColumn::kKey},
@@ -116,43 +117,15 @@ Answer profile_answer(const Snapshot& s, const std::string& along) {
     for (const Species& species : s.scene.species)
         table.columns.push_back(
             {"share_" + species.name, Dimension::number, "of their solid volume", "solid_volume"});
-    table.columns.push_back({"solid_volume", Dimension::number, "of these grains, m3"});
+    table.columns.push_back({"solid_volume", Dimension::number, "of these grains", "", "m3"});
+    const bool in_container = s.scene.container.shape != Container::Shape::none;
+    const bool upwards = in_container && (along == "height" || along == "z");
+    if (upwards) add_bins_of_tops(s, at, all);
     for (std::size_t k = 0; k < all.bins.size(); ++k) table.rows.push_back(row_of(all, k));
+    if (upwards) add_solid_fraction(s, all, along == "height", table);
     Answer answer{{std::move(table)}, {}};
     if (all.left_out > 0) answer.notes.push_back(fmt::format("{} grains lie outside the bins", all.left_out));
     return answer;
-}
-
-Answer histogram_answer(const Snapshot& s, const std::string& name, std::size_t bins) {
-    check_grains(s);
-    const int number = column_called(s, name);
-    const GrainColumn& column = grain_columns()[static_cast<std::size_t>(number)];
-    if (column.is_species) throw UserError("species have no order; ask for a quantity, as in \"speed\"");
-    const std::vector<double> values = values_of(s, number);
-    const Statistics all = statistics_of(values);
-    if (all.count == 0) throw UserError(fmt::format("no grain has a '{}' at this moment", name));
-    const double width = (all.most - all.least) / static_cast<double>(bins);
-    std::vector<std::vector<std::int64_t>> counts(bins, std::vector<std::int64_t>(s.scene.species.size(), 0));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!std::isfinite(values[i])) continue;
-        const double place = width > 0 ? (values[i] - all.least) / width : 0;
-        const std::size_t k = std::min(bins - 1, static_cast<std::size_t>(place));
-        ++counts[k][static_cast<std::size_t>(s.frame.species[i])];
-    }
-    AnswerTable table{"histogram",
-                      fmt::format("How many grains have which {}", name),
-                      {{name + "_from", column.dimension, ""}, {name + "_to", column.dimension, ""}},
-                      {}};
-    for (const Species& species : s.scene.species)
-        table.columns.push_back({"grains_" + species.name, Dimension::number, ""});
-    for (std::size_t k = 0; k < bins; ++k) {
-        std::vector<AnswerCell> row = {
-            all.least + static_cast<double>(k) * width,
-            k + 1 == bins ? all.most : all.least + static_cast<double>(k + 1) * width};
-        for (const std::int64_t count : counts[k]) row.emplace_back(count);
-        table.rows.push_back(std::move(row));
-    }
-    return {{std::move(table)}, {}};
 }
 
 }  // namespace grainreel

@@ -22,7 +22,8 @@ Answer grain_answer(const Snapshot& snapshot, std::int64_t id);
 // of force and moment, the force by height, and the grains that touch it, at most `most` of them.
 Answer wall_answer(const Snapshot& snapshot, const std::string& name, std::size_t most);
 
-// Likewise: the `most` contacts that overlap most.
+// Likewise: how many touch, how far they overlap and what the plan allows; the `most` contacts that overlap
+// most.
 Answer largest_overlap_answer(const Snapshot& snapshot, std::size_t most);
 
 // Grains for which `condition` holds: how many of each species, statistics of their columns, and a list of at
@@ -34,7 +35,8 @@ Answer where_answer(const Snapshot& snapshot, const std::string& condition, std:
 Answer slice_answer(const Snapshot& snapshot, const std::string& plane, std::size_t most);
 
 // By bins of a column ("height", "x", "y", "z", or "r" about the container's axis) as wide as the mean
-// diameter: grains and solid volume by species, mean speed and mean upward velocity.
+// diameter: grains and solid volume by species, mean speed and mean upward velocity; along height and z in a
+// container also its solid fraction (solid_fraction.hpp).
 Answer profile_answer(const Snapshot& snapshot, const std::string& along);
 
 // Of a column: counts in `bins` equal bins from its smallest value to its largest, by species.

@@ -41,12 +41,14 @@ Answer slice_answer(const Snapshot& s, const std::string& plane, std::size_t mos
     const auto circle = [&](std::size_t i) {
         return std::sqrt(std::pow(s.frame.radius[i], 2) - std::pow(off(i), 2));
     };
-    AnswerTable areas{"areas",
-                      fmt::format("The plane {} cuts {} grains", plane, found.size()),
-                      {{"species", Dimension::number, ""},
-                       {"grains", Dimension::number, ""},
-                       {"area_share", Dimension::number, "of the area of all cut circles"}},
-                      {}};
+    AnswerTable areas{
+        "areas",
+        fmt::format("Grains that the plane {} cuts", plane),
+        {{"species", Dimension::number, "", AnswerColumn::kKey},
+         {"grains", Dimension::number, ""},
+         {"area_share", Dimension::number, "of the area of all cut circles", AnswerColumn::kThere}},
+        {},
+        true};
     std::vector<double> area(s.scene.species.size(), 0);
     std::vector<std::int64_t> count(area.size(), 0);
     double all = 0;

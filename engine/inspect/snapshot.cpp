@@ -31,6 +31,12 @@ double Snapshot::mass(std::size_t i) const {
     return density(i) * 4.0 / 3.0 * std::numbers::pi * std::pow(frame.radius[i], 3);
 }
 
+double Snapshot::mean_diameter() const {
+    double sum = 0;
+    for (const double radius : frame.radius) sum += 2 * radius;
+    return sum / static_cast<double>(frame.size());
+}
+
 double Snapshot::height(std::size_t i) const {
     return (frame.position[i] - frame.floor().place).z();
 }

@@ -37,11 +37,14 @@ struct Snapshot {
     Frame start;                             // the run's first moment
     std::optional<SnapshotForces> forces{};  // of a moment that was brought back
     std::optional<MeasuredRow> measured{};   // at the moment, or at the row nearest to it
+    double bin_width = 0;  // m, of bins along lengths; 0: the mean diameter of the grains that are there
 
     bool has(Needs what) const;
     double density(std::size_t i) const;  // kg/m3, of grain i of the frame
     double mass(std::size_t i) const;     // kg
-    double height(std::size_t i) const;   // m, of its centre above the floor where that is now
+    double mean_diameter() const;         // m, of the grains that are there
+    double bin() const { return bin_width > 0 ? bin_width : mean_diameter(); }  // m
+    double height(std::size_t i) const;  // m, of its centre above the floor where that is now
     // Place in the frame of the grain with this id; empty when there is none.
     std::optional<std::size_t> place_of(std::int64_t id) const;
 };

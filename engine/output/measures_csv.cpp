@@ -1,9 +1,11 @@
 #include "engine/output/measures_csv.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -11,6 +13,7 @@
 
 #include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/no_value.hpp"
 
@@ -24,22 +27,64 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
+// A whole number cell: nothing before the number or behind it.
+std::optional<double> number_of(const std::string& cell) {
+    double value = 0;
+    const char* const end = cell.data() + cell.size();
+    const auto read = std::from_chars(cell.data(), end, value);
+    if (read.ptr != end || cell.empty()) return std::nullopt;
+    // What is too small for a double is read as 0, as elsewhere.
+    if (read.ec == std::errc::result_out_of_range) return std::strtod(cell.c_str(), nullptr);
+    return read.ec == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+// What is wrong with a row, or nothing; else its numbers.
+std::string fault_of(const std::vector<std::string>& cells, const std::vector<std::string>& columns,
+                     std::vector<double>& row) {
+    row.clear();
+    if (cells.size() != columns.size())
+        return fmt::format("has {} numbers, but there are {} columns", cells.size(), columns.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        const std::optional<double> value = number_of(cells[k]);
+        if (!value)
+            return fmt::format("its {} is no number but \"{}\"", excerpt(columns[k]), excerpt(cells[k]));
+        row.push_back(*value);
+    }
+    return "";
+}
+
+// A file that went through Windows.
+void drop_return(std::string& line) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+}
+
 }  // namespace
 
-std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& path) {
+MeasuresFile read_measures_file(const std::filesystem::path& path) {
     std::ifstream file(path);
     std::string line;
-    if (!std::getline(file, line)) return nullptr;
+    MeasuresFile result;
+    if (!std::getline(file, line)) return result;
     drop_byte_order_mark(line);
-    if (line.ends_with('\r')) line.pop_back();
-    const auto table = std::make_shared<MeasureTable>(cells_of(line));
-    while (std::getline(file, line) && !file.eof()) {  // a last line without its end was cut off
-        std::vector<double> row;
-        for (const std::string& cell : cells_of(line)) row.push_back(std::strtod(cell.c_str(), nullptr));
-        if (row.size() != table->columns().size()) break;
+    drop_return(line);
+    const std::vector<std::string> columns = cells_of(line);
+    if (columns.empty()) return result;
+    const auto table = std::make_shared<MeasureTable>(columns);
+    result.table = table;
+    std::vector<double> row;
+    for (std::size_t number = 2; std::getline(file, line) && !file.eof(); ++number) {
+        drop_return(line);
+        if (const std::string fault = fault_of(cells_of(line), columns, row); !fault.empty()) {
+            result.fault = fmt::format("{}:{}: {}", path.string(), number, fault);
+            break;
+        }
         table->add(row);
     }
-    return table;
+    return result;
+}
+
+std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& path) {
+    return read_measures_file(path).table;
 }
 
 MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns)

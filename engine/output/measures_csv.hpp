@@ -12,7 +12,15 @@
 
 namespace grainreel {
 
-// The complete rows of such a file; null when there is none, or it is no such file.
+// A last row without its end was cut off, and is left out.
+struct MeasuresFile {
+    std::shared_ptr<const MeasureTable> table;  // its rows; null when there is no file, or it is empty
+    // "FILE:LINE: its time_s is no number but \"x\"": of the first row that is damaged. The table ends before
+    // it.
+    std::string fault;
+};
+MeasuresFile read_measures_file(const std::filesystem::path& path);
+// The table alone.
 std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& path);
 
 class MeasuresWriter {

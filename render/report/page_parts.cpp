@@ -59,7 +59,7 @@ std::string provenance_html(const RunFacts& facts) {
     return html + "</ul>\n";
 }
 
-std::string scene_html(const fs::path& folder, const std::string& n) {
+std::string scene_html(const fs::path& folder, const std::string& n, bool beside) {
     std::string text;
     try {
         text = load_scene_file(folder / "scene.toml");
@@ -68,8 +68,9 @@ std::string scene_html(const fs::path& folder, const std::string& n) {
     }
     if (text.size() > most_scene_text)
         return chapter("Scene",
-                       "<p>The scene is too long for this page; it lies in <a href=\"./scene.toml\">"
-                       "scene.toml</a>.</p>\n");
+                       fmt::format("<p>The scene is too long for this page; it is {} in the run's "
+                                   "folder.</p>\n",
+                                   beside ? "<a href=\"./scene.toml\">scene.toml</a>" : "scene.toml"));
     return chapter("Scene",
                    "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
                    "again.</p>\n" +
@@ -88,7 +89,10 @@ std::string files_html(const fs::path& folder, const std::string& page_name) {
     }
     std::sort(files.begin(), files.end());
     if (files.size() > most_files) files.resize(most_files);
-    std::string html = "<p>They open while the page lies in the run's folder.</p>\n<ul>\n";
+    std::string html = fmt::format(
+        "<p>They are not on this page. The links open them while it lies in the run's folder, "
+        "{}.</p>\n<ul>\n",
+        html_text(folder.filename().string()));
     for (const auto& [name, size] : files)
         html += fmt::format("<li><a href=\"{}\">{}</a>, {}</li>\n", file_link(name), html_text(name), size);
     return html + "</ul>\n";
@@ -172,9 +176,11 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
     if (html.empty()) html = "<p>The run has no film and no poster.</p>\n";
     for (const std::string& note : {film.note, film.bytes.empty() ? std::string() : why_not_tied})
         if (!note.empty()) html += fmt::format("<p class=\"faint\">{}</p>\n", html_text(note));
-    if (!film.file.empty() && beside)
-        html += fmt::format("<p class=\"faint no-print\"><a href=\"{}\">{}</a> beside this page</p>\n",
-                            file_link(film.file), html_text(film.file));
+    if (film.whole_in_folder && beside)
+        html += fmt::format(
+            "<p class=\"faint no-print\"><a href=\"{}\">{}</a> in the run's folder, while this page lies "
+            "there</p>\n",
+            file_link(film.file), html_text(film.file));
     return html;
 }
 
@@ -202,6 +208,8 @@ std::string bed_about(const BedFrames& bed, const Scene& scene) {
         text += " The run kept no contact numbers.";
     else if (bed.counted < bed.moments.size())
         text += fmt::format(" Contact numbers are known at {} of them.", bed.counted);
+    if (bed.has_film_colours && bed.film_coloured < bed.moments.size())
+        text += fmt::format(" What the film's colours stand for is known at {} of them.", bed.film_coloured);
     if (!bed.forces.moments.empty())
         text += fmt::format(
             " Of {} moments the page has the pairs that push each other, with their normal forces to 2.3 %.",
@@ -232,8 +240,9 @@ std::string chapters_html(const Scene& scene, const RunFacts& facts,
                                        copyable("bibtex" + n, "BibTeX", text.bibtex, "plain"));
     }
     html += chapter("Where it comes from", provenance_html(facts));
-    html += scene_html(folder, n);
-    return page_name.empty() ? html : html + chapter("Files beside this page", files_html(folder, page_name));
+    const bool beside = !page_name.empty();
+    html += scene_html(folder, n, beside);
+    return beside ? html + chapter("Files of the run", files_html(folder, page_name)) : html;
 }
 
 }  // namespace grainreel

@@ -8,6 +8,7 @@
 #include "engine/base/text_file.hpp"
 #include "render/report/embed/html.hpp"
 #include "render/report/facts/differences.hpp"
+#include "render/report/facts/run_names.hpp"
 #include "render/report/page_files.hpp"
 #include "render/report/run_part.hpp"
 
@@ -26,7 +27,9 @@ class Page {
         : out_(out), progress_(progress) {
         const bool alone = runs.size() == 1;
         const std::size_t most_film = std::min(kMostFilmOnPage, most_film_bytes / runs.size());
-        const std::vector<std::string> names = names_of(runs);
+        std::vector<RunToName> to_name;
+        for (const PageRun& run : runs) to_name.push_back({run.folder, run.scene});
+        const std::vector<std::string> names = names_of_runs(to_name);
         for (std::size_t k = 0; k < runs.size(); ++k)
             parts_.emplace_back(runs[k], names[k], alone ? "" : fmt::format("-{}", k), most_film);
     }
@@ -38,7 +41,9 @@ class Page {
         ReportMade made{out_, page.size(), {}};
         for (const RunPart& part : parts_)
             for (const std::string& line : part.news())
-                made.news.push_back(parts_.size() == 1 ? line : fmt::format("{}: {}", part.name(), line));
+                made.news.push_back(parts_.size() == 1
+                                        ? line
+                                        : fmt::format("{}: {}", part.folder().filename().string(), line));
         if (page.size() > kMostPageBytes)
             made.news.push_back(fmt::format(
                 "the page has {} bytes, more than it should: a single moment of the bed takes that",
@@ -47,15 +52,11 @@ class Page {
     }
 
   private:
-    // Folders' names; the whole paths where two have the same.
-    static std::vector<std::string> names_of(const std::vector<PageRun>& runs) {
-        std::vector<std::string> names;
-        for (const PageRun& run : runs) names.push_back(run.folder.filename().string());
-        std::vector<std::string> sorted = names;
-        std::sort(sorted.begin(), sorted.end());
-        if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return names;
-        for (std::size_t k = 0; k < runs.size(); ++k) names[k] = runs[k].folder.string();
-        return names;
+    // Whether the page lies in the folder of the run, with its files.
+    bool lies_beside(const RunPart& part) const {
+        std::error_code ignored;
+        const fs::path folder = out_.has_parent_path() ? out_.parent_path() : fs::path(".");
+        return parts_.size() == 1 && fs::equivalent(folder, part.folder(), ignored);
     }
 
     void read() {
@@ -81,7 +82,7 @@ class Page {
 
     Texts alone() const {
         const RunPart& part = parts_.front();
-        const bool beside = true;
+        const bool beside = lies_beside(part);
         const PageFiles& files = page_files();
         const std::string body =
             filled(files.body, {{"film", part.film(beside)},
@@ -101,12 +102,12 @@ class Page {
         const bool beside = false;
         const PageFiles& files = page_files();
         std::string title, columns, words, beds, late;
-        std::vector<std::pair<std::string, fs::path>> scenes;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const RunPart& part = parts_[k];
             title += (k == 0 ? "" : ", ") + html_text(part.name());
             columns += filled(files.variant, {{"n", fmt::format("-{}", k)},
                                               {"name", html_text(part.name())},
+                                              {"folder", folder_line(part)},
                                               {"lead", part.lead()},
                                               {"film", part.film(beside)},
                                               {"bed", part.bed()},
@@ -122,7 +123,7 @@ class Page {
             "</section>\n",
             filled(files.charts, {{"about", ""}}));
         return frame(
-            {{"title", title},
+            {{"title", common_title() + title},
              {"body_class", " class=\"several\""},
              {"lead",
               fmt::format("<p class=\"lead\">{} runs side by side, at the same time of each run.</p>\n",
@@ -132,6 +133,22 @@ class Page {
              {"words", words},
              {"facts", json_in_html(facts())},
              {"blobs", beds + late}});
+    }
+
+    // Where the name says something else.
+    static std::string folder_line(const RunPart& part) {
+        const std::string folder = part.folder().filename().string();
+        return part.name() == folder ? ""
+                                     : fmt::format("<p class=\"faint\">Folder {}</p>\n", html_text(folder));
+    }
+
+    // "Brazil nut: " where all runs have that title, and names that say what differs.
+    std::string common_title() const {
+        const std::string& title = parts_.front().scene().title;
+        const bool common =
+            !title.empty() && std::all_of(parts_.begin(), parts_.end(),
+                                          [&](const RunPart& part) { return part.scene().title == title; });
+        return common ? html_text(title) + ": " : "";
     }
 
     std::string differences() const {

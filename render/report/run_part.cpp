@@ -13,6 +13,9 @@
 #include "render/report/embed/zlib_pack.hpp"
 #include "render/report/page_files.hpp"
 #include "render/report/page_parts.hpp"
+#include "render/run/film_times_table.hpp"
+#include "render/run/moments/key_moments.hpp"
+#include "render/run/run_files.hpp"
 
 namespace grainreel {
 namespace {
@@ -30,12 +33,20 @@ std::string blob(const std::string& id, const std::vector<std::uint8_t>& bytes) 
                        base64(bytes));
 }
 
+// Nothing of a table that is too long.
 std::vector<std::uint8_t> packed_table(const fs::path& file) {
-    std::error_code error;
-    if (!fs::exists(file, error)) return {};
-    std::vector<std::uint8_t> packed = zlib_packed(read_bytes(file));
-    if (packed.size() > most_table_bytes) packed.clear();
-    return packed;
+    try {
+        std::vector<std::uint8_t> packed = zlib_packed(read_bytes(file));
+        if (packed.size() > most_table_bytes) packed.clear();
+        return packed;
+    } catch (const RunError&) {
+        return {};
+    }
+}
+
+bool is_there(const fs::path& file) {
+    std::error_code ignored;
+    return fs::exists(file, ignored);
 }
 
 // Those of the run, and of one that kept contacts at all moments some more.
@@ -60,17 +71,36 @@ RunPart::RunPart(const PageRun& run, std::string name, std::string n, std::size_
 void RunPart::read(const PageProgress& progress) {
     const fs::path& folder = run_.folder;
     record_ = run_facts(folder);
-    table_ = read_measures(folder / "measures.csv");
-    if (table_) measures_ = page_measures(scene(), *table_);
+    read_table(folder / "measures.csv");
     film_ = page_film(scene(), folder, record_.film_frames, progress, most_film_);
     poster_ = page_poster(folder);
     times_ = film_times_of();
     fields_ = page_fields(scene(), folder);
     lead_ = lead_html(scene()) + end_html(scene(), record_, kept_span().to);
-    late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
+    if (table_ && table_fault_.empty())
+        late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
     whole_table_ = !late_blobs_.empty();
     late_blobs_ += blob("fields-bytes" + n_, fields_.packed);
     late_blobs_ += blob("film-bytes" + n_, film_.bytes);
+}
+
+void RunPart::read_table(const fs::path& file) {
+    MeasuresFile read = read_measures_file(file);
+    const std::string name = file.string();
+    const std::int64_t rows = read.table ? static_cast<std::int64_t>(read.table->rows()) : 0;
+    if (!read.table)
+        no_charts_ = fmt::format("{}: {}", name, is_there(file) ? "is empty" : "is missing");
+    else if (std::find(read.table->columns().begin(), read.table->columns().end(), "time_s") ==
+             read.table->columns().end())
+        no_charts_ = fmt::format("{}:1: lacks the column time_s", name);
+    else if (!read.fault.empty())
+        table_fault_ = read.fault;
+    else if (record_.status == "complete" && rows < record_.measures_rows)
+        table_fault_ =
+            fmt::format("{}: has {} of the {} rows that the run wrote", name, rows, record_.measures_rows);
+    if (!no_charts_.empty()) return;
+    table_ = std::move(read.table);
+    measures_ = page_measures(scene(), *table_);
 }
 
 std::size_t RunPart::taken() const {
@@ -80,9 +110,17 @@ std::size_t RunPart::taken() const {
 
 void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
     if (!run_.run) return;
+    const double start = times_.times.empty() ? run_.run->span().from : times_.times.front();
+    const auto coloured = [&](const FrameArchive& moments) {
+        return film_has_scale(scene())
+                   ? std::make_unique<FilmColours>(scene(), moments, run_.run->clock(), start)
+                   : nullptr;
+    };
     try {
         const AllMoments all(*run_.run, run_.contacts);
+        const std::unique_ptr<FilmColours> film = coloured(all);
         BedContacts contacts;
+        contacts.film = film.get();
         contacts.touches = [&all](std::size_t index) { return all.touches(index); };
         contacts.keys = key_moments_of(all);
         bed_news_ = all.news();
@@ -91,7 +129,10 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         // A frame beside the trajectory is damaged: the trajectory does without it.
         bed_news_.push_back(
             fmt::format("{}; the page has the moments of trajectory.nc alone", problem.what()));
-        bed_ = bed_frames(*run_.run, most_bytes, progress);
+        const std::unique_ptr<FilmColours> film = coloured(*run_.run);
+        BedContacts contacts;
+        contacts.film = film.get();
+        bed_ = bed_frames(*run_.run, most_bytes, progress, contacts);
     }
 }
 
@@ -99,9 +140,10 @@ std::string RunPart::title() const {
     return html_text(scene().title.empty() ? scene().name : scene().title);
 }
 
-FilmTimes RunPart::film_times_of() const {
+FilmTimes RunPart::film_times_of() {
     if (film_.bytes.empty() || !record_.film_frames) return {};
     if (auto kept = kept_film_times(run_.folder, *record_.film_frames)) return *kept;
+    table_of_film_is_odd_ = is_there(run_.folder / kFilmTimes);
     return film_times(scene(), *record_.film_frames, kept_span().from, record_.status == "complete");
 }
 
@@ -147,7 +189,10 @@ std::string RunPart::fields(int level) const {
 }
 
 std::string RunPart::charts_about() const {
-    if (!table_ || measures_.rows.empty()) return "The run has no measures.";
+    if (!no_charts_.empty()) return html_text(fmt::format("The page has no charts: {}.", no_charts_));
+    if (measures_.rows.empty()) return "The run has no measures.";
+    if (!table_fault_.empty())
+        return html_text(fmt::format("Charts end before the damage of the file: {}.", table_fault_));
     std::string text =
         whole_table_ ? "" : "The complete table is too long for this page; it lies in measures.csv. ";
     if (!whole_table_ && measures_.rows.size() < table_->rows())
@@ -162,7 +207,8 @@ std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) con
 }
 
 std::string RunPart::facts() const {
-    return facts_json({name_, scene(), span(), film_, times_, bed_, table_.get(), measures_, fields_});
+    return facts_json({name_, folder().filename().string(), scene(), span(), film_, times_, bed_,
+                       table_.get(), measures_, fields_});
 }
 
 std::string RunPart::bed_blob() const {
@@ -180,15 +226,49 @@ std::string RunPart::no_moments() const {
     return "The run kept no moment of its grains";
 }
 
+// Files that the scene or what lies beside them says were there.
+std::vector<std::string> RunPart::lacking_files() const {
+    std::vector<std::string> lines;
+    const auto check = [&](const char* name, bool expected, const char* lost) {
+        if (expected && !is_there(folder() / name))
+            lines.push_back(fmt::format("{}: is missing; {}", (folder() / name).string(), lost));
+    };
+    const bool moments = run_.run != nullptr, film = record_.film_frames.value_or(0) > 0;
+    check("contacts.nc", moments && scene().output.contacts, "the page has forces of key moments at most");
+    check(kFilmMoments, moments && film && scene().output.film_moments.value_or(false),
+          "the page has no moments of the film's pictures");
+    check(kKeyMoments, moments && is_there(folder() / kKeyContacts), "the page has no forces of key moments");
+    check("fields.nc", scene().output.fields.wanted(), "the page has no fields");
+    check("poster.png", film, "the page has no picture before the film plays");
+    if (film && poster_.empty() && is_there(folder() / "poster.png"))
+        lines.push_back(fmt::format("{}: cannot be read; the page has no picture before the film plays",
+                                    (folder() / "poster.png").string()));
+    if (table_of_film_is_odd_)
+        lines.push_back(
+            fmt::format("{}: is not of this film; the page takes the moments of its frames from the scene",
+                        (folder() / kFilmTimes).string()));
+    return lines;
+}
+
 std::vector<std::string> RunPart::news() const {
     std::vector<std::string> news;
     if (run_.run)
         news = run_.run->news();
     else if (record_.trajectory_frames > 0)
         news.push_back(no_moments() + "; the page has no bed");
+    const auto add = [&](const std::string& line) {
+        if (!line.empty()) news.push_back(line);
+    };
+    if (!record_.fault.empty())
+        add(record_.fault + "; how the run ended and what made it are not on the page");
+    if (!no_charts_.empty()) add(no_charts_ + "; the page has no charts");
+    if (!table_fault_.empty() && news.end() == std::find_if(news.begin(), news.end(), [&](const auto& line) {
+                                     return line.starts_with(table_fault_);
+                                 }))
+        add(table_fault_ + "; charts show those, and the page does not hold the file");
+    for (const std::string& line : lacking_files()) add(line);
     news.insert(news.end(), bed_news_.begin(), bed_news_.end());
-    for (const std::string& note : {film_.note, times_.why_not})
-        if (!note.empty()) news.push_back(note);
+    for (const std::string& note : {film_.note, times_.why_not, fields_.why_not}) add(note);
     if (bed_.moments.size() < bed_.all_moments)
         news.push_back(fmt::format("the page has {} of the run's {} moments; there is no room for the others",
                                    bed_.moments.size(), bed_.all_moments));

@@ -48,7 +48,9 @@ class RunPart {
     std::vector<std::string> news() const;  // what the user is to know
 
   private:
-    FilmTimes film_times_of() const;
+    void read_table(const std::filesystem::path& file);
+    FilmTimes film_times_of();
+    std::vector<std::string> lacking_files() const;
     std::string no_moments() const;
     Span kept_span() const;  // of moments and measures
 
@@ -65,7 +67,8 @@ class RunPart {
     std::vector<std::string> bed_news_;
     PageFields fields_;
     std::string lead_, late_blobs_;
-    bool whole_table_ = false;
+    bool whole_table_ = false, table_of_film_is_odd_ = false;
+    std::string no_charts_, table_fault_;  // why there are none; what is wrong with measures.csv
 };
 
 }  // namespace grainreel

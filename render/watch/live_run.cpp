@@ -136,7 +136,11 @@ void LiveRun::read_bed_again() {
         const std::vector<Frame>& moments = run.moments();
         trajectory_time_ = time;
         if (moments.back().step == bed_step_) return;
-        const BedFrames bed = bed_frames_of(run, shown_of(moments.size()));
+        std::optional<FilmColours> film;
+        if (film_has_scale(run.scene())) film.emplace(run.scene(), run, run.clock(), run.span().from);
+        BedContacts beside;
+        beside.film = film ? &*film : nullptr;
+        const BedFrames bed = bed_frames_of(run, shown_of(moments.size()), kNoPageProgress, beside);
         bed_step_ = moments.back().step;
         bed_time_ = moments.back().time;
         auto bytes = shared(with_length(bed_facts_json(run.scene(), bed), bed.packed));

@@ -36,6 +36,11 @@ void limit(int resource, rlim_t most) {
 void become_program(const std::vector<std::string>& words, const Program::Setting& setting, const char* out,
                     const char* err) {
     ::dup2(::open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    if (int ends[2]; setting.out_closed && ::pipe(ends) == 0) {
+        ::close(ends[0]);
+        ::dup2(ends[1], STDOUT_FILENO);
+        ::close(ends[1]);
+    }
     ::dup2(::open(err, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     if (::chdir(setting.folder.c_str()) != 0) ::_exit(127);
     // Not the tester's own cache; all tests together measure the machine once.

@@ -25,6 +25,7 @@ class Program {
         int seconds_limit = 0;                   // s, of processor time, then SIGXCPU ends it; 0: none
         bool hang_up_ignored = false;            // SIGHUP, as under nohup; whatever the test itself inherits
         std::filesystem::path out{};             // takes stdout in place of Ended::out
+        bool out_closed = false;                 // stdout is a pipe whose reader has ended
     };
 
     // Starts the program with these words after its name.

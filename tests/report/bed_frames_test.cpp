@@ -23,6 +23,7 @@ class MadeRun final : public FrameArchive {
         for (const Frame& frame : frames_) {
             Frame moment;
             moment.time = frame.time;
+            moment.step = frame.step;
             moments_.push_back(moment);
         }
     }
@@ -64,13 +65,14 @@ struct Grain {
     float radius = 0;
     bool present = false;
     std::array<int, 3> number{};
-    int speed = 0, contacts = 0;
+    int speed = 0, contacts = 0, film = 0;
 };
 
 // Moment by moment, by id.
 std::vector<std::map<int, Grain>> read_back(const BedFrames& bed) {
     const std::size_t n = bed.grains, k = bed.moments.size();
-    std::vector<std::uint8_t> bytes(10 * n + 9 * n * k);
+    const std::size_t each = bed.has_film_colours ? 10 : 9;
+    std::vector<std::uint8_t> bytes(10 * n + each * n * k);
     const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> unpacker(
         libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
     // Null for the size that there was: the bytes must be just so many.
@@ -90,7 +92,7 @@ std::vector<std::map<int, Grain>> read_back(const BedFrames& bed) {
         now[i].species = species;
     }
     for (std::size_t frame = 0; frame < k; ++frame) {
-        const std::uint8_t* at = &bytes[10 * n + 9 * n * frame];
+        const std::uint8_t* at = &bytes[10 * n + each * n * frame];
         std::map<int, Grain> moment;
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,6 +103,7 @@ std::vector<std::map<int, Grain>> read_back(const BedFrames& bed) {
             now[i].speed = at[6 * n + i];
             now[i].contacts = at[7 * n + i];
             now[i].present = at[8 * n + i] == 1;
+            now[i].film = bed.has_film_colours ? at[9 * n + i] : 0;
             moment[ids[i]] = now[i];
         }
         moments.push_back(moment);
@@ -239,6 +242,69 @@ TEST(BedFrames, KeepsEvenlySpreadMomentsThatFitFirstAndLastAmongThem) {
     for (std::size_t k = 1; k < bed.moments.size(); ++k)
         EXPECT_NEAR(bed.moments[k].time - bed.moments[k - 1].time, mean, period);
     EXPECT_EQ(bed_frames(MadeRun(frames), 1).moments.size(), 1u);
+}
+
+// A byte over the film's range, of bands their middle; 0 of a grain that was not there at the film's start.
+TEST(BedFrames, HaveTheFilmsColours) {
+    std::vector<Frame> frames = random_frames(3, 40);
+    frames[2].id.push_back(1000);
+    frames[2].species.push_back(0);
+    frames[2].radius.push_back(1e-3);
+    frames[2].position.emplace_back(0, 0, 0.1);
+    frames[2].velocity.emplace_back(0, 0.3, 0);
+    const MadeRun run(frames);
+    const auto bytes_of = [&](GrainValue by, double high, double start) {
+        Scene scene;
+        scene.film.shows.colour.by = by;
+        scene.film.shows.colour.range = {0, high};
+        scene.film.shows.colour.layers = 4;
+        FilmColours film(scene, run, Clock(), start);
+        BedContacts beside;
+        beside.film = &film;
+        return read_back(bed_frames(run, plenty, kNoPageProgress, beside));
+    };
+    const auto speeds = bytes_of(GrainValue::speed, 0.5, 0),
+               heights = bytes_of(GrainValue::start_height, 0.2, period);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < frames[k].size(); ++i) {
+            const int id = frames[k].id[i];
+            const double share = std::min(1.0, frames[k].velocity[i].norm() / 0.5);
+            EXPECT_EQ(speeds[k].at(id).film, 1 + std::lround(254 * share)) << k << " " << id;
+            if (id == 1000) {
+                EXPECT_EQ(heights[k].at(id).film, 0);
+                continue;
+            }
+            const double at_start = frames[1].position[i].z();  // the film begins at the second moment
+            const double band = std::clamp(std::floor(4 * at_start / 0.2), 0.0, 3.0);
+            EXPECT_EQ(heights[k].at(id).film, 1 + std::lround(254 * (band + 0.5) / 4)) << k << " " << id;
+        }
+}
+
+// How far a grain came since a moment a period earlier, where there is one.
+TEST(BedFrames, HaveWaysOverAPeriodWhereTheMomentBeforeIsKept) {
+    std::vector<Frame> frames = random_frames(3, 5);
+    Scene scene;
+    scene.drive.present = true;
+    scene.drive.frequency = 1 / period;
+    scene.film.shows.colour.by = GrainValue::displacement;
+    scene.film.shows.colour.range = {0, 0.4};
+    Clock clock;
+    clock.step = period / 100;
+    clock.steps_per_period = 100;
+    for (std::size_t k = 0; k < 3; ++k) frames[k].step = static_cast<std::int64_t>(100 * k);
+    const MadeRun run(frames);
+    FilmColours film(scene, run, clock, 0);
+    BedContacts beside;
+    beside.film = &film;
+    const BedFrames bed = bed_frames(run, plenty, kNoPageProgress, beside);
+    EXPECT_EQ(bed.film_coloured, 2u);
+    const auto read = read_back(bed);
+    for (std::size_t i = 0; i < 5; ++i) {
+        const int id = frames[0].id[i];
+        EXPECT_EQ(read[0].at(id).film, 0);
+        const double way = (frames[2].position[i] - frames[1].position[i]).norm();
+        EXPECT_EQ(read[2].at(id).film, 1 + std::lround(254 * std::min(1.0, way / 0.4)));
+    }
 }
 
 TEST(BedFrames, OfTooManyGrainsThoseNearestToTheMiddleAreKept) {

@@ -84,9 +84,10 @@ TEST(StudyTable, HasARowAMember) {
 
 TEST(StudyText, IsEscapedWhereverItGoes) {
     EXPECT_EQ(html_text("<a href=\"x\">'&"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;");
-    EXPECT_EQ(gnuplot_text("it's `x`\n"), "'it''s `x` '");
+    EXPECT_EQ(gnuplot_text("`x` \\ \"\n"), "'`x` \\ \" '");
+    EXPECT_EQ(gnuplot_text("it's `x`\n"), "\"it\\047s \\140x\\140 \"");  // octal numbers of ' and `
     EXPECT_EQ(gnuplot_lines("height of it's \u0393\u0393, m", 14),
-              "'height of it''s'.\"\\n\".'\u0393\u0393, m'");
+              "\"height of it\\047s\".\"\\n\".'\u0393\u0393, m'");
     EXPECT_EQ(gnuplot_lines("an unbreakable word", 4),
               "'an'.\"\\n\".'unbr'.\"\\n\".'eaka'.\"\\n\".'ble'.\"\\n\".'word'");
     EXPECT_EQ(gnuplot_lines("", 4), "''");
@@ -94,6 +95,20 @@ TEST(StudyText, IsEscapedWhereverItGoes) {
     EXPECT_EQ(shell_word(""), "''");
     EXPECT_EQ(shell_words({"--set", "drive.frequency=\"25 Hz\""}), "--set 'drive.frequency=\"25 Hz\"'");
     EXPECT_EQ(csv_cell("a,b"), "\"a,b\"");
+}
+
+// A doubled quote at a text's beginning, or two of them in a row, end it for gnuplot (5.4).
+TEST(StudyCharts, AreDrawnWhereverNamesHaveQuotes) {
+    for (const std::string name : {"'", "'quoted'", "a''b", "' ' \"`ls` \\n @x $y"}) {
+        Made made(small_study);
+        made.study.charts[0].title = made.study.charts[0].reference_label = name;
+        made.study.measures[1].label = made.study.variations[0].label = made.study.variations[1].label = name;
+        const DrawnCharts charts =
+            draw_charts(made.study, made.members, made.results, {{{2, 5, 1}}}, made.folder.path() / "charts");
+        ASSERT_TRUE(charts.drawn) << name;
+        const std::string svg = text_of(made.folder.path() / "charts" / (charts.stems[0] + ".svg"));
+        EXPECT_THAT(svg, HasSubstr(">" + name + "<")) << name;
+    }
 }
 
 // Names that mean something to gnuplot, SVG, HTML or a shell: they show, and nothing is run.

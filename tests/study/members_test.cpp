@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <set>
 
 #include "engine/base/error.hpp"
@@ -56,6 +58,21 @@ TEST(StudyMembers, KeepTheirNamesWhileTheirRunIsTheSame) {
     EXPECT_EQ(name_of_first(folder, "set = [\"film.rate=25\"]\n" + small_study), first);
     EXPECT_NE(name_of_first(folder, "set = [\"run.duration=0.1 s\"]\n" + small_study), first);
     EXPECT_NE(name_of_first(folder, with_line(small_study, "[2, 3]", "[2.5, 3]")), first);
+}
+
+// TOML has numbers that are none.
+TEST(StudyMembers, ValuesThatAreNoNumberHaveTheirPlace) {
+    const StudyFolderOfTest folder;
+    for (const char* value : {"nan", "-nan", "inf"}) {
+        const Study study =
+            folder.read(with_line(small_study, "values = [2, 3]", fmt::format("values = [2, {}]", value)));
+        try {
+            members_of(study);
+            ADD_FAILURE() << value;
+        } catch (const UserError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("study.toml:5:14: 'g_level' must be ")) << value;
+        }
+    }
 }
 
 TEST(StudyMembers, ManyAreAskedAbout) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/nearest_name.hpp"
 #include "engine/inspect/dimensions.hpp"
 
 namespace grainreel {
@@ -59,6 +60,17 @@ std::vector<double> values_of(const Snapshot& snapshot, int number) {
     GrainList all(snapshot.frame.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     return values_of(snapshot, number, all);
+}
+
+int column_called(const Snapshot& snapshot, const std::string& name) {
+    const GrainVocabulary words(snapshot);
+    const auto word = words.find(name);
+    if (word && word->column >= 0) return word->column;
+    std::vector<std::string> names;
+    for (const GrainColumn& column : grain_columns()) names.push_back(column.name);
+    const std::optional<std::string> meant = nearest_name(name, names);
+    throw UserError(fmt::format("'{}' is no quantity of a grain{}", name,
+                                meant ? fmt::format("; did you mean '{}'?", *meant) : ""));
 }
 
 std::vector<Needs> needs_of(std::string_view text) {

@@ -38,6 +38,8 @@ std::vector<GrainColumn> contact_columns();
 // m: grains whose surfaces are closer are neighbours, as the observer `unlike_neighbours` has it.
 double gap_of_neighbours(const Scene& scene);
 
+// The number of the column with this name. Throws UserError where there is none, or the snapshot lacks it.
+int column_called(const Snapshot& snapshot, const std::string& name);
 // Of the column with this number: of these grains, or of all grains of the frame.
 std::vector<double> values_of(const Snapshot& snapshot, int column, const GrainList& grains);
 std::vector<double> values_of(const Snapshot& snapshot, int column);

@@ -7,6 +7,7 @@
 namespace grainreel {
 
 std::string toml_number(double value) {
+    if (std::isnan(value)) return "nan";
     if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
     std::string text = fmt::format("{}", value);
     if (text.find_first_of(".e") == std::string::npos) text += ".0";

@@ -25,6 +25,10 @@ std::string si_unit(Dimension dimension) {
     return dimension == Dimension::number ? "" : text_of(dimension).unit;
 }
 
+std::string si_unit(const AnswerColumn& column) {
+    return column.unit.empty() ? si_unit(column.dimension) : column.unit;
+}
+
 // Of a cell in a table whose rows are quantities of their own, too.
 Dimension dimension_of(const AnswerTable& table, std::size_t row, std::size_t column) {
     const Dimension own = table.columns[column].dimension;
@@ -47,6 +51,9 @@ class Units {
                 unit = fitting_unit(typical *= 10, dimension);
             unit_[dimension] = unit;
         }
+    }
+    std::string of(const AnswerColumn& column) const {
+        return column.unit.empty() ? of(column.dimension) : column.unit;
     }
     // Empty of pure numbers.
     std::string of(Dimension dimension) const {
@@ -109,7 +116,7 @@ struct Block {
 Block block_of(const AnswerTable& table, std::size_t column, const Units& units) {
     Block block;
     block.left = is_words(table, column);
-    block.lines.push_back(named(table.columns[column].name, units.of(table.columns[column].dimension)));
+    block.lines.push_back(named(table.columns[column].name, units.of(table.columns[column])));
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
         const Dimension dimension = dimension_of(table, row, column);
         std::string cell = for_people(table.rows[row][column], unit_size(units.of(dimension), dimension));
@@ -148,20 +155,12 @@ std::string tall_table(const AnswerTable& table, const Units& units) {
     std::string text;
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
         const AnswerColumn& column = table.columns[k];
-        const std::string unit = units.of(column.dimension);
-        text += fmt::format("  {:<{}}  {}{}{}{}\n", column.name, width,
-                            for_people(table.rows[0][k], unit_size(unit, column.dimension)),
+        const std::string unit = units.of(column);
+        const double size = unit_size(units.of(column.dimension), column.dimension);
+        text += fmt::format("  {:<{}}  {}{}{}{}\n", column.name, width, for_people(table.rows[0][k], size),
                             unit.empty() ? "" : " " + unit, column.about.empty() ? "" : "   ", column.about);
     }
     return text;
-}
-
-// "At 4.02 s (step 21503): brought back".
-std::string moment_line(const Answer& answer) {
-    if (!answer.moment) return "";
-    const AnswerMoment& moment = *answer.moment;
-    if (!std::isfinite(moment.time)) return "At a time that is not known\n";
-    return fmt::format("At {:.6g} s (step {}): {}\n", moment.time, moment.step, moment.how);
 }
 
 Json json_cell(const AnswerCell& cell) {
@@ -174,8 +173,7 @@ Json json_cell(const AnswerCell& cell) {
 Json json_table(const AnswerTable& table) {
     Json columns = Json::array(), rows = Json::array();
     for (const AnswerColumn& column : table.columns)
-        columns.push_back(
-            {{"name", column.name}, {"unit", si_unit(column.dimension)}, {"about", column.about}});
+        columns.push_back({{"name", column.name}, {"unit", si_unit(column)}, {"about", column.about}});
     for (const auto& row : table.rows) {
         Json cells = Json::array();
         for (const AnswerCell& cell : row) cells.push_back(json_cell(cell));
@@ -202,10 +200,18 @@ std::string csv_cell(const AnswerCell& cell) {
 
 }  // namespace
 
+std::string moment_line(const Answer& answer) {
+    if (!answer.moment) return "";
+    const AnswerMoment& moment = *answer.moment;
+    if (!std::isfinite(moment.time)) return "At a time that is not known";
+    return fmt::format("At {:.6g} s (step {}): {}", moment.time, moment.step, moment.how);
+}
+
 std::string text_of(const Answer& answer) {
     constexpr std::size_t widest = 7;  // columns of a single row that stand side by side
     const Units units(answer);
     std::string text = moment_line(answer);
+    if (!text.empty()) text += "\n";
     for (const AnswerTable& table : answer.tables) {
         text += (text.empty() ? "" : "\n") + table.title + "\n";
         if (table.rows.empty()) {
@@ -236,7 +242,7 @@ std::string csv_of(const Answer& answer) {
         if (!text.empty()) text += "\n";
         std::string head;
         for (const AnswerColumn& column : table.columns) {
-            const std::string unit = si_unit(column.dimension);
+            const std::string unit = si_unit(column);
             head +=
                 (head.empty() ? "" : ",") + csv_words(column.name + (unit.empty() ? "" : " (" + unit + ")"));
         }

@@ -37,7 +37,8 @@ void print_exact(std::string_view text) {
 
 void close_results() {
     if (std::fflush(stdout) != 0) note_error();
-    if (first_error != 0)
+    // `inspect ... | head` has read what it wanted.
+    if (first_error != 0 && first_error != EPIPE)
         throw RunError(fmt::format("stdout: cannot be written: {}", std::strerror(first_error)));
 }
 

@@ -13,7 +13,8 @@ void print_result(std::string_view text);
 // What a script takes as it is, the name of a folder or a command: written out on a terminal only.
 void print_exact(std::string_view text);
 
-// To be called once, at the end. Throws RunError when some of what was printed did not get there.
+// To be called once, at the end. Throws RunError when some of what was printed did not get there. A reader
+// that has closed the pipe wants no more, which is no failure.
 void close_results();
 
 }  // namespace grainreel

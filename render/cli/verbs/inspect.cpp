@@ -10,6 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/inspect/columns/grain_columns.hpp"
+#include "engine/inspect/histogram.hpp"
 #include "engine/inspect/mean_answer.hpp"
 #include "engine/inspect/questions.hpp"
 #include "render/cli/inspect/print_answer.hpp"
@@ -81,8 +82,8 @@ class Inspect final : public Verb {
         CLI::Option* average =
             parser
                 .add_option("--average", average_,
-                            "Mean over this many periods up to the moment; with --where, --profile, --wall, "
-                            "--pair-distribution")
+                            "Mean over this many periods up to the moment; of the largest overlaps, those of "
+                            "all these moments")
                 ->type_name("N")
                 ->check(CLI::Range(0.05, 1e6));
         parser.add_flag("--no-replay", no_replay_,
@@ -114,8 +115,7 @@ class Inspect final : public Verb {
 
     int run(Reporter& reporter) override {
         if (!picture_.empty()) check_picture_file(picture_);
-        if (average_ && !(where_ || profile_ || wall_ || pairs_))
-            throw UserError("--average: goes with --where, --profile, --wall or --pair-distribution");
+        check_options();
         const std::unique_ptr<const Record> record = open_record();
         tell_news(*record, reporter);
         MomentFinder finder(*record);
@@ -123,12 +123,35 @@ class Inspect final : public Verb {
             average_ ? mean_answer(finder, *record, reporter) : single_answer(finder, *record, reporter);
         answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
         print_result(json_ ? json_of(answer) : csv_ ? csv_of(answer) : text_of(answer));
+        if (csv_) tell_beside(answer, reporter);
         return 0;
     }
 
     bool ends_in_good_order() const override { return false; }
 
   private:
+    // What would be accepted and do nothing.
+    void check_options() const {
+        if (average_ && compare_)
+            throw UserError(
+                "--average: --compare is between two moments, of which there is no mean; leave one out");
+        if (average_ && !pixel_.empty())
+            throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
+        const bool draws = !picture_.empty() || !pixel_.empty();
+        if (film_time_ && !draws)
+            throw UserError("--film-time: says what a picture shows; add --png or --pixel");
+        for (const Assignment& set : sets_)
+            if (!draws && set.key() != "run.threads")
+                throw UserError(
+                    fmt::format("{}: says how a picture is drawn; add --png or --pixel", set.place()));
+    }
+
+    // A table has no room for words.
+    static void tell_beside(const Answer& answer, Reporter& reporter) {
+        if (const std::string line = moment_line(answer); !line.empty()) reporter.info(line);
+        for (const std::string& note : answer.notes) reporter.info(note);
+    }
+
     void add_questions(CLI::App& parser) {
         std::vector<CLI::Option*> questions = {
             parser
@@ -305,16 +328,40 @@ class Inspect final : public Verb {
     Answer mean_answer(MomentFinder& finder, const Record& record, Reporter& reporter) const {
         const AskedMoment asked = finder.find(moment_);
         const bool replay = !no_replay_ && finder.can_bring_back(asked);
-        MeanAnswer mean;
-        std::size_t moments = 0;
-        finder.over_periods(asked, *average_, replay, watcher_of(reporter), [&](const Snapshot& snapshot) {
-            mean.add(answer_of(finder, snapshot, reporter));
+        if (!replay && asks_for_forces())
+            throw UserError(
+                "--average: forces on walls and overlaps are not kept, and nothing is brought back here; "
+                "leave "
+                "--no-replay out, or run the scene again with output.checkpoints");
+        MeanAnswer mean(limit_);
+        std::optional<Histogram> histogram;
+        if (histogram_) histogram.emplace(*histogram_);
+        std::size_t moments = 0, without_grain = 0;
+        double bin = 0;
+        finder.over_periods(asked, *average_, replay, watcher_of(reporter), [&](Snapshot snapshot) {
             ++moments;
+            // Grains come and go; bins of all moments are the same.
+            if (bin == 0 && snapshot.frame.size() > 0) bin = snapshot.bin();
+            snapshot.bin_width = bin;
+            if (grain_ && !snapshot.place_of(*grain_))
+                ++without_grain;
+            else if (histogram)
+                named("--histogram", [&] { return histogram->add(snapshot); });
+            else
+                mean.add(answer_of(finder, snapshot, reporter), snapshot.frame.time);
         });
         if (moments == 0)
             throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
                                         record.folder().string(), *average_, asked.time));
-        Answer answer = mean.mean();
+        if (without_grain == moments)
+            throw UserError(
+                fmt::format("--grain: no grain has the id {} at any of the {} moments", *grain_, moments));
+        Answer answer = histogram ? named("--histogram",
+                                          [&] { return histogram->answer(static_cast<std::size_t>(bins_)); })
+                                  : mean.mean();
+        if (without_grain > 0)
+            answer.notes.push_back(
+                fmt::format("the grain is not there at {} of the {} moments", without_grain, moments));
         answer.moment = {asked.time, asked.step,
                          fmt::format("mean over {} moments of the {} periods before", moments, *average_)};
         return answer;

@@ -75,8 +75,10 @@ class BedWriter {
             go_on_or_stop(progress_, static_cast<double>(k + 1) / static_cast<double>(chosen.size()));
             const bool is_key = std::binary_search(keys.begin(), keys.end(), chosen[k]);
             Frame frame = run_.grains(chosen[k]);
-            const auto touches = touches_of(chosen[k], is_key || frame.contact_number.empty());
+            const bool for_film = contacts_.film != nullptr && contacts_.film->wants_touches();
+            const auto touches = touches_of(chosen[k], is_key || for_film || frame.contact_number.empty());
             add(frame, touches);
+            if (contacts_.film != nullptr) add_film_colours(chosen[k], frame, touches);
             if (is_key && touches) forces.add(k, *touches, slot_);
         }
         bed_.packed = zlib_packed(bytes_);
@@ -92,6 +94,7 @@ class BedWriter {
     // Who is there, in which box, and how fast.
     void survey(const std::vector<std::size_t>& chosen) {
         bed_ = BedFrames();
+        bed_.has_film_colours = contacts_.film != nullptr;
         boxed_ = false;
         bed_.all_moments = run_.moments().size();
         std::map<std::int32_t, Kept> seen;
@@ -149,6 +152,19 @@ class BedWriter {
         if (told || touches) ++bed_.counted;
     }
 
+    void add_film_colours(std::size_t index, Frame& frame, const std::optional<std::vector<Touch>>& touches) {
+        const std::size_t begin = bytes_.size();
+        bytes_.resize(begin + kept_.size(), 0);
+        const std::vector<std::uint8_t> colours = contacts_.film->of(index, frame, touches);
+        bool known = frame.size() == 0;
+        for (std::size_t i = 0; i < frame.size(); ++i)
+            if (const auto found = slot_.find(frame.id[i]); found != slot_.end()) {
+                bytes_[begin + found->second] = colours[i];
+                known = known || colours[i] > 0;
+            }
+        bed_.film_coloured += known;
+    }
+
     static std::uint8_t contact_byte(std::int32_t number) {
         return static_cast<std::uint8_t>(std::clamp<std::int32_t>(number, 0, most_contacts));
     }
@@ -203,9 +219,8 @@ std::uint8_t speed_byte(double speed, double lowest, double highest) {
 }
 
 BedFrames bed_frames_of(const FrameArchive& run, const std::vector<std::size_t>& chosen,
-                        const PageProgress& progress) {
-    const BedContacts none;
-    return BedWriter(run, progress, none).write(chosen, {});
+                        const PageProgress& progress, const BedContacts& contacts) {
+    return BedWriter(run, progress, contacts).write(chosen, {});
 }
 
 BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes, const PageProgress& progress,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/draw/grains/colour_map.hpp"
+#include "render/draw/grains/colour_scale.hpp"
 #include "render/report/bed/slabs.hpp"
 
 namespace grainreel {
@@ -36,10 +37,11 @@ double rounded(double value) {
     return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
 
+constexpr int kRampSteps = 64;
+
 Json ramp(ColourMap map) {
-    constexpr int steps = 64;
     Json colours = Json::array();
-    for (int i = 0; i < steps; ++i) colours.push_back(of_colour(colour_of(map, i / (steps - 1.0))));
+    for (int i = 0; i < kRampSteps; ++i) colours.push_back(of_colour(colour_of(map, i / (kRampSteps - 1.0))));
     return colours;
 }
 
@@ -79,6 +81,23 @@ Json forces_json(const PairForces& forces) {
     return {{"moments", moments}, {"pairs", pairs}, {"lowest", forces.lowest}, {"highest", forces.highest}};
 }
 
+// What the film's colour bar says; nothing where its colours are those of the species.
+Json film_colours_json(const Scene& scene, const BedFrames& bed) {
+    if (!bed.has_film_colours) return {};
+    const GrainColouring& colouring = scene.film.shows.colour;
+    const ColourScale scale(colouring);
+    Json colours = Json::array();
+    const int bands = scale.bands(), count = bands > 0 ? bands : kRampSteps;
+    for (int i = 0; i < count; ++i) colours.push_back(of_colour(scale.at_share((i + 0.5) / count)));
+    return {{"title", scale.title()},
+            {"low", scale.low() / scale.unit_size()},
+            {"high", scale.high() / scale.unit_size()},
+            {"unit", colouring.unit},
+            {"bands", bands},
+            {"known", bed.film_coloured},
+            {"colours", colours}};
+}
+
 Json bed_json(const Scene& scene, const BedFrames& bed) {
     const std::vector<Slab> slabs = slabs_of(scene);
     const Extent box = box_of(slabs, scene);
@@ -97,6 +116,7 @@ Json bed_json(const Scene& scene, const BedFrames& bed) {
             {"high", of_vector(bed.high)},
             {"speed", {{"lowest", bed.lowest_speed}, {"highest", bed.highest_speed}}},
             {"contacts", bed.counted > 0},
+            {"film", film_colours_json(scene, bed)},
             {"forces", forces_json(bed.forces)},
             {"period", scene.container.periodic_depth ? scene.container.depth : 0.0},
             {"bodies", bodies},
@@ -199,6 +219,7 @@ std::string all_measures_json(const MeasureTable& table, const PageMeasures& mea
 
 std::string facts_json(const PageFacts& facts) {
     Json json = {{"name", facts.name},
+                 {"folder", facts.folder},
                  {"begin", facts.span.from},
                  {"end", facts.span.to},
                  {"bed", facts.bed.moments.empty() ? Json() : bed_json(facts.scene, facts.bed)}};

@@ -14,7 +14,8 @@
 namespace grainreel {
 
 struct PageFacts {
-    std::string name;  // of the run, where the page has several
+    std::string name;    // of the run, where the page has several
+    std::string folder;  // its name
     const Scene& scene;
     Span span;
     const PageFilm& film;

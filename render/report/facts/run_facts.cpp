@@ -29,12 +29,24 @@ std::string text_of(const Json* value) {
     return value->is_string() ? value->get<std::string>() : value->dump();
 }
 
-Json parsed(const std::filesystem::path& path) {
+// fault: what is wrong with the file, if something is.
+Json parsed(const std::filesystem::path& path, std::string& fault) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+        fault = path.string() + ": is missing";
+        return {};
+    }
     try {
         const std::vector<std::uint8_t> bytes = read_bytes(path);
         const bool may_throw = false;
-        return Json::parse(bytes.begin(), bytes.end(), nullptr, may_throw);
-    } catch (const RunError&) {
+        Json record = Json::parse(bytes.begin(), bytes.end(), nullptr, may_throw);
+        if (record.is_discarded())
+            fault = path.string() + ": is damaged, for it is no JSON";
+        else if (!record.is_object() || !record.contains("status"))
+            fault = path.string() + ": is no record of a run";
+        return record;
+    } catch (const RunError& problem) {
+        fault = problem.what();
         return {};
     }
 }
@@ -42,9 +54,9 @@ Json parsed(const std::filesystem::path& path) {
 }  // namespace
 
 RunFacts run_facts(const std::filesystem::path& folder) {
-    const Json record = parsed(folder / "run.json");
-    const auto text = [&](std::initializer_list<const char*> path) { return text_of(member(record, path)); };
     RunFacts facts;
+    const Json record = parsed(folder / "run.json", facts.fault);
+    const auto text = [&](std::initializer_list<const char*> path) { return text_of(member(record, path)); };
     facts.status = text({"status"}).empty() ? "unknown" : text({"status"});
     if (facts.status == "running" && !FolderLock::holder(folder)) facts.status = "broken off";
     facts.error = text({"error"});
@@ -56,6 +68,8 @@ RunFacts run_facts(const std::filesystem::path& folder) {
     if (frames != nullptr && frames->is_number_integer()) facts.film_frames = frames->get<std::int64_t>();
     const Json* kept = member(record, {"written", "trajectory_frames"});
     if (kept != nullptr && kept->is_number_integer()) facts.trajectory_frames = kept->get<std::int64_t>();
+    const Json* rows = member(record, {"written", "measures_rows"});
+    if (rows != nullptr && rows->is_number_integer()) facts.measures_rows = rows->get<std::int64_t>();
     const auto line = [&](const char* name, const std::string& words) {
         if (!words.empty()) facts.lines.emplace_back(name, words);
     };

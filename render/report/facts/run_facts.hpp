@@ -21,6 +21,8 @@ struct RunFacts {
     std::optional<std::int64_t> film_frames;
     std::int64_t trajectory_frames = 0;
     std::vector<std::string> warnings;
+    std::int64_t measures_rows = 0;
+    std::string fault;  // why nothing is known: "run.json: is missing"
 };
 
 // Whatever the file lacks or has in another form is left out: nothing of it is trusted.

@@ -120,6 +120,7 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
         film.note = fmt::format("The film is not on this page, since {} is damaged ({}).", name, damage);
         return film;
     }
+    film.whole_in_folder = true;
     film.type = type_of(scene.film.format);
     if (!film.type.empty() && size <= most_bytes) {
         film.bytes = read_bytes(folder / name);
@@ -129,7 +130,8 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
                                               : fmt::format("the film has {}", size_text(size));
     film.type = "video/mp4";
     film.note = fmt::format(
-        "This is a copy of at most 720 lines, since {}; the film itself lies beside this page.", why);
+        "This is a copy of at most 720 lines, since {}; the film itself is {} in the run's folder.", why,
+        name);
     const auto planned = static_cast<double>(std::max<std::int64_t>(1, frames.value_or(1)));
     std::int64_t copied = 0;
     const auto picture_taken = [&] {
@@ -144,17 +146,17 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
             film.bytes = read_bytes(folder / kPageCopy);
     } catch (const RunError& problem) {
         film.note = fmt::format(
-            "The film is not on this page, since {}, and no copy could be made ({}); it lies "
-            "beside the page.",
-            why, problem.what());
+            "The film is not on this page, since {}, and no copy could be made ({}); it is {} in the run's "
+            "folder.",
+            why, problem.what(), name);
         return film;
     }
     if (!film.bytes.empty() && film.bytes.size() <= most_bytes) return film;
     film.bytes.clear();
     film.note = fmt::format(
-        "The film is not on this page, since {} and even a smaller copy is too large for it; it "
-        "lies beside the page.",
-        why);
+        "The film is not on this page, since {} and even a smaller copy is too large for it; it is {} in the "
+        "run's folder.",
+        why, name);
     return film;
 }
 

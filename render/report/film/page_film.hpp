@@ -17,6 +17,7 @@ struct PageFilm {
     std::vector<std::uint8_t> bytes;  // empty where the page has none
     std::string type;                 // "video/mp4"
     std::string file;                 // in the run's folder: "movie.mp4"; empty without a film
+    bool whole_in_folder = false;     // the file is the film, and plays
     std::string note;  // a sentence for the page where it shows something else than that file, or nothing
 };
 

@@ -1,4 +1,6 @@
 // The bed beside its controls: what colours mean, who is shown, a slice, and the grain that was chosen.
+const asInFilm = 6; // the colouring of the film's grains, where that is none of the others (shaders.js)
+
 class BedPanel {
     /** n: what the ids of its elements end in, where the page has several beds. forceBytes: of key moments, or nothing. */
     constructor(facts, bytes, runTime, n = "", forceBytes = null) {
@@ -126,11 +128,11 @@ class BedPanel {
     fillColours() {
         const select = this.part("colour-by");
         this.findColourings();
-        this.colourings.forEach((one, index) => select.append(element("option", {value: index}, one.name)));
+        for (const one of this.colourings) select.append(element("option", {value: one.by}, one.name));
         select.addEventListener("change", () => {
             for (const panel of [this, ...this.others]) panel.colourAs(Number(select.value));
         });
-        this.colour(0);
+        this.colourAs(this.facts.film ? asInFilm : 0);
     }
 
     // With the ranges that the moments need.
@@ -150,11 +152,16 @@ class BedPanel {
             this.colourings.push({name: "contact number", by: 4, range: [0, 8], unit: "", ramp: "sequential"});
         if (this.forces)
             this.colourings.push({name: "force (logarithmic)", by: 5, range: [0, 1], ends: this.forces.range, unit: "N", ramp: "sequential"});
+        const {film} = facts;
+        if (film)
+            this.colourings.push({name: `as in the film: ${film.title}`, by: asInFilm, range: [0, 1], ends: [film.low, film.high], unit: film.unit});
     }
 
     /** Colours as another bed has them, each on the scale that both need. */
     static shareColourings(panels) {
-        const common = panels[0].colourings.map((one) => ({...one, low: Infinity, high: -Infinity}));
+        const common = [];
+        for (const one of panels.flatMap((panel) => panel.colourings))
+            if (!common.some((other) => other.by === one.by)) common.push({...one, low: Infinity, high: -Infinity});
         const endsOf = (one) => one.ends ?? one.range ?? [0, 0];
         for (const {colourings} of panels)
             for (const one of colourings) {
@@ -169,7 +176,7 @@ class BedPanel {
             const forces = panel.colourings.find((one) => one.by === 5), shared = common.find((one) => one.by === 5);
             if (forces && shared) panel.forces.range = forces.ends = [shared.low, shared.high];
             for (const one of panel.colourings) {
-                if (one.by === 5) continue;
+                if (one.by === 5 || one.by === asInFilm) continue;
                 const from = common.find((other) => other.by === one.by);
                 if (!from || !one.range) continue;
                 if (one.ends) one.ends = [from.low, from.high];
@@ -206,26 +213,29 @@ class BedPanel {
         return rises[Math.floor(0.9 * rises.length)] || 1e-6;
     }
 
-    // By number of the list, where this run has it too.
-    colourAs(index) {
-        if (!this.colourings[index]) return;
-        this.part("colour-by").value = index;
-        this.colour(index);
+    // Where this run has it too.
+    colourAs(by) {
+        if (!this.colourings.some((one) => one.by === by)) return;
+        this.part("colour-by").value = by;
+        this.colour(by);
     }
 
-    colour(index) {
-        this.coloured = index;
-        const one = this.colourings[index], legend = this.part("legend");
+    colour(by) {
+        this.coloured = by;
+        const one = this.colourings.find((other) => other.by === by), legend = this.part("legend");
         this.viewer.colourBy = one.by;
         this.viewer.range = one.range ?? [0, 1];
         legend.hidden = one.by === 0;
         if (one.by > 0) {
-            const ramp = this.facts.ramps[one.ramp];
-            this.viewer.setRamp(new Uint8Array(ramp.flatMap((colour) => [...bytesOfColour(colour), 255])));
+            const ramp = by === asInFilm ? this.facts.film.colours : this.facts.ramps[one.ramp];
+            const banded = by === asInFilm && this.facts.film.bands > 0;
+            this.viewer.setRamp(new Uint8Array(ramp.flatMap((colour) => [...bytesOfColour(colour), 255])), banded);
             const [low, high] = one.ends ?? one.range;
             this.part("legend-low").textContent = `${numberText(low)} ${one.unit}`;
             this.part("legend-high").textContent = `${numberText(high)} ${one.unit}`;
-            this.part("legend-bar").style.background = `linear-gradient(to right, ${ramp.join(",")})`;
+            const stops = ramp.map((colour, k) =>
+                banded ? `${colour} ${(100 * k) / ramp.length}% ${(100 * (k + 1)) / ramp.length}%` : colour);
+            this.part("legend-bar").style.background = `linear-gradient(to right, ${stops.join(",")})`;
         }
         this.viewer.change();
     }

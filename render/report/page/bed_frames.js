@@ -3,13 +3,14 @@
 // The bytes are, for N grains and K moments, little-endian:
 //   ids, N int32; species, N uint16; radii in m, N float32;
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the moment
-//   before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence.
+//   before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the film colours its
+//   grains by a quantity, N bytes of that: 0 where it is not known, else 1 to 255 over the film's range.
 // Where a grain is not present all of it is 0. A place is low + number (high - low) / 65535 along each axis.
 class BedFrames {
     constructor(facts, bytes) {
         Object.assign(this, facts); // grains, times, low, high, places, speed, ...
         const n = this.grains, k = this.times.length;
-        const perGrain = 9;
+        const perGrain = this.film ? 10 : 9;
         if (bytes.length !== 10 * n + k * n * perGrain)
             throw new Error(`there are ${bytes.length} bytes of them in place of ${10 * n + k * n * perGrain}`);
         const view = new DataView(bytes.buffer, bytes.byteOffset);
@@ -19,6 +20,7 @@ class BedFrames {
         // As the graphics card reads it: x, y, z; speed and contact number, or 255 twice for a grain that is not
         // there.
         this.packed = new Uint16Array(4 * n * k);
+        this.filmBytes = new Uint8Array(this.film ? n * k : 0);
         this.unpack(bytes.subarray(10 * n), perGrain * n);
     }
 
@@ -38,6 +40,7 @@ class BedFrames {
             const speed = from + 6 * n, contacts = speed + n, present = contacts + n;
             for (let i = 0; i < n; ++i)
                 packed[into + 4 * i + 3] = bytes[present + i] ? bytes[speed + i] | (bytes[contacts + i] << 8) : 0xffff;
+            if (this.film) this.filmBytes.set(bytes.subarray(present + n, present + 2 * n), frame * n);
         }
     }
 

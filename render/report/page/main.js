@@ -15,7 +15,7 @@ async function openTable(run, k, n) {
     if (!packed || !charts) return;
     try {
         const bytes = await inflated(packed);
-        offerTable(bytes, facts.runs ? `${run.name}.csv` : "measures.csv", `Download ${facts.runs ? run.name : "measures.csv"}`);
+        offerTable(bytes, facts.runs ? `${run.folder}.csv` : "measures.csv", `Download ${facts.runs ? run.name : "measures.csv"}`);
         charts.take(readTable(new TextDecoder().decode(bytes), run.columns), k);
         charts.fillChooser();
     } catch (problem) {

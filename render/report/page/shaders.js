@@ -10,6 +10,7 @@ layout(location = 3) in float startHeight;
 layout(location = 4) in float fullRadius; // m
 layout(location = 5) in uint species;
 layout(location = 6) in uint pressed;     // sum of forces on it: 0 to 255 over the range that is shown
+layout(location = 7) in uint inFilm;      // what the film colours: 1 to 255 over its range; 0 not known
 uniform vec3 low, size;                   // m, of the box
 uniform mat4 view, projection;
 uniform int colourBy;
@@ -29,13 +30,14 @@ vec3 placeOf(uvec3 number) { return low + vec3(number) * size / 65535.0; }
 
 vec3 colourFor(vec4 ofSpecies, vec3 now) {
     if (colourBy == 0) return ofSpecies.rgb;
-    bool unknown = colourBy == 4 && state.y == 255u || colourBy == 5 && forcesKnown == 0;
+    bool unknown = colourBy == 4 && state.y == 255u || colourBy == 5 && forcesKnown == 0 || colourBy == 6 && inFilm == 0u;
     if (unknown) return vec3(0.6); // at this moment
     float value = colourBy == 1 ? float(max(int(state.x) - 1, 0)) / 253.0
                 : colourBy == 2 ? startHeight
                 : colourBy == 3 ? (now.z - placeOf(earlier).z)
                 : colourBy == 4 ? float(state.y)
-                : float(pressed) / 255.0;
+                : colourBy == 5 ? float(pressed) / 255.0
+                : (float(inFilm) - 1.0) / 254.0;
     return texture(ramp, vec2(clamp((value - range.x) / (range.y - range.x), 0.002, 0.998), 0.5)).rgb;
 }
 

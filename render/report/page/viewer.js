@@ -64,7 +64,10 @@ class Viewer {
         gl.bindBuffer(gl.ARRAY_BUFFER, this.pressedBuffer);
         gl.bufferData(gl.ARRAY_BUFFER, frames.grains, gl.DYNAMIC_DRAW);
         gl.vertexAttribIPointer(6, 1, gl.UNSIGNED_BYTE, 0, 0);
-        for (const location of [0, 1, 2, 6]) {
+        this.filmBuffer = makeBuffer();
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.filmBuffer);
+        gl.bufferData(gl.ARRAY_BUFFER, frames.film ? frames.filmBytes : new Uint8Array(frames.grains), gl.STATIC_DRAW);
+        for (const location of [0, 1, 2, 6, 7]) {
             gl.enableVertexAttribArray(location);
             gl.vertexAttribDivisor(location, 1);
         }
@@ -123,9 +126,9 @@ class Viewer {
         this.texture(this.speciesTexture, rgba, this.gl.NEAREST);
     }
 
-    /** rgba: four bytes a step of the ramp. */
-    setRamp(rgba) {
-        this.texture(this.rampTexture, rgba, this.gl.LINEAR);
+    /** rgba: four bytes a step of the ramp. banded: each step is one colour. */
+    setRamp(rgba, banded = false) {
+        this.texture(this.rampTexture, rgba, banded ? this.gl.NEAREST : this.gl.LINEAR);
     }
 
     texture(texture, rgba, filter) {
@@ -187,6 +190,8 @@ class Viewer {
         gl.vertexAttribIPointer(0, 3, gl.UNSIGNED_SHORT, 8, size * this.frame);
         gl.vertexAttribIPointer(1, 2, gl.UNSIGNED_BYTE, 8, size * this.frame + 6);
         gl.vertexAttribIPointer(2, 3, gl.UNSIGNED_SHORT, 8, size * before);
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.filmBuffer);
+        gl.vertexAttribIPointer(7, 1, gl.UNSIGNED_BYTE, 1, frames.film ? frames.grains * this.frame : 0);
         gl.uniform3fv(program.at("low"), frames.low);
         gl.uniform3fv(program.at("size"), frames.high.map((high, axis) => high - frames.low[axis]));
         gl.uniformMatrix4fv(program.at("view"), false, this.camera.view());

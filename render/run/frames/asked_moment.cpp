@@ -179,8 +179,7 @@ Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const R
 }
 
 void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool replay,
-                                const ReplayWatcher& watcher,
-                                const std::function<void(const Snapshot&)>& see) {
+                                const ReplayWatcher& watcher, const std::function<void(Snapshot)>& see) {
     const Clock& clock = record_.clock();
     if (!record_.scene().drive.present) throw UserError("--average: the run has no drive, and so no periods");
     const double end = clock.cycles(moment.step);

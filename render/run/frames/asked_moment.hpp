@@ -45,7 +45,7 @@ class MomentFinder {
     // brought back, or, where `replay` says not to, all that were kept meanwhile. Throws UserError without a
     // drive, and where the run does not reach back so far.
     void over_periods(const AskedMoment& moment, double periods, bool replay, const ReplayWatcher& watcher,
-                      const std::function<void(const Snapshot&)>& see);
+                      const std::function<void(Snapshot)>& see);
     static constexpr int kMomentsAPeriod = 20;
     // Whether there is a checkpoint of the moment, or before it.
     bool can_bring_back(const AskedMoment& moment) const;

@@ -40,7 +40,10 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use us
     read_moments();
     clock_ = clock_of(scene_, moments_);
     if (clock_.step == 0 && scene_.run.step) clock_.step = *scene_.run.step;  // with one moment at step 0
-    measures_ = read_measures(name_of("measures.csv"));
+    MeasuresFile measures = read_measures_file(name_of("measures.csv"));
+    measures_ = measures.table;
+    if (!measures.fault.empty())
+        news_.push_back(fmt::format("{}; the rows from there on are left out", measures.fault));
     check_same_run();
     if (use.for_questions) look_at_measures();
     if (scene_.film.look.rotation && !trajectory_.info().orientation)
@@ -106,7 +109,8 @@ void RecordedRun::leave_out_damaged(bool brought_back) {
     keep_those(
         [&](std::size_t place) {
             Frame& moment = all[next++];
-            trajectory_.read(place);
+            const Frame grains = trajectory_.read(place);
+            if (measures_) check_measured(scene_, *measures_, grains, name_of("measures.csv"));
             if (contacts_) contacts_->touches(place);
             moments_.push_back(std::move(moment));
         },

@@ -155,7 +155,34 @@ void check_heights(const Scene& scene, const MeasureTable& table, std::size_t ro
     }
 }
 
+// Of all rows: they follow each other, and each has the time of its step.
+void check_rows(double step_length, const std::vector<double>& steps, const std::vector<double>& times,
+                const std::string& measures) {
+    for (std::size_t row = 0; row < steps.size(); ++row) {
+        const std::string line = fmt::format("{}:{}: ", measures, row + 2);
+        if (row > 0 && !(steps[row] > steps[row - 1]))
+            throw UserError(
+                fmt::format("{}is of step {}, but the row before is of step {}; the file was altered", line,
+                            steps[row], steps[row - 1]));
+        if (std::abs(times[row] - steps[row] * step_length) > same_time * std::abs(times[row]))
+            throw UserError(fmt::format(
+                "{}has {:.6g} s at step {}, but a step of this run is {:.6g} s; the file was altered", line,
+                times[row], steps[row], step_length));
+    }
+}
+
 }  // namespace
+
+void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
+                    const std::string& measures) {
+    const auto step = column_of(table, "step");
+    if (!step) return;
+    const std::vector<double> steps = table.values(*step, 0, table.rows());
+    const auto found = std::lower_bound(steps.begin(), steps.end(), static_cast<double>(frame.step));
+    if (found == steps.end() || *found != static_cast<double>(frame.step)) return;
+    const auto row = static_cast<std::size_t>(found - steps.begin());
+    check_heights(scene, table, row, frame, fmt::format("{}:{}", measures, row + 2));
+}
 
 void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
                     const FrameArchive& trajectory, const std::string& measures) {
@@ -167,6 +194,7 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
     const auto last = [&](std::size_t column) { return table.values(column, rows - 1, rows).front(); };
     if (clock.step > 0)
         check_times(scene, clock.step, steps.back(), last(*time), last(*cycles), measures + ": its last row");
+    if (clock.step > 0) check_rows(clock.step, steps, table.values(*time, 0, rows), measures);
     for (const auto& [row, index] : moments_of_both(steps, trajectory.moments())) {
         try {
             return check_heights(scene, table, row, trajectory.grains(index), measures);

@@ -27,6 +27,10 @@ void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, co
 // Times and periods of the rows, and the grains' centre of mass at a moment that both files have.
 void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
                     const FrameArchive& trajectory, const std::string& measures);
+// The grains' centre of mass at a moment, where the table has a row of it. Two files that disagree at one
+// moment alone are of one run, and one of them was altered.
+void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
+                    const std::string& measures);
 // Grains that push each other touch in the frame too.
 void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
                     const std::string& contacts);

@@ -30,8 +30,9 @@ OutflowRecord::OutflowRecord(const Scene& scene) {
 }
 
 std::optional<OutflowRecord> OutflowRecord::read(const std::filesystem::path& file, const Scene& scene) {
-    const auto table = read_measures(file);
+    const auto [table, fault] = read_measures_file(file);
     if (!table) return std::nullopt;
+    if (!fault.empty()) throw UserError(fmt::format("{}; film.outflow = false draws without it", fault));
     const std::vector<double> times = column_called(*table, "time_s", file),
                               types = column_called(*table, "type", file),
                               radii = column_called(*table, "radius", file);
@@ -42,9 +43,8 @@ std::optional<OutflowRecord> OutflowRecord::read(const std::filesystem::path& fi
         const bool known = types[row] >= 1 && types[row] <= species && types[row] == std::floor(types[row]);
         if (!in_order || !known || !(radii[row] > 0 && std::isfinite(radii[row])))
             throw UserError(
-                fmt::format("{}: row {} is of another scene or damaged; film.outflow = false "
-                            "draws without it",
-                            file.string(), row + 1));
+                fmt::format("{}:{}: is of another scene or damaged; film.outflow = false draws without it",
+                            file.string(), row + 2));
         record.add(times[row], static_cast<std::int32_t>(types[row]) - 1, radii[row]);
     }
     return record;

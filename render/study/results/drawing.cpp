@@ -22,10 +22,7 @@ constexpr std::size_t most_across = 80, most_upright = 55, most_in_key = 60;  //
 
 // Of the longest name in the key. gnuplot lets the names overlap unless they are set so far apart.
 std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference) {
-    const auto lines = [](const std::string& name) {
-        const std::string text = gnuplot_lines(name, most_in_key);
-        return 1 + std::count(text.begin(), text.end(), '\\');
-    };
+    const auto lines = [](const std::string& name) { return std::ssize(wrapped(name, most_in_key)); };
     std::ptrdiff_t most = lines(reference);
     for (const ChartSeries& each : series) most = std::max(most, lines(each.name));
     return most;
@@ -33,6 +30,13 @@ std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::s
 
 std::string gnuplot_number(double value) {
     return std::isnan(value) ? "NaN" : fmt::format("{}", value);
+}
+
+// gnuplot ends a row at each line break, between quotes too.
+std::string on_one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+    return text;
 }
 
 // Words in place of numbers along x.
@@ -75,7 +79,7 @@ std::string chart_table(const std::vector<ChartSeries>& series) {
             text += fmt::format("{},{},{},{},{},{},{},{}\n", s, point.x, gnuplot_number(point.y.mean),
                                 gnuplot_number(point.y.mean - point.y.half),
                                 gnuplot_number(point.y.mean + point.y.half), point.y.count, point.members,
-                                csv_cell(series[s].name));
+                                csv_cell(on_one_line(series[s].name)));
     return text;
 }
 

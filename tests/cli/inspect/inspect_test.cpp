@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "engine/base/error.hpp"
 #include "engine/inspect/columns/grain_columns.hpp"
@@ -165,6 +166,61 @@ TEST(Questions, AProfileCountsTheLayers) {
     EXPECT_THROW(profile_answer(bed.snapshot, "speed"), UserError);
 }
 
+const AnswerCell& cell_of(const AnswerTable& table, std::size_t row, const std::string& column) {
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+        if (table.columns[k].name == column) return table.rows.at(row).at(k);
+    throw UserError("no column " + column);
+}
+
+// A simple cubic lattice that fills a box has a solid fraction of pi / 6 in each layer.
+TEST(Questions, AProfileHasTheSolidFraction) {
+    Bed bed;
+    const AnswerTable box = profile_answer(bed.snapshot, "height").tables[0];
+    for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_NEAR(number(cell_of(box, k, "solid_fraction")), std::numbers::pi / 6, 1e-12);
+    EXPECT_EQ(box.columns[box.columns.size() - 2].unit, "m3");
+    // The same over the room of a wedge and of a cylinder between the heights k d and (k + 1) d.
+    Container& c = bed.scene.container;
+    const double layer = 16 * std::numbers::pi / 6 * d * d * d;
+    c.shape = Container::Shape::wedge;
+    c.half_width = 0.02, c.half_angle = 0.5, c.slant_height = 0.01;
+    const AnswerTable wedge = profile_answer(bed.snapshot, "height").tables[0];
+    const auto width = [&](double z) { return 2 * (0.02 - std::max(0.0, 0.01 - z) * std::tan(0.5)); };
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double low = static_cast<double>(k) * d, high = low + d, edge = std::clamp(0.01, low, high);
+        const double across = 0.5 * (width(low) + width(edge)) * (edge - low) + width(high) * (high - edge);
+        EXPECT_NEAR(number(cell_of(wedge, k, "solid_fraction")), layer / (c.depth * across), 1e-12) << k;
+    }
+    c.shape = Container::Shape::cylinder;
+    const AnswerTable round = profile_answer(bed.snapshot, "z").tables[0];
+    EXPECT_NEAR(number(cell_of(round, 2, "solid_fraction")), layer / (std::numbers::pi * 0.02 * 0.02 * d),
+                1e-12);
+    // Half a layer lies above the rim, whose grains do not count there.
+    c.height = 3.5 * d;
+    const AnswerTable open = profile_answer(bed.snapshot, "height").tables[0];
+    EXPECT_NEAR(number(cell_of(open, 3, "solid_fraction")), layer / (std::numbers::pi * 0.02 * 0.02 * d),
+                1e-12);
+    c.shape = Container::Shape::none;
+    EXPECT_THROW(cell_of(profile_answer(bed.snapshot, "height").tables[0], 0, "solid_fraction"), UserError);
+}
+
+// A grain half a diameter up lies half in each of two bins; with a floor that moves heights are above it.
+TEST(Questions, TheSolidFractionCutsGrainsAtTheEdges) {
+    Bed bed;
+    Frame& frame = bed.snapshot.frame;
+    frame = Frame();
+    frame.id = {0}, frame.species = {0}, frame.radius = {d / 2};
+    frame.position = {Vec3(0, 0, d)}, frame.velocity = frame.spin = {Vec3(0, 0, 0)};
+    const double half = std::numbers::pi / 12 * d * d * d, room = 0.016 * 0.016 * d;
+    const AnswerTable table = profile_answer(bed.snapshot, "height").tables[0];
+    ASSERT_EQ(table.rows.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_NEAR(number(cell_of(table, k, "solid_fraction")), half / room, 1e-12);
+    frame.floor().place = Vec3(0, 0, d / 2);
+    EXPECT_NEAR(number(cell_of(profile_answer(bed.snapshot, "height").tables[0], 0, "solid_fraction")),
+                2 * half / room, 1e-12);
+}
+
 TEST(Questions, AHistogramHasEveryGrainOnce) {
     const Bed bed;
     const AnswerTable table = histogram_answer(bed.snapshot, "vz", 4).tables[0];
@@ -232,6 +288,24 @@ TEST(Questions, ComparingMomentsIsDoneInTheContainersFrame) {
     EXPECT_NEAR(number(answer.tables[0].rows[1][2]), 0, 1e-15);  // the big bead has not moved
 }
 
+// What contacts.nc has of them.
+TEST(Questions, WallsOfAKeptMomentHaveTheirContacts) {
+    Bed bed;
+    bed.snapshot.contacts = true;
+    bed.snapshot.frame.touches = {{5, 21, 0.5}, {5, -1, 0.25}, {6, -1, 1}, {7, -3, 2}};
+    for (const AnswerTable& table : overview_of(bed.snapshot).tables) {
+        if (table.name == "moment") {
+            EXPECT_EQ(number(cell_of(table, 0, "contacts")), 4);
+        }
+        if (table.name != "walls") continue;
+        EXPECT_EQ(number(cell_of(table, 0, "contacts")), 2);
+        EXPECT_EQ(number(cell_of(table, 0, "normal_force")), 1.25);
+        EXPECT_EQ(number(cell_of(table, 1, "contacts")), 0);
+        EXPECT_EQ(number(cell_of(table, 2, "normal_force")), 2);
+        EXPECT_TRUE(std::holds_alternative<std::monostate>(cell_of(table, 0, "force_z")));
+    }
+}
+
 TEST(Questions, AGrainTellsItsContacts) {
     Bed bed;
     bed.snapshot.contacts = true;
@@ -282,15 +356,41 @@ TEST(MeanAnswer, WeighsMeansAndHalvesWhatIsThereHalfTheTime) {
                                 true};
         return Answer{{table, {"list", "A list", {{"id", Dimension::number}}, {{AnswerCell(1.0)}}}}, {}};
     };
-    MeanAnswer mean;
-    mean.add(moment({{0.0, std::int64_t{1}, 4.0}, {0.1, std::int64_t{2}, 5.0}}));
-    mean.add(moment({{0.0, std::int64_t{3}, 8.0}}));
+    MeanAnswer mean(10);
+    mean.add(moment({{0.0, std::int64_t{1}, 4.0}, {0.1, std::int64_t{2}, 5.0}}), 1);
+    mean.add(moment({{0.0, std::int64_t{3}, 8.0}}), 2);
     const Answer answer = mean.mean();
     ASSERT_EQ(answer.tables.size(), 1u);
     const auto& rows = answer.tables[0].rows;
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0], (std::vector<AnswerCell>{0.0, 2.0, 7.0}));
     EXPECT_EQ(rows[1], (std::vector<AnswerCell>{0.1, 1.0, 5.0}));
+}
+
+// Words keep their order; a value that a moment lacks has no say, and what none has stays empty. Of lists the
+// largest of all moments come, with their times.
+TEST(MeanAnswer, KeepsOrderAndTheLargestOfAllMoments) {
+    const auto moment = [](std::vector<std::vector<AnswerCell>> rows, double most) {
+        AnswerTable list{"list", "A list", {{"size", Dimension::length}}, {{most}, {most / 2}}};
+        list.most_of = "size";
+        const AnswerTable table{"walls",
+                                "Walls",
+                                {{"wall", Dimension::number, "", AnswerColumn::kKey},
+                                 {"value", Dimension::number, "", AnswerColumn::kThere},
+                                 {"force", Dimension::force}},
+                                std::move(rows),
+                                true};
+        return Answer{{table, list}, {}};
+    };
+    const AnswerCell none;
+    MeanAnswer mean(2);
+    mean.add(moment({{"slant", 1.0, none}, {"back", none, none}}, 8), 0.5);
+    mean.add(moment({{"slant", 4.0, none}, {"back", 6.0, none}}, 6), 0.75);
+    const Answer answer = mean.mean();
+    ASSERT_EQ(answer.tables.size(), 2u);
+    EXPECT_EQ(answer.tables[0].rows[0], (std::vector<AnswerCell>{"slant", 2.5, none}));
+    EXPECT_EQ(answer.tables[0].rows[1], (std::vector<AnswerCell>{"back", 6.0, none}));
+    EXPECT_EQ(answer.tables[1].rows, (std::vector<std::vector<AnswerCell>>{{8.0, 0.5}, {6.0, 0.75}}));
 }
 
 // A run of fifty grains with a film, in run/.
@@ -409,7 +509,79 @@ TEST_F(InspectedMoment, TheMeanOverAPeriodHasAllGrainsAndTheirMeanSpeed) {
     EXPECT_NEAR(speed / 50, expected, 1e-9 * expected);
     EXPECT_THAT(refusal({"--at", "0.1 s", "--average", "3", "--profile", "height"}),
                 HasSubstr("--average: 3 periods before 0.1 s lie before the run's first moment"));
-    EXPECT_THAT(refusal({"--average", "1"}), HasSubstr("--average: goes with --where"));
+    EXPECT_THAT(refusal({"--average", "1", "--compare", "0.05 s"}),
+                HasSubstr("--average: --compare is between"));
+    EXPECT_THAT(refusal({"--average", "1", "--pixel", "9,9"}),
+                HasSubstr("--average: --pixel is of one picture"));
+}
+
+// The mean of each answer over a period is the mean of the answers.
+TEST_F(InspectedMoment, EveryAnswerHasItsMean) {
+    double grains = 0, height = 0, floor = 0, largest = 0, touching = 0;
+    for (int k = 0; k < 20; ++k) {  // 20 Hz: 2.5 ms apart
+        const std::string at = fmt::format("{} s", 0.1 - 0.0025 * k);
+        const auto overlaps = answer({"--at", at, "--largest-overlap", "--limit", "1"})["tables"];
+        touching += overlaps["touching"]["rows"][0][0].get<double>() / 20;
+        for (const auto& row : overlaps["overlaps"]["rows"])
+            largest = std::max(largest, row[4].get<double>());
+        height += answer({"--at", at, "--grain", "3"})["tables"]["grain"]["rows"][0][5].get<double>() / 20;
+    }
+    const auto mean = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--at", "0.1 s", "--average", "1"});
+        return answer(words)["tables"];
+    };
+    const auto overlaps = mean({"--largest-overlap", "--limit", "3"});
+    EXPECT_NEAR(overlaps["touching"]["rows"][0][0].get<double>(), touching, 1e-9 * touching);
+    EXPECT_EQ(overlaps["touching"]["rows"][0][4], 0.1);  // run.overlap is 0.05 of the diameter
+    ASSERT_EQ(overlaps["overlaps"]["rows"].size(), 3u);
+    EXPECT_EQ(overlaps["overlaps"]["rows"][0][4], largest);
+    EXPECT_EQ(overlaps["overlaps"]["columns"][8]["name"], "time");
+    const auto all = mean({}), histogram = mean({"--histogram", "speed"}), grain = mean({"--grain", "3"});
+    for (const auto& row : all["species"]["rows"]) grains += row[1].get<double>();
+    EXPECT_EQ(grains, 50);
+    for (const auto& row : all["walls"]["rows"])
+        if (row[0] == "floor") floor = row[5].get<double>();
+    EXPECT_NEAR(floor, mean({"--wall", "floor"})["wall"]["rows"][0][4].get<double>(), 1e-12);
+    double counted = 0;
+    for (const auto& row : histogram["histogram"]["rows"])
+        counted += row[2].get<double>() + row[3].get<double>();
+    EXPECT_NEAR(counted, 50, 1e-9);
+    EXPECT_EQ(grain["grain"]["columns"][5]["name"], "height");
+    EXPECT_NEAR(grain["grain"]["rows"][0][5].get<double>(), height, 1e-9 * height);
+    EXPECT_EQ(mean({"--slice", "z=2 mm"})["areas"]["rows"].size(), 2u);
+}
+
+// What touches, and what pushes: a count of each, the same in all answers.
+TEST_F(InspectedMoment, ContactsAreCountedOneWay) {
+    const auto at = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--at", "0.0731 s"});
+        return answer(words)["tables"];
+    };
+    const auto overview = at({}), overlaps = at({"--largest-overlap", "--limit", "1000"});
+    const auto pairs = overlaps["overlaps"]["rows"];
+    std::int64_t pushing = 0, on_walls = 0;
+    for (const auto& row : pairs)
+        pushing += row[6].get<double>() > 0, on_walls += row[2].is_null() && row[6] > 0;
+    EXPECT_EQ(overlaps["touching"]["rows"][0][0], pairs.size());
+    EXPECT_EQ(overlaps["touching"]["rows"][0][1], pushing);
+    EXPECT_EQ(overview["moment"]["rows"][0][5], pushing);
+    EXPECT_EQ(overview["moment"]["rows"][0][6], pairs.size());
+    std::int64_t walls = 0;
+    for (const auto& row : overview["walls"]["rows"]) walls += row[1].get<std::int64_t>();
+    EXPECT_EQ(walls, on_walls);
+}
+
+TEST_F(InspectedMoment, WhatSaysHowAPictureIsDrawnNeedsOne) {
+    EXPECT_THAT(refusal({"--set", "film.size=320x180"}), HasSubstr("add --png or --pixel"));
+    EXPECT_THAT(refusal({"--film-time", "1 s"}), HasSubstr("--film-time: says what a picture shows"));
+}
+
+// A table has no room for words.
+TEST_F(InspectedMoment, ACsvHasItsMomentAndNotesBesideIt) {
+    const Ended ended = inspect({"--at", "0.0731 s", "--no-replay", "--where", "id < 3", "--csv"});
+    EXPECT_THAT(ended.out, testing::StartsWith("species,grains,of,share\n"));
+    EXPECT_THAT(ended.err, HasSubstr("): kept as number "));
+    EXPECT_THAT(ended.err, HasSubstr(" s was not kept; this is the nearest kept moment"));
 }
 
 // A checkpoint alone has all that the run has there, a table of grains what its columns say.

@@ -151,7 +151,12 @@ TEST_F(ReportProgram, SetsRunsSideBySide) {
     const std::string page = text_of(here / "both.html");
     const auto facts = facts_of(page);
     ASSERT_EQ(facts["runs"].size(), 2u);
-    EXPECT_EQ(facts["runs"][1]["name"], "wild");
+    EXPECT_EQ(facts["runs"][0]["name"], "Γ = 2");  // their titles are the same
+    EXPECT_EQ(facts["runs"][1]["name"], "Γ = 3");
+    EXPECT_EQ(facts["runs"][1]["folder"], "wild");
+    EXPECT_THAT(page, HasSubstr("<h1>Fifty grains: Γ = 2, Γ = 3</h1>"));
+    EXPECT_THAT(page, HasSubstr("<p class=\"faint\">Folder wild</p>"));
+    EXPECT_THAT(page, Not(HasSubstr("href=\"./")));
     EXPECT_TRUE(facts["runs"][1]["film"].is_null());
     EXPECT_THAT(page, HasSubstr("id=\"film-0\""));
     EXPECT_THAT(page, Not(HasSubstr("id=\"film-1\"")));
@@ -178,8 +183,88 @@ TEST_F(ReportProgram, DoesWithoutFilmAndMeasures) {
     ASSERT_EQ(ended.status, 0) << ended.err;
     const std::string page = text_of(here / "run/report.html");
     EXPECT_THAT(page, HasSubstr("The run has no film and no poster."));
-    EXPECT_THAT(page, HasSubstr("The run has no measures."));
+    EXPECT_THAT(page, HasSubstr("The page has no charts: run/measures.csv: is missing."));
     EXPECT_THAT(page, HasSubstr("status is “unknown”"));
+    EXPECT_THAT(ended.err, HasSubstr("warning: run/measures.csv: is missing; the page has no charts"));
+    EXPECT_THAT(ended.err, HasSubstr("warning: run/run.json: is missing; "));
+}
+
+// One line a file, and the page is made all the same; a file that contradicts the others is refused.
+TEST_F(ReportProgram, SaysWhichFilesLackOrAreDamaged) {
+    run({"--set", "output.contacts=true", "--no-report"});
+    EXPECT_THAT(program({"report", "run"}).err, Not(HasSubstr("warning")));
+    const auto damaged = [&](const char* file, const std::string& text) {
+        fs::remove_all(here / "copy");
+        fs::copy(here / "run", here / "copy", fs::copy_options::recursive);
+        write_text(here / "copy" / file, text);
+        const Ended ended = program({"report", "copy"});
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return ended.err;
+    };
+    const std::string rows = text_of(here / "run/measures.csv");
+    const std::size_t second = rows.find('\n', rows.find('\n') + 1) + 1;
+    EXPECT_THAT(damaged("measures.csv", rows.substr(0, second) + "x\n" + rows.substr(second)),
+                HasSubstr("warning: copy/measures.csv:3: has 1 numbers, but there are "));
+    EXPECT_THAT(damaged("measures.csv", rows.substr(0, second)),
+                testing::ContainsRegex("warning: copy/measures.csv: has 1 of the [0-9]+ rows"));
+    EXPECT_THAT(damaged("measures.csv", "step,cycles\n1,2\n"),
+                HasSubstr("copy/measures.csv:1: lacks the column time_s"));
+    EXPECT_THAT(damaged("measures.csv", ""),
+                HasSubstr("copy/measures.csv: is empty; the page has no charts"));
+    EXPECT_THAT(damaged("run.json", "{"), HasSubstr("copy/run.json: is damaged, for it is no JSON"));
+    EXPECT_THAT(damaged("run.json", "[]"), HasSubstr("copy/run.json: is no record of a run"));
+    EXPECT_THAT(damaged("key_moments.nc", "x"), HasSubstr("copy/key_moments.nc: cannot be read"));
+    EXPECT_THAT(damaged("poster.png", "x"), HasSubstr("copy/poster.png: cannot be read"));
+    EXPECT_THAT(damaged("film_times.csv", "x"), HasSubstr("copy/film_times.csv: is not of this film"));
+    fs::remove(here / "copy/contacts.nc");
+    EXPECT_THAT(program({"report", "copy"}).err, HasSubstr("copy/contacts.nc: is missing"));
+    const std::size_t third = rows.find('\n', second) + 1, comma = rows.find(',', third);
+    write_text(here / "copy/measures.csv",
+               rows.substr(0, third) + "1" + rows.substr(third, comma - third) + rows.substr(comma));
+    const Ended altered = program({"report", "copy"});
+    EXPECT_EQ(altered.status, 2);
+    EXPECT_THAT(altered.err, HasSubstr("copy/measures.csv:4: has "));
+}
+
+// Where the page lies elsewhere its links would lead nowhere.
+TEST_F(ReportProgram, LinksFilesOnlyWhereTheyAre) {
+    run({});
+    ASSERT_EQ(program({"report", "run"}).status, 0);
+    const std::string beside = text_of(here / "run/report.html");
+    EXPECT_THAT(beside, HasSubstr("href=\"./movie.mp4\""));
+    EXPECT_THAT(beside, HasSubstr("The links open them while it lies in the run's folder, run."));
+    ASSERT_EQ(program({"report", "run", "--out", "away.html"}).status, 0);
+    EXPECT_THAT(text_of(here / "away.html"), Not(HasSubstr("href=\"./")));
+    EXPECT_THAT(text_of(here / "away.html"), Not(HasSubstr("beside this page")));
+    // Browsers do not play FFV1; the page says which file it is.
+    run({"--force", "--set", "film.format=ffv1"});
+    ASSERT_EQ(program({"report", "run", "--out", "away.html"}).status, 0);
+    EXPECT_THAT(text_of(here / "away.html"),
+                testing::ContainsRegex("the film itself is movie\\.[a-z0-9]+ in the run"));
+}
+
+// As the film's grains are: the bed says its title, range and bands.
+TEST_F(ReportProgram, TheBedHasTheFilmsColours) {
+    run({"--set", "film.colour={by=\"start-height\",layers=3,range=[0,0.02],unit=\"mm\"}"});
+    ASSERT_EQ(program({"report", "run"}).status, 0);
+    const auto film = facts_of(text_of(here / "run/report.html"))["bed"]["film"];
+    EXPECT_EQ(film["title"], "height at the start (mm)");
+    EXPECT_EQ(film["high"], 20);
+    EXPECT_EQ(film["bands"], 3);
+    EXPECT_EQ(film["colours"].size(), 3u);
+    const std::vector<std::pair<const char*, const char*>> others{{"speed", "speed ("},
+                                                                  {"spin", "spin ("},
+                                                                  {"rise", "rise in a period ("},
+                                                                  {"coordination", "contacts of a grain"}};
+    for (const auto& [by, title] : others) {
+        run({"--force", "--duration", "0.1s", "--set", "output.contacts=true", "--set",
+             fmt::format("film.colour={{by=\"{}\"}}", by)});
+        const auto bed = facts_of(text_of(here / "run/report.html"))["bed"];
+        EXPECT_THAT(bed["film"]["title"].get<std::string>(), testing::StartsWith(title));
+        EXPECT_GT(bed["film"]["known"], 0) << by;
+    }
+    run({"--force", "--duration", "0.1s"});
+    EXPECT_TRUE(facts_of(text_of(here / "run/report.html"))["bed"]["film"].is_null());
 }
 
 TEST_F(ReportProgram, ARunWithoutMomentsHasAPageWithoutABed) {

@@ -62,6 +62,25 @@ TEST(OutflowRecord, RefusesWhatIsOfAnotherScene) {
     }
 }
 
+// Bytes that are no number are damage, with file and line; none of them counts as 0.
+TEST(OutflowRecord, RefusesDamageWithItsLine) {
+    const TemporaryFolder here;
+    const Scene scene = with_outlet();
+    const std::string good = "0.1,7,1,0.002,0,0,0,0,0,0\n", zeros(1, '\0');
+    for (const std::string& row :
+         {zeros + ",8,1,0.002,0,0,0,0,0,0\n", "0.2,8,1,0.0" + zeros + "02,0,0,0,0,0,0\n",
+          std::string("0.2,8,1,x,0,0,0,0,0,0\n"), std::string("0.2,8,1,0.002\n"),
+          std::string("0.2,8,9,0.002,0,0,0,0,0,0\n")}) {
+        const auto file = file_with(here, good + row + good);
+        try {
+            OutflowRecord::read(file, scene);
+            ADD_FAILURE() << row;
+        } catch (const UserError& error) {
+            EXPECT_THAT(error.what(), testing::StartsWith(file.string() + ":3: ")) << row;
+        }
+    }
+}
+
 TEST(OutflowOnTheFrame, SaysGrainsAndMass) {
     const Scene scene = with_outlet();
     ASSERT_TRUE(scene.film.shows.outflow);

@@ -13,6 +13,7 @@ namespace {
 
 using namespace test;
 using testing::HasSubstr;
+using testing::Not;
 
 // Every write to /dev/full fails: the disk is full.
 TEST(Result, ThatCannotBeWrittenIsAFailure) {
@@ -33,6 +34,28 @@ TEST(Result, ThatCannotBeWrittenIsAFailure) {
         const Ended ended = run_program(words, {.folder = here.path(), .out = "/dev/full"});
         EXPECT_EQ(ended.status, 1) << words[0];
         EXPECT_THAT(ended.err, HasSubstr("stdout: cannot be written: No space left on device")) << words[0];
+    }
+    EXPECT_EQ(nlohmann::json::parse(text_of(here / "run/run.json"))["status"], "complete");
+}
+
+// As `inspect RUN | head` closes it.
+TEST(Result, AReaderThatHasSeenEnoughIsNoFailure) {
+    const TemporaryFolder here;
+    const std::string scene = write_small_scene(here.path()).string();
+    const std::vector<std::vector<std::string>> commands{
+        {"--help"},
+        {"inspect", "--help"},
+        {"check", scene},
+        {"scenes"},
+        {"movie", scene, "--no-film", "--no-report", "--out", "run"},
+        {"inspect", "run"},
+        {"inspect", "run", "--where", "id >= 0", "--limit", "1000", "--csv"},
+        {"render", "run", "--at", "0", "--out", "still.png"},
+        {"report", "run"}};
+    for (const std::vector<std::string>& words : commands) {
+        const Ended ended = run_program(words, {.folder = here.path(), .out_closed = true});
+        EXPECT_EQ(ended.status, 0) << words[0];
+        EXPECT_THAT(ended.err, Not(HasSubstr("stdout"))) << words[0];
     }
     EXPECT_EQ(nlohmann::json::parse(text_of(here / "run/run.json"))["status"], "complete");
 }
