@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/no_value.hpp"
 
@@ -26,7 +27,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 }  // namespace
 
 std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     std::string line;
     if (!std::getline(file, line)) return nullptr;
     const auto table = std::make_shared<MeasureTable>(cells_of(line));
@@ -55,7 +56,7 @@ MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, std::vector<st
 // How much of the file stays: its header, and whole rows up to the first that is not before that step.
 MeasuresWriter::Cut MeasuresWriter::cut_before(const std::filesystem::path& path,
                                                const std::vector<std::string>& columns, std::int64_t step) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     std::string line;
     if (!std::getline(file, line) || file.eof() || cells_of(line) != columns)
         throw UserError(fmt::format("{}: is missing, or has other columns than this run", path.string()));

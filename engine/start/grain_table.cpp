@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text_file.hpp"
 
 namespace grainreel {
@@ -138,7 +139,7 @@ void write_grain_table(const std::filesystem::path& path, const Frame& frame) {
 }
 
 Frame read_grain_table(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     std::string line;
     if (!file)
         throw UserError(fmt::format("{}: cannot be opened; give the final.csv of a run", path.string()));

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/reader.hpp"
@@ -31,11 +32,19 @@ bool is_run(const fs::path& input) {
     return fs::is_directory(input, ignored);
 }
 
+// A pipe gives its scene once, and scenes may be read twice.
+void check_not_pipe(const fs::path& input) {
+    if (other_than_file(input, true) == "a pipe")
+        throw UserError(
+            fmt::format("{}: this is a pipe; give the path of a scene file (.toml)", input.string()));
+}
+
 // All scenes end when the shortest does; a film's segments are shortened with it.
 std::vector<Scene> read_scenes(const CompareRequest& what, std::vector<std::string>& warnings) {
     std::vector<Scene> scenes;
     for (const fs::path& input : what.inputs)
-        if (!is_run(input)) scenes.push_back(read_scene(input, what.sets, measurable_in));
+        if (!is_run(input))
+            check_not_pipe(input), scenes.push_back(read_scene(input, what.sets, measurable_in));
     if (scenes.empty()) return scenes;
     const auto by_duration = [](const Scene& a, const Scene& b) { return a.run.duration < b.run.duration; };
     const auto [shortest, longest] = std::minmax_element(scenes.begin(), scenes.end(), by_duration);
