@@ -1,5 +1,8 @@
 #include "engine/base/text_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -7,27 +10,34 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-    throw RunError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
+    const std::string other = other_than_file(path, false);
+    const std::string why = other.empty() ? std::strerror(error) : "it is " + other;
+    errno = error;  // for replace_file()
+    throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
+}
+
+std::FILE* stream_of(int file, const char* mode) {
+    std::FILE* const stream = file < 0 ? nullptr : ::fdopen(file, mode);
+    if (file >= 0 && stream == nullptr) ::close(file);
+    return stream;
 }
 
 }  // namespace
 
-TextFile::TextFile(const std::filesystem::path& path) : path_(path), file_(std::fopen(path.c_str(), "w")) {
+TextFile::TextFile(const std::filesystem::path& path) : path_(path), file_(stream_of(make_plain(path), "w")) {
     if (!file_) fail(path, errno);
 }
 
 TextFile::TextFile(const std::filesystem::path& path, std::uintmax_t bytes)
-    : path_(path), file_(std::fopen(path.c_str(), "a")) {
-    if (!file_) fail(path, errno);
-    std::error_code error;
-    std::filesystem::resize_file(path, bytes, error);
-    if (error) fail(path, error.value());
+    : path_(path), file_(stream_of(open_plain(path, O_APPEND), "a")) {
+    if (!file_ || ::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes)) != 0) fail(path, errno);
 }
 
 void TextFile::write(std::string_view text) {

@@ -11,9 +11,11 @@ namespace grainreel {
 // A file written line by line; each write reaches the system before it returns.
 class TextFile {
   public:
-    // Throws RunError when the file cannot be made.
+    // In the place of what had the name; a link is not followed. Throws RunError when the file cannot be
+    // made.
     explicit TextFile(const std::filesystem::path& path);
     // Goes on with a file that is there, behind its first `bytes`; what comes after them is cut off.
+    // Throws RunError likewise, and where the file is a link.
     TextFile(const std::filesystem::path& path, std::uintmax_t bytes);
 
     // Throws RunError when not all of `text` could be written.

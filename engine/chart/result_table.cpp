@@ -6,13 +6,14 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 namespace {
 
 // The whole lines of a file; a line that a kill cut short is left out.
 std::vector<std::string> lines_of(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
+    std::ifstream in = read_plain(path);
     std::ostringstream whole;
     whole << in.rdbuf();
     std::string text = whole.str();

@@ -5,6 +5,7 @@
 // numbers as they stand in memory, in this order). Forces and points are floats.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -25,6 +26,9 @@ class ContactsWriter {
     // after them is cut off. Throws UserError where the file is damaged.
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);
     ~ContactsWriter();
+
+    // How many bytes stay of the file then. Throws UserError likewise, and where it lacks some of these.
+    static std::uintmax_t bytes_of(const std::filesystem::path& path, std::size_t frames);
 
     // The rows are in the file when this returns. Throws RunError when they could not be written; those of
     // the frames before stay readable.

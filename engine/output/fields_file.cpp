@@ -161,10 +161,7 @@ FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<
     file.sync(0);
 }
 
-namespace {
-
-// How many records end before that time.
-std::size_t records_before(const std::filesystem::path& path, double time) {
+std::size_t FieldsWriter::records_before(const std::filesystem::path& path, double time) {
     const NetcdfFile file = NetcdfFile::open(path);
     const std::size_t counted = file.length("time");
     const std::size_t records = std::min(counted, file.records_on_disk(counted));
@@ -175,7 +172,14 @@ std::size_t records_before(const std::filesystem::path& path, double time) {
     return before;
 }
 
-}  // namespace
+std::uintmax_t FieldsWriter::bytes_before(const std::filesystem::path& path,
+                                          const std::vector<const FieldSet*>& sets, double time) {
+    const NetcdfFile file = NetcdfFile::open(path);
+    for (const FieldSet* const set : sets)
+        for (const FieldInfo& field : set->fields) file.find_variable(field.name);
+    for (const char* sum : {"checksum_high", "checksum_low"}) file.find_variable(sum);
+    return NetcdfFile::bytes_of(path, records_before(path, time));
+}
 
 FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
                            double time) {

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/output/run_json.hpp"
 
 namespace grainreel {
@@ -71,7 +72,7 @@ void write_holder(int file, const std::string& command) {
 }
 
 std::string read_holder(const fs::path& path) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     std::string process, host, since, command;
     std::getline(file, process), std::getline(file, host), std::getline(file, since);
     std::getline(file, command);
@@ -87,7 +88,9 @@ std::string read_holder(const fs::path& path) {
 std::optional<FolderLock> FolderLock::take(const fs::path& folder, const std::string& command) {
     const fs::path path = folder / lock_name;
     while (true) {
-        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (const std::string other = other_than_file(path, false); !other.empty())
+            throw UserError(fmt::format("{}: is {}, not the lock of a run; remove it", path.string(), other));
+        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file < 0) {
             if (holder(folder)) return std::nullopt;  // of another user
             return FolderLock(folder, -1);
@@ -106,7 +109,8 @@ std::optional<FolderLock> FolderLock::take(const fs::path& folder, const std::st
 
 std::optional<std::string> FolderLock::holder(const fs::path& folder) {
     const fs::path path = folder / lock_name;
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (!is_plain(path)) return std::nullopt;
+    const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
     if (file < 0) return std::nullopt;
     const bool is_free = lock(file, LOCK_SH);
     ::close(file);

@@ -12,6 +12,7 @@ class FolderLock {
   public:
     // Takes the lock of a folder that is there; none when somebody else has it. Where the file cannot be
     // made, or the file system knows no locks, the folder is taken without one. `command`: told to others.
+    // Throws UserError where a link or something else has the file's name.
     static std::optional<FolderLock> take(const std::filesystem::path& folder, const std::string& command);
     // Who has the folder's lock: "process 4711, which began 2031-05-04T12:30:00Z (grainreel movie ...)"; none
     // when nobody has it.

@@ -1,14 +1,18 @@
 #include "engine/output/log.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/logger.h>
 #include <spdlog/sinks/basic_file_sink.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/utf8.hpp"
 
 namespace grainreel {
 
 RunLog::RunLog(const std::filesystem::path& path, bool goes_on) {
+    if (const std::string other = other_than_file(path, false); !other.empty())
+        throw RunError(fmt::format("{}: cannot be written: it is {}", path.string(), other));
     try {
         auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), !goes_on);
         logger_ = std::make_unique<spdlog::logger>("run", std::move(sink));

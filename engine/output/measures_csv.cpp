@@ -13,6 +13,7 @@
 
 #include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/no_value.hpp"
@@ -61,7 +62,7 @@ void drop_return(std::string& line) {
 }  // namespace
 
 MeasuresFile read_measures_file(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     std::string line;
     MeasuresFile result;
     if (!std::getline(file, line)) return result;
@@ -103,7 +104,7 @@ MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, std::vector<st
 // How much of the file stays: its header, and whole rows up to the first that is not before that step.
 MeasuresWriter::Cut MeasuresWriter::cut_before(const std::filesystem::path& path,
                                                const std::vector<std::string>& columns, std::int64_t step) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     std::string line;
     if (!std::getline(file, line) || file.eof() || cells_of(line) != columns)
         throw UserError(fmt::format("{}: is missing, or has other columns than this run", path.string()));

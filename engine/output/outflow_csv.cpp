@@ -6,36 +6,38 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
-OutflowWriter::OutflowWriter(const std::filesystem::path& path) : file_(path) {
-    file_.write("time_s,id,type,radius,x,y,z,vx,vy,vz\n");
-}
-
 namespace {
 
-// Bytes of header and whole rows up to that time, and how many rows these are.
-std::pair<std::uintmax_t, std::int64_t> rows_until(const std::filesystem::path& path, double time) {
-    std::ifstream file(path);
+constexpr const char* header = "time_s,id,type,radius,x,y,z,vx,vy,vz";
+
+}  // namespace
+
+OutflowWriter::OutflowWriter(const std::filesystem::path& path) : file_(path) {
+    file_.write(fmt::format("{}\n", header));
+}
+
+OutflowWriter::Kept OutflowWriter::kept_until(const std::filesystem::path& path, double time) {
+    std::ifstream file = read_plain(path);
     std::string line;
-    if (!std::getline(file, line) || file.eof())
-        throw UserError(fmt::format("{}: is missing, or has no header", path.string()));
-    std::pair<std::uintmax_t, std::int64_t> kept{line.size() + 1, 0};
+    if (!std::getline(file, line) || file.eof() || line != header)
+        throw UserError(
+            fmt::format("{}: is missing, or has another first line than `{}`", path.string(), header));
+    Kept kept{line.size() + 1, 0};
     while (std::getline(file, line) && !file.eof() && std::strtod(line.c_str(), nullptr) <= time) {
-        kept.first += line.size() + 1;
-        ++kept.second;
+        kept.bytes += line.size() + 1;
+        ++kept.rows;
     }
     return kept;
 }
 
-}  // namespace
-
 OutflowWriter::OutflowWriter(const std::filesystem::path& path, double time)
-    : file_(path, rows_until(path, time).first), rows_(rows_until(path, time).second) {}
+    : OutflowWriter(path, kept_until(path, time)) {}
 
 void OutflowWriter::write(const std::vector<Departure>& gone, const Clock& clock) {
     if (gone.empty()) return;

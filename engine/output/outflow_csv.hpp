@@ -19,6 +19,13 @@ class OutflowWriter {
     // Goes on with a file that is there, behind the rows up to `time` (s); what comes after them is cut off.
     OutflowWriter(const std::filesystem::path& path, double time);
 
+    // How many bytes stay of the file then, and how many rows. Throws UserError where it is no such file.
+    struct Kept {
+        std::uintmax_t bytes = 0;
+        std::int64_t rows = 0;
+    };
+    static Kept kept_until(const std::filesystem::path& path, double time);
+
     // time_s, id, type (from 1, as in final.csv), radius in m, place in m, velocity in m/s. The rows are on
     // disk when this returns. Throws RunError when they could not be written.
     void write(const std::vector<Departure>& gone, const Clock& clock);
@@ -26,6 +33,9 @@ class OutflowWriter {
     std::int64_t rows() const { return rows_; }
 
   private:
+    OutflowWriter(const std::filesystem::path& path, const Kept& kept)
+        : file_(path, kept.bytes), rows_(kept.rows) {}
+
     TextFile file_;
     std::int64_t rows_ = 0;
 };

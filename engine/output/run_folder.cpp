@@ -4,11 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -16,6 +14,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/run_json.hpp"
+#include "engine/output/run_names.hpp"
 
 namespace grainreel {
 
@@ -37,63 +36,6 @@ bool taken(const fs::path& path) {
 bool is_empty_folder(const fs::path& path) {
     std::error_code error;
     return fs::is_directory(path, error) && fs::is_empty(path, error) && !error;
-}
-
-// All that a run may leave in its folder, beside frames/ and movie.work/ (what a film needs while it is
-// made); the .part are of files cut off while being written.
-constexpr std::array<std::string_view, 35> files_of_runs{".lock",
-                                                         "run.json",
-                                                         ".run.json.part",
-                                                         "scene.toml",
-                                                         ".scene.toml.part",
-                                                         "final.csv",
-                                                         ".final.csv.part",
-                                                         "checkpoint.grs",
-                                                         "checkpoint.grs.part",
-                                                         "movie.mp4",
-                                                         "movie.mp4.part",
-                                                         "movie_720.mp4",
-                                                         "movie_720.mp4.part",
-                                                         "movie.webm",
-                                                         "movie.webm.part",
-                                                         "movie.gif",
-                                                         "movie.mkv",
-                                                         "movie.y4m",
-                                                         "poster.png",
-                                                         "poster.png.part",
-                                                         "sheet.png",
-                                                         "sheet.png.part",
-                                                         "trajectory.nc",
-                                                         "contacts.nc",
-                                                         "measures.csv",
-                                                         "outflow.csv",
-                                                         "log.txt",
-                                                         "fields.nc",
-                                                         "film_moments.nc",
-                                                         "key_moments.nc",
-                                                         "key_contacts.nc",
-                                                         "film_times.csv",
-                                                         ".film_times.csv.part",
-                                                         "report.html",
-                                                         ".report.html.part"};
-
-bool is_file_of_runs(const fs::path& name) {
-    return std::find(files_of_runs.begin(), files_of_runs.end(), name.string()) != files_of_runs.end();
-}
-
-// "000123.png"
-bool is_frame(const fs::path& name) {
-    const std::string stem = name.stem().string();
-    return name.extension() == ".png" && stem.size() >= 6 &&
-           stem.find_first_not_of("0123456789") == std::string::npos;
-}
-
-// "000000012345.grs"
-bool is_checkpoint_of_ring(const fs::path& name) {
-    const std::string text = name.string(), digits = text.substr(0, text.find('.'));
-    const std::string end = text.substr(digits.size());
-    return !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos &&
-           (end == ".grs" || end == ".grs.part");
 }
 
 bool is_real_folder(const fs::directory_entry& entry) {
@@ -127,9 +69,7 @@ std::optional<fs::path> foreign_file(const fs::path& run) {
     };
     const auto is_ours = [&](const fs::directory_entry& entry) {
         const fs::path name = entry.path().filename();
-        return is_real_folder(entry)
-                   ? name == "frames" || name == "movie.work" || name == "checkpoints" || is_panel(name)
-                   : is_file_of_runs(name);
+        return is_real_folder(entry) ? is_folder_of_runs(name) || is_panel(name) : is_file_of_runs(name);
     };
     if (auto foreign = first_foreign(run, is_ours)) return foreign;
     const fs::path frames = run / "frames";
@@ -184,7 +124,7 @@ fs::path without_trailing_slash(const fs::path& path) {
 
 RunFolder::RunFolder(const RunFolderRequest& request) : command_(request.command) {
     if (request.goes_on) {
-        lock_ = locked(*request.out);
+        lock_ = request.goes_on;
         goes_on_ = true;
         return;
     }
@@ -232,7 +172,7 @@ void RunFolder::adopt(const fs::path& path) {
 RunFolder::Lock RunFolder::locked(const fs::path& path) const {
     std::optional<FolderLock> lock = FolderLock::take(path, command_);
     if (!lock) refuse_in_use(path, FolderLock::holder(path).value_or("another process"));
-    return std::make_unique<FolderLock>(std::move(*lock));
+    return std::make_shared<FolderLock>(std::move(*lock));
 }
 
 bool RunFolder::make(const fs::path& path) {

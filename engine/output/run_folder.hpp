@@ -17,7 +17,7 @@ struct RunFolderRequest {
         out;                // the wanted folder, new or empty; without it base/name, base/name-2, ...
     bool force = false;     // an `out` that holds a run is replaced
     std::string command{};  // told to others who want the folder
-    bool goes_on = false;   // `out` is a run's folder, and its run goes on
+    std::shared_ptr<FolderLock> goes_on{};  // of a run's folder, whose run goes on
 };
 
 // Made when scene and plan are accepted, not before. An earlier run that is to be replaced waits beside the
@@ -51,7 +51,7 @@ class RunFolder {
     bool make(const std::filesystem::path& path);   // false when something of that name exists
     void move_aside(const std::filesystem::path& path);
     void put_back(const std::filesystem::path& path);  // the previous run
-    using Lock = std::unique_ptr<FolderLock>;
+    using Lock = std::shared_ptr<FolderLock>;
     Lock locked(const std::filesystem::path& path) const;  // UserError when another process has it
 
     std::string command_;

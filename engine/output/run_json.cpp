@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text_file.hpp"
 
 namespace grainreel {
@@ -72,12 +73,17 @@ Json accepted(const RunRecord& r) {
     return keys;
 }
 
+// Names and messages come from the user's files: what is not UTF-8 is shown, not a reason to fail.
+std::string text_of(const Json& document) {
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 // Room on disk that run.json has beyond its end while the run goes on: when the disk is full and no new file
 // can be had, its last word is written there, over the first.
 constexpr off_t reserve = 32768;  // bytes
 
 void reserve_room(const std::filesystem::path& path) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    const int file = open_plain(path);
     if (file < 0) return;
     ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, reserve);  // not every file system can; then there is none
     ::close(file);
@@ -90,9 +96,9 @@ bool write_all(int file, const std::string& text) {
 
 // False when there is no room; then the file stays as it was.
 bool overwrite(const std::filesystem::path& path, const std::string& text) {
-    std::ifstream old(path, std::ios::binary);
+    std::ifstream old = read_plain(path);
     const std::string before{std::istreambuf_iterator<char>(old), std::istreambuf_iterator<char>()};
-    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    const int file = open_plain(path);
     if (file < 0) return false;
     const bool written = write_all(file, text);
     if (!written) write_all(file, before);
@@ -147,9 +153,9 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
           {"final_csv", final_table(r)},
           {"page", text_or_null(r.page)}}},
         {"peak_memory_bytes", r.peak_memory},
+        {"missing", r.missing},
         {"warnings", r.warnings}};
-    // Names and messages come from the user's files: what is not UTF-8 is shown, not a reason to fail.
-    const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string text = text_of(document);
     try {
         replace_file(path, text);
     } catch (const RunError&) {
@@ -162,7 +168,7 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
 namespace {
 
 std::string text_in(const std::filesystem::path& path, const char* key) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     const Json document = Json::parse(file, nullptr, false);
     if (!document.is_object() || !document.contains(key) || !document[key].is_string()) return {};
     return document[key].get<std::string>();
@@ -178,8 +184,27 @@ std::string status_in_run_json(const std::filesystem::path& path) {
     return text_in(path, "status");
 }
 
+bool lacks_only_page(const std::filesystem::path& path) {
+    std::ifstream file = read_plain(path);
+    const Json document = Json::parse(file, nullptr, false);
+    return document.is_object() && document.contains("missing") &&
+           document["missing"] == Json::array({kPageIsMissing});
+}
+
+void complete_run_json(const std::filesystem::path& path, const std::string& page) {
+    std::ifstream file = read_plain(path);
+    Json document = Json::parse(file, nullptr, false);
+    if (!document.is_object() || !document["written"].is_object())
+        throw RunError(fmt::format("{}: cannot be read", path.string()));
+    document["status"] = to_string(RunStatus::complete);
+    document["exit_status"] = 0;
+    document["written"]["page"] = text_or_null(page);
+    document["missing"] = Json::array();
+    replace_file(path, text_of(document));
+}
+
 std::vector<std::string> panels_in_run_json(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     const Json document = Json::parse(file, nullptr, false);
     std::vector<std::string> panels;
     if (!document.is_object() || !document.contains("panels")) return panels;

@@ -65,7 +65,10 @@ struct RunRecord : ProgramInfo {
     std::string page;                      // file name of the run's page; empty without one
     std::int64_t peak_memory = 0;          // bytes
     std::vector<std::string> warnings;
+    std::vector<std::string> missing;  // what has yet to be made of a run that has come to its end
 };
+
+inline constexpr const char* kPageIsMissing = "page";
 
 std::string to_string(RunStatus status);
 
@@ -78,6 +81,10 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& record);
 // The scene file that such a file names, and its status; empty where it says none.
 std::string scene_in_run_json(const std::filesystem::path& path);
 std::string status_in_run_json(const std::filesystem::path& path);
+// Whether such a file says that the run has come to its end, and that its page alone is missing.
+bool lacks_only_page(const std::filesystem::path& path);
+// The run in such a file is complete; page: the name of its page's file, empty without one. Throws RunError.
+void complete_run_json(const std::filesystem::path& path, const std::string& page);
 // `panels` of such a file; empty when it has none or is no such file.
 std::vector<std::string> panels_in_run_json(const std::filesystem::path& path);
 // What was accepted on the run's way; empty when nothing was, or there is no such file.

@@ -15,6 +15,7 @@
 // pose and one of its grains.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -54,6 +55,16 @@ class TrajectoryWriter {
     // some of them.
     TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info, std::size_t frames);
     ~TrajectoryWriter();
+
+    // Whether a file can be gone on with: it has as many places, and the same variables. Throws UserError
+    // where it cannot be read, or is of other grains.
+    static bool goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path);
+    // How many bytes the first `frames` take in it. Reads these where that will be needed. Throws UserError.
+    static std::uintmax_t bytes_of(const std::filesystem::path& path, std::size_t frames);
+    // The first `frames` of a file, in a new one with this info, as if they had been written to that one from
+    // the first. Whether there are contact numbers the old file decides.
+    static void write_again(const std::filesystem::path& path, std::size_t frames,
+                            const std::filesystem::path& to, TrajectoryInfo info);
 
     // The frame is in the file when this returns; a program killed later leaves it readable. Throws RunError
     // when it could not be written (disk full); the frames before stay readable.

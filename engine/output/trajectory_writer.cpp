@@ -295,6 +295,29 @@ TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const Traj
 
 TrajectoryWriter::~TrajectoryWriter() = default;
 
+bool TrajectoryWriter::goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path) {
+    const TrajectoryInfo there = TrajectoryReader(path).info();
+    if (there.species != info.species || there.planes != info.planes || there.traffic != info.traffic ||
+        there.orientation != info.orientation || !there.checksums)
+        throw UserError(
+            fmt::format("{}: is of another scene, or of another version of grainreel", path.string()));
+    return there.capacity == std::max<std::size_t>(info.capacity, 1);
+}
+
+std::uintmax_t TrajectoryWriter::bytes_of(const std::filesystem::path& path, std::size_t frames) {
+    const TrajectoryReader reader(path);
+    for (std::size_t k = 0; reader.info().traffic && k < frames; ++k) reader.read(k);
+    return NetcdfFile::bytes_of(path, frames);
+}
+
+void TrajectoryWriter::write_again(const std::filesystem::path& path, std::size_t frames,
+                                   const std::filesystem::path& to, TrajectoryInfo info) {
+    const TrajectoryReader reader(path);
+    info.contact_numbers = reader.info().contact_numbers;
+    TrajectoryWriter writer(to, info);
+    for (std::size_t k = 0; k < frames; ++k) writer.write(reader.read(k));
+}
+
 void TrajectoryWriter::write(const Frame& frame) {
     GRAINREEL_CHECK(!impl_->info.orientation || frame.orientation.size() == frame.size());
     GRAINREEL_CHECK(!impl_->info.contact_numbers || frame.contact_number.size() == frame.size());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/start/restart.hpp"
 
 namespace grainreel {
@@ -65,8 +66,7 @@ CheckpointRing::CheckpointRing(const fs::path& run, std::int64_t most_bytes, std
       most_bytes_(static_cast<std::uintmax_t>(most_bytes)),
       first_(first),
       last_(last) {
-    std::error_code error;
-    fs::create_directory(folder_, error);
+    const std::error_code error = make_plain_folder(folder_);
     if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
     kept_ = those_in(folder_);
     while (!kept_.empty() && kept_.back().step > first) remove(kept_.size() - 1);

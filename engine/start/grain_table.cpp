@@ -14,6 +14,7 @@
 
 #include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text_file.hpp"
 
 namespace grainreel {
@@ -140,7 +141,7 @@ TableMark write_grain_table(const std::filesystem::path& path, const Frame& fram
 }
 
 Frame read_grain_table(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     std::string line;
     if (!file)
         throw UserError(fmt::format("{}: cannot be opened; give the final.csv of a run", path.string()));

@@ -13,6 +13,7 @@
 
 #include "engine/base/binary.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/start_file.hpp"
 
@@ -34,7 +35,7 @@ UserError cannot_start(const Scene& scene, const std::string& what) {
 }
 
 std::string read_whole(const Scene& scene) {
-    std::ifstream in(scene.start.file, std::ios::binary);
+    std::ifstream in = read_plain(scene.start.file);
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(scene.start.file, failed);
     std::string bytes(failed ? 0 : size, '\0');
@@ -133,6 +134,7 @@ void save_checkpoint(const std::filesystem::path& path, const Scene& scene, cons
     const std::uint64_t sum = XXH64(bytes.data(), bytes.size(), 0);
 
     const std::filesystem::path temporary = path.string() + ".part";
+    make_way(temporary);
     std::ofstream file(temporary, std::ios::binary);
     file.write(kName.data(), static_cast<std::streamsize>(kName.size()));
     write_value(file, kVersion);
@@ -149,7 +151,7 @@ void save_checkpoint(const std::filesystem::path& path, const Scene& scene, cons
 }
 
 bool is_checkpoint(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
+    std::ifstream in = read_plain(path);
     std::string name(kName.size(), '\0');
     in.read(name.data(), static_cast<std::streamsize>(name.size()));
     return in && name == kName;
@@ -168,7 +170,7 @@ bool is_whole_checkpoint(const std::filesystem::path& path) {
 std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path) {
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(path, failed);
-    std::ifstream in(path, std::ios::binary);
+    std::ifstream in = read_plain(path);
     std::string name(kName.size(), '\0');
     char version = 0;
     std::uint64_t sum = 0, length = 0;

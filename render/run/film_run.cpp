@@ -40,12 +40,12 @@ void FilmRun::check_film(const Scene& scene, std::int64_t frames) const {
 void FilmRun::make_folder(RunFolderRequest request) {
     request.command = request_.command;
     folder_.emplace(request);
-    log_.emplace(folder_->path() / "log.txt", request.goes_on);
+    log_.emplace(folder_->path() / "log.txt", request.goes_on != nullptr);
     listener_.keep_log(&*log_);
 }
 
 FilmRun::Ended FilmRun::run() {
-    bool stopped = false;
+    bool stopped = false, mistaken = false;
     try {
         stopped = !work();
     } catch (const UserError& mistake) {
@@ -55,11 +55,13 @@ FilmRun::Ended FilmRun::run() {
             throw;
         }
         note_folder();
+        mistaken = !failure_.any();
         failure_.note(mistake.what());
     } catch (const std::exception& problem) {
         note_folder();
         failure_.note(problem.what());
     }
+    if ((stopped || failure_.any()) && is_behind_former()) return end_as_before(mistaken);
     if (stopped)
         listener_.info(fmt::format("stopping: {}", film_ ? "finishing the film" : "keeping what there is"));
     find_folder();
@@ -69,11 +71,31 @@ FilmRun::Ended FilmRun::run() {
     close_film();
     find_folder();
     if (has_film_ && has_folder_) failure_.attempt([&] { film_closed(film_report_.frames); });
+    page_is_missing(request_.page && has_folder_ && !stopped && !failure_.any());
     close_record(stopped);
     if (record_.status == RunStatus::complete) folder_->remove_previous();
     make_page();
     report_end();
     return {*record_.exit_status, has_folder_ ? std::optional(folder_->path()) : std::nullopt};
+}
+
+// Of a run that goes on and did not come to where it was.
+FilmRun::Ended FilmRun::end_as_before(bool mistaken) {
+    film_.reset();
+    if (failure_.any()) listener_.error(failure_.what());
+    const std::string folder = folder_->path().string();
+    try {
+        folder_->lock().check_there();
+        put_back();
+        listener_.info(
+            fmt::format("{}: is as it was before, since the run did not come past its former end", folder));
+    } catch (const RunError& problem) {
+        listener_.error(problem.what());
+        listener_.info(fmt::format("{}: the next `resume` puts back what the run was", folder));
+        failure_.note(problem.what());
+    }
+    const int status = mistaken ? 2 : failure_.any() ? 1 : signal_base + listener_.stop_signal();
+    return {status, mistaken ? std::nullopt : std::optional(folder_->path())};
 }
 
 void FilmRun::mark_begun() {
@@ -162,8 +184,13 @@ void FilmRun::close_record(bool stopped) {
     settle_status(stopped);
 }
 
+// The run counts as complete only with its page.
 void FilmRun::write_record() {
     RunRecord now = record_;
+    if (!now.missing.empty() && now.status == RunStatus::complete) {
+        now.status = RunStatus::running;
+        now.exit_status.reset();
+    }
     for (const auto& time : times_.all()) now.wall_seconds.push_back(time);
     now.wall_seconds.emplace_back("total", watch_.seconds());
     write_run_json(folder_->path() / "run.json", now);
@@ -172,7 +199,8 @@ void FilmRun::write_record() {
 // Of a run whose other files are closed, also of one that failed. A run without its page has failed at
 // nothing.
 void FilmRun::make_page() {
-    if (!request_.page || !has_folder_ || listener_.in_a_hurry()) return;
+    if (!request_.page || !has_folder_) return;
+    if (listener_.in_a_hurry()) return stop_before_page();
     if (!begun_ && !failure_.any()) return;  // stopped before there was anything to show
     const Stopwatch making;
     const auto go_on = [&](double share) {
@@ -185,12 +213,27 @@ void FilmRun::make_page() {
     };
     try {
         record_.page = request_.page(folder_->path(), go_on).value_or("");
-        if (record_.page.empty()) return;
+        if (record_.page.empty()) return stop_before_page();
         times_.add("making the page", making.seconds());
+        page_is_missing(false);
         write_record();
     } catch (const std::exception& problem) {
         listener_.warning(fmt::format("the run has no page: {}", problem.what()));
+        page_is_missing(false);
+        failure_.attempt([&] { write_record(); });
     }
+}
+
+void FilmRun::page_is_missing(bool missing) {
+    record_.missing.clear();
+    if (missing) record_.missing.emplace_back(kPageIsMissing);
+}
+
+// Who is in a hurry goes without the page, which `resume` makes.
+void FilmRun::stop_before_page() {
+    if (record_.missing.empty() || !folder_->lock().is_there()) return;
+    settle_status(true);
+    failure_.attempt([&] { write_record(); });
 }
 
 std::string FilmRun::page_text() const {

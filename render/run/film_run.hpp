@@ -49,6 +49,10 @@ class FilmRun {
     virtual void conclude() {}
     // The film is closed and has so many frames.
     virtual void film_closed(std::int64_t /*frames*/) {}
+    // Whether the run goes on in its folder and has not come to where it was, so that the folder is to be put
+    // back as it was; and that it is, by a run that calls nothing else afterwards.
+    virtual bool is_behind_former() const { return false; }
+    virtual void put_back() {}
     virtual std::string stopped_text() const = 0;  // "stopped at 0.10 of 0.20 s"
     virtual void report_written() = 0;             // that which went well
 
@@ -88,10 +92,13 @@ class FilmRun {
     void note_folder();
     void find_folder();
     void close_film();
+    Ended end_as_before(bool mistaken);
     void settle_status(bool stopped);
     void close_record(bool stopped);
     void write_record();
     void make_page();
+    void page_is_missing(bool missing);
+    void stop_before_page();
     void report_end();
 
     bool begun_ = false;

@@ -1,5 +1,7 @@
 #include "render/run/movie_run.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "engine/base/team.hpp"
@@ -45,13 +47,14 @@ MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scen
 }
 
 MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
-                   ResumePoint point)
+                   ResumePoint point, std::shared_ptr<FolderLock> lock)
     : FilmRun(request, listener),
       pictures_(schedule(scene, plan, wants_pictures())),
       run_(scene, plan, std::move(point)) {
     threads_ = threads_for(scene, wants_pictures());
     check_film(scene, static_cast<std::int64_t>(pictures_.instants.size()));
-    make_folder({.name = scene.name, .out = request.out, .goes_on = true});
+    make_folder({.name = scene.name, .out = request.out, .goes_on = std::move(lock)});
+    run_.keep_former(folder_->lock(), pictures_, record_.version);
     mark_begun();
 }
 

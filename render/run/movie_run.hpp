@@ -1,6 +1,7 @@
 // One run of the verb `movie`, from the accepted scene to the closed files.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,15 +20,18 @@ class MovieRun final : public FilmRun {
   public:
     // Throws UserError for what scene, plan or options get wrong; nothing is on disk then.
     MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
-    // The run in the folder request.out goes on from that point.
+    // The run in the folder request.out, which is locked, goes on from that point. Throws UserError or
+    // RunError; nothing in the folder has changed then.
     MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
-             ResumePoint point);
+             ResumePoint point, std::shared_ptr<FolderLock> lock);
 
   private:
     bool work() override;
     void keep_state() override;
     void conclude() override;
     void film_closed(std::int64_t frames) override;
+    bool is_behind_former() const override { return run_.is_behind_former(); }
+    void put_back() override { run_.put_back(); }
     std::string stopped_text() const override;
     void report_written() override;
 

@@ -17,6 +17,8 @@ std::vector<std::string> species_names(const Scene& scene) {
     return names;
 }
 
+}  // namespace
+
 TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::string& version) {
     TrajectoryInfo info;
     info.title = scene.title;
@@ -32,8 +34,6 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
     info.facts = file_facts(scene);
     return info;
 }
-
-}  // namespace
 
 double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pictures) {
     constexpr double most_bytes = 100e6, bytes_a_grain = 68;
@@ -85,7 +85,7 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
       departed_(scene),
       late_(plan.clock, scene.run.duration) {
     const double now = plan.clock.time(simulation.step());
-    if (plan.opens) {
+    if (plan.opens && !scene.container.tray) {
         outflow_.emplace(folder / "outflow.csv", now);
         if (std::optional<OutflowRecord> before = OutflowRecord::read(folder / "outflow.csv", scene))
             departed_ = std::move(*before);
@@ -131,29 +131,12 @@ void RunFiles::keep_key_moments() {
     key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_, info_.facts);
 }
 
-std::string RunFiles::keep_key_moments_from(std::int64_t step) {
-    const std::filesystem::path moments = folder_ / kKeyMoments, contacts = folder_ / kKeyContacts;
-    if (!is_there(moments) && !is_there(contacts)) return "";  // of a run without a page
-    for (const auto& file : {moments, contacts})
-        if (!is_there(file)) return fmt::format("{} is not there", file.string());
-    std::string damage;
-    try {
-        const TrajectoryReader whole(moments);
-        const ContactsReader whole_too(contacts);
-    } catch (const UserError& problem) {
-        damage = problem.what();
-    }
-    const std::vector<std::int64_t> steps = steps_in_trajectory(moments);
+void RunFiles::keep_key_moments(std::int64_t step) {
+    const std::vector<std::int64_t> steps = steps_in_trajectory(folder_ / kKeyMoments);
     const auto frames =
         static_cast<std::size_t>(std::lower_bound(steps.begin(), steps.end(), step) - steps.begin());
-    try {
-        key_moments_.emplace(moments, info_, frames);
-        key_contacts_.emplace(contacts, frames);
-    } catch (const UserError& problem) {
-        key_moments_.reset();  // the run does without
-        damage = problem.what();
-    }
-    return damage;
+    key_moments_.emplace(folder_ / kKeyMoments, info_, frames);
+    key_contacts_.emplace(folder_ / kKeyContacts, frames);
 }
 
 void RunFiles::add_key_moment(const Frame& frame, const Contacts& contacts) {

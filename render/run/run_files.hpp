@@ -24,6 +24,9 @@ namespace grainreel {
 // The moments of the film's pictures, in the format of trajectory.nc: frame k is picture k.
 inline constexpr const char* kFilmMoments = "film_moments.nc";
 
+// What its files of moments say of a run.
+TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::string& program_version);
+
 // Bytes of that file for so many pictures; 0 where the scene keeps none.
 double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pictures);
 
@@ -33,7 +36,8 @@ class RunFiles {
     RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version);
     // Likewise, of a run that goes on in its folder from where the simulation is: what its files have of that
-    // step and later ones is cut off first. Throws UserError where they lack something of what was before.
+    // step and later ones is cut off first. ready_files() has looked at them. Throws UserError where they
+    // lack something of what was before.
     struct GoesOn {};
     RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version);
@@ -49,9 +53,8 @@ class RunFiles {
     void add_film_moment(const Frame& frame) { film_moments_->write(frame); }
     // From now on: key moments with their contacts.
     void keep_key_moments();
-    // Behind those before a step, where the run has kept some. Returns what is wrong with them; "" where
-    // nothing is.
-    std::string keep_key_moments_from(std::int64_t step);
+    // Behind those before a step.
+    void keep_key_moments(std::int64_t step);
     bool keeps_key_moments() const { return key_moments_.has_value(); }
     void add_key_moment(const Frame& frame, const Contacts& contacts);
     void add_measures(const Measures& measures);

@@ -6,6 +6,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
+#include "engine/output/former_run.hpp"
+#include "engine/scene/text/comments.hpp"
+#include "engine/scene/text/scene_file.hpp"
 #include "engine/scene/text/writer.hpp"
 #include "engine/start/grain_table.hpp"
 #include "engine/vector/instructions.hpp"
@@ -38,12 +41,41 @@ SceneRun::SceneRun(const Scene& scene, const Plan& plan, ResumePoint point)
       first_step_(point.first),
       goes_on_(true),
       pictures_kept_(point.pictures),
-      accepted_(std::move(point.accepted)) {}
+      accepted_(std::move(point.accepted)),
+      former_end_(point.reached),
+      changed_(point.changed) {}
+
+void SceneRun::keep_former(const FolderLock& folder, const Pictures& pictures,
+                           const std::string& program_version) {
+    folder_ = &folder;
+    FormerRun former(folder.folder());
+    const std::optional<std::size_t> kept =
+        shots_of(pictures).empty() ? std::nullopt : std::optional(pictures_kept_);
+    ready_ = ready_files(folder.folder(), scene_, plan_, simulation_, kept, program_version, former);
+    former.begin();
+    former_kept_ = true;
+}
+
+// Of a run that ends where it was, its film being unfinished, all files are whole again by then.
+void SceneRun::let_former_go(bool at_its_end) {
+    if (!former_kept_ || !(at_its_end || simulation_.step() > former_end_)) return;
+    FormerRun::let_go(folder_->folder());
+    former_kept_ = false;
+}
+
+void SceneRun::put_back() {
+    earlier_.reset();
+    files_.reset();
+    FormerRun::put_back(folder_->folder());
+    former_kept_ = false;
+}
 
 void SceneRun::use_folder(const FolderLock& folder, const std::string& program_version) {
     folder_ = &folder;
     program_version_ = program_version;
-    replace_file(path_of("scene.toml"), resolved_scene(scene_, plan_));
+    std::string text = resolved_scene(scene_, plan_);
+    if (goes_on_) text = with_comments_of(load_scene_file(path_of("scene.toml")), std::move(text));
+    replace_file(path_of("scene.toml"), text);
 }
 
 bool SceneRun::pack(const PackingWatcher& watcher) {
@@ -129,6 +161,11 @@ void SceneRun::start(const Pictures& pictures) {
     segments_ = pictures.segments;
     bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
     open_files(shots);
+    if (changed_) {
+        std::error_code ignored;
+        std::filesystem::create_directory(path_of(CheckpointRing::kFolder), ignored);
+        simulation_.save_checkpoint(place_in_ring(folder_->folder(), simulation_.step()));
+    }
     if (scene_.output.checkpoints)
         ring_.emplace(folder_->folder(), *scene_.output.checkpoints, simulation_.step(), plan_.steps);
     want_moments(shots);
@@ -154,9 +191,10 @@ void SceneRun::open_files(const std::vector<Shot>& shots) {
         return;
     }
     files_.emplace(RunFiles::GoesOn(), folder, scene_, plan_, simulation_, program_version_);
-    if (const std::string damage = files_->keep_key_moments_from(simulation_.step()); !damage.empty())
-        news_.push_back(fmt::format("{}; the run's page may lack forces of moments before {:.4g} s", damage,
-                                    plan_.clock.time(simulation_.step())));
+    if (ready_.key_moments) files_->keep_key_moments(simulation_.step());
+    if (!ready_.key_moments_lost.empty())
+        news_.push_back(fmt::format("{}; the run's page may lack forces of moments before {:.4g} s",
+                                    ready_.key_moments_lost, plan_.clock.time(simulation_.step())));
     std::error_code ignored;
     if (shots.empty() || !std::filesystem::exists(folder / kFilmMoments, ignored)) return;
     files_->keep_film_moments(pictures_kept_);
@@ -186,6 +224,7 @@ std::optional<Taken> SceneRun::next(const GoOn& go_on) {
         segments_waiting_ = stop->segments;
         if (std::optional<Taken> picture = waiting()) return picture;
     }
+    let_former_go(true);
     return std::nullopt;
 }
 
@@ -226,6 +265,7 @@ bool SceneRun::advance_to(std::int64_t target, const GoOn& go_on) {
             simulation_.advance(to);
         }
         files_->add_departures(simulation_);
+        let_former_go(false);
         const double seconds = stretch.seconds();
         pace_.took(to - from, seconds);
         const double work = static_cast<double>(to - from) * static_cast<double>(simulation_.grains());
@@ -298,7 +338,7 @@ void SceneRun::save_checkpoint() {
 }
 
 void SceneRun::close(FirstFailure& failure) {
-    if (!packed_ || !folder_->is_there()) return;
+    if (!packed_ || folder_ == nullptr || !folder_->is_there()) return;
     failure.attempt([&] {
         if (files_ && files_->last_measures() &&
             files_->last_measures()->at("step") != static_cast<double>(simulation_.step()))

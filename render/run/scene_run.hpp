@@ -23,6 +23,7 @@
 #include "render/run/moments/kept_moments.hpp"
 #include "render/run/pace.hpp"
 #include "render/run/resume/earlier_pictures.hpp"
+#include "render/run/resume/ready_files.hpp"
 #include "render/run/resume/resume_point.hpp"
 #include "render/run/run_files.hpp"
 #include "render/run/stage_times.hpp"
@@ -39,6 +40,14 @@ class SceneRun final : public FrameSource {
     // Writes scene.toml there; the other files follow with start(). The lock outlives the run; from here
     // pack() and next() throw RunError soon after the folder is gone.
     void use_folder(const FolderLock& folder, const std::string& program_version);
+    // Of a run that goes on, before use_folder(): looks at all its files, and keeps what it was until it has
+    // gone past its former end. pictures: of the film, where it has one. Throws UserError or RunError;
+    // nothing in the folder has changed then.
+    void keep_former(const FolderLock& folder, const Pictures& pictures, const std::string& program_version);
+    // Whether it goes on and has not come to where it was.
+    bool is_behind_former() const { return former_kept_; }
+    // Closes its files, and the folder is as it was. Nothing else may be called afterwards.
+    void put_back();
     // False when the watcher stopped it.
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
@@ -80,6 +89,7 @@ class SceneRun final : public FrameSource {
   private:
     class Parts;  // what it has for pictures
 
+    void let_former_go(bool at_its_end);
     std::vector<Shot> shots_of(const Pictures& pictures) const;
     void want_moments(const std::vector<Shot>& shots);
     std::optional<Taken> waiting();  // another picture of the frame taken last
@@ -106,6 +116,9 @@ class SceneRun final : public FrameSource {
     bool goes_on_ = false;           // in the folder of an earlier run, which it is
     std::size_t pictures_kept_ = 0;  // of that
     std::vector<AcceptedKey> accepted_;
+    std::int64_t former_end_ = 0;    // step
+    bool former_kept_ = false, changed_ = false;
+    ReadyFiles ready_;
     std::optional<EarlierPictures> earlier_;
     std::optional<RunFiles> files_;
     std::optional<Agenda> agenda_;

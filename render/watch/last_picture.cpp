@@ -53,9 +53,9 @@ AvFramePtr last_frame(AVCodecContext& codec, const std::vector<PacketPtr>& packe
 
 std::vector<std::uint8_t> last_picture(const std::filesystem::path& film) {
     quiet_ffmpeg();
-    AVFormatContext* context = nullptr;
-    if (avformat_open_input(&context, ffmpeg_url(film).c_str(), nullptr, nullptr) < 0) return {};
-    const InputPtr file(context);
+    InputPtr file;
+    if (open_film(film, file) < 0) return {};
+    AVFormatContext* const context = file.get();
     if (avformat_find_stream_info(context, nullptr) < 0) return {};
     const int stream = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
     if (stream < 0) return {};

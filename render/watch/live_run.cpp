@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/output/folder_lock.hpp"
 #include "engine/output/measures_csv.hpp"
@@ -97,7 +98,7 @@ void LiveRun::refresh() {
 void LiveRun::read_scene_again() {
     const fs::path file = folder_ / "scene.toml";
     const fs::file_time_type time = changed(file);
-    if (time == scene_time_ || time == fs::file_time_type::min()) return;
+    if (!is_plain(file) || time == scene_time_ || time == fs::file_time_type::min()) return;
     try {
         scene_ = read_scene(file, {}, measurable_in);
         scene_->name = folder_.filename().string();

@@ -1,12 +1,13 @@
 #include "engine/output/netcdf/netcdf_file.hpp"
 
+#include <fcntl.h>
 #include <netcdf.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <fstream>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -25,18 +27,25 @@ constexpr std::size_t buffer_size = 1 << 20;  // bytes; the library's default of
 // four of them, big-endian, or eight in CDF-5 (NetCDF classic format specification). After a write that
 // failed half-way the library's count includes the broken record; this puts the true one.
 void set_record_count(const std::filesystem::path& path, std::size_t records) {
-    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    const int file = open_plain(path, O_RDWR);
+    if (file < 0) return;
     std::array<char, 4> magic{};
-    if (!file.read(magic.data(), magic.size())) return;
-    const int width = magic[3] == 5 ? 8 : 4;
-    for (int i = width - 1; i >= 0; --i)
-        file.put(static_cast<char>((static_cast<std::uint64_t>(records) >> (8 * i)) & 0xff));
+    if (::pread(file, magic.data(), magic.size(), 0) == ssize_t{magic.size()}) {
+        const std::size_t width = magic[3] == 5 ? 8 : 4;
+        std::array<char, 8> count{};
+        for (std::size_t i = 0; i < width; ++i)
+            count[i] =
+                static_cast<char>((static_cast<std::uint64_t>(records) >> (8 * (width - 1 - i))) & 0xff);
+        [[maybe_unused]] const ssize_t ignored = ::pwrite(file, count.data(), width, magic.size());
+    }
+    ::close(file);
 }
 
 }  // namespace
 
 NetcdfFile NetcdfFile::create(const std::filesystem::path& path, NetcdfFormat format) {
-    const int mode = NC_CLOBBER | (format == NetcdfFormat::cdf5 ? NC_64BIT_DATA : NC_64BIT_OFFSET);
+    make_way(path);
+    const int mode = NC_NOCLOBBER | (format == NetcdfFormat::cdf5 ? NC_64BIT_DATA : NC_64BIT_OFFSET);
     int id = -1;
     std::size_t buffer = buffer_size;
     if (const int status = nc__create(path.c_str(), mode, 0, &buffer, &id); status != NC_NOERR) {
@@ -48,13 +57,21 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& path, NetcdfFormat fo
     return file;
 }
 
-NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t records) {
+std::uintmax_t NetcdfFile::bytes_of(const std::filesystem::path& path, std::size_t records) {
     const NetcdfHeader header = read_netcdf_header(path);
     std::error_code error;
     const std::uintmax_t end = header.begin + header.record * records;
     if ((records > 0 && end > std::filesystem::file_size(path, error)) || error)
         throw UserError(
             fmt::format("{}: was cut off; it lacks some of its first {} records", path.string(), records));
+    return end;
+}
+
+NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t records) {
+    const std::uintmax_t end = bytes_of(path, records);
+    if (const std::string other = other_than_file(path, false); !other.empty())
+        throw RunError(fmt::format("{}: cannot be written: it is {}", path.string(), other));
+    std::error_code error;
     // In this order: a program that is killed in between leaves records that are not counted, which a reader
     // tells from a file that was cut off.
     set_record_count(path, records);

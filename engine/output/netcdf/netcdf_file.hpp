@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,11 +17,14 @@ enum class NetcdfFormat { cdf2, cdf5 };
 
 class NetcdfFile {
   public:
-    // Makes the file, in define mode, without fill values: every variable of a record must be written.
+    // Makes the file, in define mode, without fill values: every variable of a record must be written. What
+    // had its name goes; a link is not followed.
     static NetcdfFile create(const std::filesystem::path& path, NetcdfFormat format);
     // Opens one that create() made, to write on behind its first `records`; whatever comes behind them is cut
     // off. Throws UserError when there are fewer, or as open() does, and RunError when it cannot be written.
     static NetcdfFile append(const std::filesystem::path& path, std::size_t records);
+    // How many bytes such a file has up to there. Throws UserError likewise.
+    static std::uintmax_t bytes_of(const std::filesystem::path& path, std::size_t records);
     // Opens it for reading. Throws UserError when it is missing, no classic NetCDF file, or its header is
     // damaged.
     static NetcdfFile open(const std::filesystem::path& path);

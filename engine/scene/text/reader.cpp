@@ -55,7 +55,7 @@ Scene read_scene(const std::filesystem::path& file, const Assignments& sets, con
     if (!file.has_parent_path() && !std::filesystem::exists(file, ignored))
         if (const ShippedScene* shipped = shipped_scene(file.string()))
             return read_scene_text(shipped->text, shipped->name + ".toml", sets, measurable);
-    return read_scene_text(load_scene_file(file), file, sets, measurable);
+    return read_scene_text(load_scene_file(file, Pipes::taken), file, sets, measurable);
 }
 
 Scene read_scene_text(std::string_view text, const std::filesystem::path& file, const Assignments& sets,

@@ -1,6 +1,7 @@
 // The verb `resume`: a run that was broken off, or is to be longer, goes on in its folder.
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
@@ -10,7 +11,9 @@
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/output/folder_lock.hpp"
+#include "engine/output/former_run.hpp"
 #include "engine/output/run_json.hpp"
+#include "engine/output/run_names.hpp"
 #include "engine/replay/checkpoint_ring.hpp"
 #include "engine/replay/replay.hpp"
 #include "engine/scene/text/reader.hpp"
@@ -21,6 +24,7 @@
 #include "render/cli/report/record.hpp"
 #include "render/cli/verbs/verb.hpp"
 #include "render/run/frames/recorded_scene.hpp"
+#include "render/run/moments/key_moments.hpp"
 #include "render/run/movie_run.hpp"
 #include "render/run/resume/accepted_changes.hpp"
 #include "render/run/resume/kept_files.hpp"
@@ -69,6 +73,11 @@ class Resume final : public Verb {
         film_.program = program_info();
         if (!no_page_) film_.page = page_of_ended_run();
         const fs::path folder = folder_of_run(run_);
+        scene_file(folder);
+        check_all_plain(folder);
+        std::shared_ptr<FolderLock> lock = locked(folder);
+        put_back_former(folder, reporter);
+        if (is_only_page_missing(folder)) return make_missing_page(folder, reporter);
         Scene scene = scene_to_go_on(folder, {});
         Plan plan = plan_of_run(scene, folder);
         std::vector<AcceptedChange> changes;
@@ -93,11 +102,56 @@ class Resume final : public Verb {
             reporter.info(
                 fmt::format("'{}' is {} from there on; it was {}", change.key, change.now, change.then));
         name_as_before(scene, folder);
-        MovieRun movie(film_, reporter, scene, plan, std::move(point));
+        MovieRun movie(film_, reporter, scene, plan, std::move(point), std::move(lock));
         return tell_folder(movie.run(), film_);
     }
 
   private:
+    static fs::path scene_file(const fs::path& folder) {
+        return file_of_run(
+            folder, "scene.toml",
+            "give the folder of a run of `movie`; a film that `render` or `compare` made cannot "
+            "go on");
+    }
+
+    // From here on nobody else changes the run.
+    std::shared_ptr<FolderLock> locked(const fs::path& folder) const {
+        if (std::optional<FolderLock> lock = FolderLock::take(folder, command))
+            return std::make_shared<FolderLock>(std::move(*lock));
+        throw UserError(fmt::format("{}: is in use by {}; wait until it has ended", folder.string(),
+                                    FolderLock::holder(folder).value_or("another process")));
+    }
+
+    static void put_back_former(const fs::path& folder, Reporter& reporter) {
+        if (!FormerRun::is_kept(folder)) return;
+        FormerRun::put_back(folder);
+        reporter.info(fmt::format(
+            "{}: an earlier `resume` did not come past the run's former end; the run is as it was before it",
+            folder.string()));
+    }
+
+    // Of a run that has come to its end, and is not to be longer. Versions before did not note it.
+    bool is_only_page_missing(const fs::path& folder) const {
+        if (until_ || more_ || !accept_.empty()) return false;
+        const fs::path record = folder / "run.json";
+        const bool complete = status_in_run_json(record) == to_string(RunStatus::complete);
+        return lacks_only_page(record) ||
+               (complete && !no_page_ && is_there(folder / kKeyMoments) && !is_there(folder / kPageName));
+    }
+
+    int make_missing_page(const fs::path& folder, Reporter& reporter) const {
+        std::string page;
+        if (film_.page) {
+            reporter.info(fmt::format("{}: only its page is missing", folder.string()));
+            const auto go_on = [&](double) { return reporter.stop_signal() == 0; };
+            page = film_.page(folder, go_on).value_or("");
+            if (page.empty()) return 128 + reporter.stop_signal();
+        }
+        complete_run_json(folder / "run.json", page);
+        reporter.info(fmt::format("wrote {}: {}run.json", folder.string(), page.empty() ? "" : page + ", "));
+        return tell_folder({0, folder}, film_);
+    }
+
     std::vector<std::string> accepted_keys() const {
         std::vector<std::string> keys;
         for (const std::string& one : accept_) keys.push_back(one.substr(0, one.find('=')));
@@ -125,28 +179,18 @@ class Resume final : public Verb {
         const Scene changed = changed_at(time, scene, scene_to_go_on(folder, {}), changes);
         const Plan changed_plan = plan_of_run(changed, folder);
         check_overlap_stays(scene, plan, changed_plan);
-        // Its files are not touched while it goes on.
-        if (const auto holder = FolderLock::holder(folder))
-            throw UserError(
-                fmt::format("{}: is in use by {}; wait until it has ended", folder.string(), *holder));
         point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
         for (const KeyDifference& one :
              deciding_differences(scene_to_keep(scene, plan), scene_to_keep(changed, changed_plan)))
             point.accepted.push_back({point.simulation.step(), one.key, one.then, one.now});
         scene = changed;
         plan = changed_plan;
-        const fs::path ring = place_in_ring(folder, point.simulation.step());
-        std::error_code ignored;
-        fs::create_directory(ring.parent_path(), ignored);
-        point.simulation.save_checkpoint(ring);
-        point.simulation.save_checkpoint(folder / "checkpoint.grs");
+        point.changed = true;
     }
 
     // With the end that is asked for, and values that were given with --accept; `undone` goes before those.
     Scene scene_to_go_on(const fs::path& folder, const Assignments& undone) const {
-        const fs::path file = file_of_run(folder, "scene.toml",
-                                          "give the folder of a run of `movie`; a film that `render` or "
-                                          "`compare` made cannot go on");
+        const fs::path file = scene_file(folder);
         Assignments sets;
         if (threads_) sets.push_back({fmt::format("run.threads={}", *threads_), "--threads"});
         for (const std::string& one : accept_)
@@ -161,7 +205,7 @@ class Resume final : public Verb {
                             "checkpoints were removed; run its scene.toml again",
                             folder.string()));
         const Plan plan = plan_of_run(before, folder);
-        const double reached = plan.clock.time(reached_step(folder, kept));
+        const double reached = plan.clock.time(reached_step(folder, kept.back().step));
         const double end = until_ ? *until_ : more_ ? reached + *more_ : before.run.duration;
         // One that was killed while its film was finished has come to its end and is not complete.
         const bool complete = status_in_run_json(folder / "run.json") == to_string(RunStatus::complete);
@@ -172,12 +216,6 @@ class Resume final : public Verb {
         if (until_ || more_)
             sets.push_back({fmt::format("run.duration={} s", end), until_ ? "--until" : "--for"});
         return read_scene(file, sets, measurable_in);
-    }
-
-    // A checkpoint may have been lost: the rows of the run tell too how far it came.
-    static std::int64_t reached_step(const fs::path& folder, const std::vector<KeptCheckpoint>& kept) {
-        const std::vector<std::int64_t> rows = steps_in_measures(folder / "measures.csv");
-        return rows.empty() ? kept.back().step : std::max(kept.back().step, rows.back());
     }
 
     // run.json and the pictures name the scene that the run was made of.

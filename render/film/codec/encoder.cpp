@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "render/film/codec/remux.hpp"
 
 namespace grainreel {
@@ -88,6 +89,7 @@ void Encoder::open_file() {
     AvOptions options;
     for (const auto& [key, value] : container.growing) options.set(key, value);
     const std::string url = settings_.path == to_stdout ? "pipe:1" : ffmpeg_url(settings_.path);
+    if (settings_.path != to_stdout) make_way(settings_.path);
     int code = avio_open(&context->pb, url.c_str(), AVIO_FLAG_WRITE);
     if (code >= 0) code = avformat_write_header(context, options.get());
     if (code < 0) fail(code);

@@ -9,11 +9,9 @@ namespace grainreel {
 
 FilmReader::FilmReader(const std::filesystem::path& path, int threads)
     : path_(path), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
-    AVFormatContext* context = nullptr;
-    check(avformat_open_input(&context, ffmpeg_url(path).c_str(), nullptr, nullptr));
-    file_.reset(context);
-    check(avformat_find_stream_info(context, nullptr));
-    const AVCodecParameters& parameters = *context->streams[0]->codecpar;
+    check(open_film(path, file_));
+    check(avformat_find_stream_info(file_.get(), nullptr));
+    const AVCodecParameters& parameters = *file_->streams[0]->codecpar;
     codec_.reset(avcodec_alloc_context3(avcodec_find_decoder(parameters.codec_id)));
     check(codec_ && packet_ && frame_ ? 0 : AVERROR(ENOMEM));
     check(avcodec_parameters_to_context(codec_.get(), &parameters));
@@ -45,13 +43,12 @@ std::int64_t pictures_in(const std::filesystem::path& film) {
         if (code < 0)
             throw RunError(fmt::format("{}: cannot be read back: {}", film.string(), ffmpeg_error(code)));
     };
-    AVFormatContext* context = nullptr;
-    check(avformat_open_input(&context, ffmpeg_url(film).c_str(), nullptr, nullptr));
-    const InputPtr file(context);
+    InputPtr file;
+    check(open_film(film, file));
     const PacketPtr packet(av_packet_alloc());
     check(packet ? 0 : AVERROR(ENOMEM));
     std::int64_t count = 0;
-    while (av_read_frame(context, packet.get()) >= 0) {
+    while (av_read_frame(file.get(), packet.get()) >= 0) {
         count += packet->stream_index == 0 && (packet->flags & AV_PKT_FLAG_CORRUPT) == 0;
         av_packet_unref(packet.get());
     }

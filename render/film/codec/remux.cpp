@@ -7,17 +7,11 @@
 #include <cerrno>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "render/film/codec/ffmpeg_handles.hpp"
 
 namespace grainreel {
 namespace {
-
-int open_input(const std::filesystem::path& path, InputPtr& input) {
-    AVFormatContext* context = nullptr;
-    const int code = avformat_open_input(&context, ffmpeg_url(path).c_str(), nullptr, nullptr);
-    input.reset(context);
-    return code;
-}
 
 int open_output(const AVFormatContext& input, const std::filesystem::path& path,
                 const FilmContainer& container, OutputPtr& output) {
@@ -65,7 +59,8 @@ int write_copy(const std::filesystem::path& from, const std::filesystem::path& t
                const FilmContainer& container) {
     InputPtr input;
     OutputPtr output;
-    int code = open_input(from, input);
+    make_way(to);
+    int code = open_film(from, input);
     if (code >= 0) code = open_output(*input, to, container, output);
     if (code >= 0) code = copy_packets(*input, *output);
     if (code >= 0) code = av_write_trailer(output.get());
@@ -96,6 +91,14 @@ int replace_synced(const std::filesystem::path& from, const std::filesystem::pat
     if (renamed) return AVERROR(renamed.value());
     sync(std::filesystem::absolute(to).parent_path());  // the new name; without it the film is no worse off
     return 0;
+}
+
+int open_film(const std::filesystem::path& path, InputPtr& input) {
+    if (!other_than_file(path, true).empty()) return AVERROR(EINVAL);
+    AVFormatContext* context = nullptr;
+    const int code = avformat_open_input(&context, ffmpeg_url(path).c_str(), nullptr, nullptr);
+    input.reset(context);
+    return code;
 }
 
 void remux_for_streaming(const std::filesystem::path& path, const FilmContainer& container) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/film/codec/codec.hpp"
+#include "render/film/codec/ffmpeg_handles.hpp"
 
 namespace grainreel {
 
@@ -14,6 +15,9 @@ void remux_for_streaming(const std::filesystem::path& path, const FilmContainer&
 
 // Renames `from`, synced to disk, to `to`; a negative error of FFmpeg or 0.
 int replace_synced(const std::filesystem::path& from, const std::filesystem::path& to);
+
+// Opens an ordinary file for reading; a negative error of FFmpeg or 0. A pipe is not waited for.
+int open_film(const std::filesystem::path& path, InputPtr& input);
 
 // A path as FFmpeg wants it: a colon in a name must not look like a protocol.
 std::string ffmpeg_url(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "render/film/sampling/sampler.hpp"
 
 namespace grainreel {
@@ -51,8 +52,7 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
       flashes_(scene.film.rate),
       flash_remedy_(flash_remedy(scene.film)) {
     if (frames_wanted_) {
-        std::error_code error;
-        std::filesystem::create_directories(folder_ / "frames", error);
+        const std::error_code error = make_plain_folder(folder_ / "frames");
         if (error)
             throw RunError(fmt::format("{}: cannot make the folder: {}", (folder_ / "frames").string(),
                                        error.message()));

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 namespace {
@@ -133,7 +134,8 @@ std::vector<png_text> png_texts(const std::vector<PngText>& texts) {
 // An empty string, or why it failed.
 std::string write_file(const std::filesystem::path& path, const Picture& picture,
                        const std::vector<PngText>& texts, bool alpha) {
-    FilePtr file(std::fopen(path.c_str(), "wbe"));
+    const int made = make_plain(path);
+    FilePtr file(made < 0 ? nullptr : ::fdopen(made, "wb"));
     if (!file) return std::strerror(errno);
     Target target{file.get(), {}};
     std::vector<png_text> chunks = png_texts(texts);

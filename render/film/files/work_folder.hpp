@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -17,8 +18,7 @@ class WorkFolder {
   public:
     // Throws RunError.
     explicit WorkFolder(const std::filesystem::path& film) : path_(film.parent_path() / "movie.work") {
-        std::error_code error;
-        std::filesystem::create_directories(path_, error);
+        const std::error_code error = make_plain_folder(path_);
         if (error)
             throw RunError(fmt::format("{}: cannot make the folder: {}", path_.string(), error.message()));
         made_ = identity();

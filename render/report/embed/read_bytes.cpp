@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -16,7 +17,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
     if (size > most)
         throw RunError(fmt::format("{}: has {} bytes, too many for a page", path.string(), size));
     std::vector<std::uint8_t> bytes(size);
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file = read_plain(path);
     file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
     if (!file) throw RunError(fmt::format("{}: cannot be read", path.string()));
     return bytes;

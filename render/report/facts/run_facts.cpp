@@ -4,6 +4,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/output/folder_lock.hpp"
+#include "engine/output/run_json.hpp"
 #include "render/report/embed/read_bytes.hpp"
 
 namespace grainreel {
@@ -58,6 +59,7 @@ RunFacts run_facts(const std::filesystem::path& folder) {
     const Json record = parsed(folder / "run.json", facts.fault);
     const auto text = [&](std::initializer_list<const char*> path) { return text_of(member(record, path)); };
     facts.status = text({"status"}).empty() ? "unknown" : text({"status"});
+    if (lacks_only_page(folder / "run.json")) facts.status = "complete";
     if (facts.status == "running" && !FolderLock::holder(folder)) facts.status = "broken off";
     facts.error = text({"error"});
     facts.version = text({"program", "version"});

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/reader.hpp"
@@ -34,6 +35,13 @@ struct Input {
         return all;
     }
 };
+
+// A pipe gives its scene once, and scenes may be read twice.
+void check_not_pipe(const fs::path& input) {
+    if (other_than_file(input, true) == "a pipe")
+        throw UserError(
+            fmt::format("{}: this is a pipe; give the path of a scene file (.toml)", input.string()));
+}
 
 void check_count(std::size_t count, const CompareRequest& what) {
     if (what.vary && count > most_panels)
@@ -80,6 +88,7 @@ std::vector<Scene> read_scenes(const CompareRequest& what, const std::vector<Inp
     std::vector<Scene> scenes;
     for (const Input& input : inputs) {
         if (input.is_run()) continue;
+        check_not_pipe(input.path);
         Assignments sets = input.sets(what);
         sets.insert(sets.end(), more.begin(), more.end());
         scenes.push_back(read_scene(input.path, sets, measurable_in));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/film/purposes.hpp"
 #include "engine/scene/text/reader.hpp"
@@ -64,6 +65,9 @@ fs::path folder_of_run(const fs::path& folder) {
 }
 
 fs::path file_of_run(const fs::path& folder, const char* name, const char* advice) {
+    if (const std::string other = other_than_file(folder / name, true); !other.empty())
+        throw UserError(
+            fmt::format("{}: is {}, not a file of a run; {}", (folder / name).string(), other, advice));
     std::error_code error;
     if (fs::exists(folder / name, error)) return folder / name;
     throw UserError(fmt::format("{}: has no {}; {}", folder.string(), name, advice));

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/observers/walls/wall_forces.hpp"
 #include "engine/output/contacts_file.hpp"
+#include "engine/output/fields_file.hpp"
 #include "engine/output/measures_csv.hpp"
 #include "engine/output/trajectory.hpp"
 #include "engine/plan/rhythm.hpp"
@@ -24,6 +25,20 @@ bool has_all(const std::vector<std::int64_t>& steps, const Rhythm& rhythm, const
     for (std::int64_t step = rhythm.next(first, clock); step < end; step = rhythm.next(step + 1, clock))
         if (!std::binary_search(steps.begin(), steps.end(), step)) return false;
     return true;
+}
+
+bool has_all_fields(const fs::path& file, const Plan& plan, std::int64_t first, std::int64_t step) {
+    std::size_t records = 0;
+    for (std::int64_t end = plan.fields.next_end(first + 1); end < step; end = plan.fields.next_end(end + 1))
+        ++records;
+    return FieldsWriter::records_before(file, plan.clock.time(step)) == records;
+}
+
+// Those of the frames before the step.
+bool has_all_contacts(const fs::path& run, std::int64_t step) {
+    const std::vector<std::int64_t> steps = steps_in_trajectory(run / "trajectory.nc");
+    const auto frames = std::lower_bound(steps.begin(), steps.end(), step) - steps.begin();
+    return frames == 0 || ContactsReader(run / "contacts.nc").has_all(static_cast<std::size_t>(frames - 1));
 }
 
 }  // namespace
@@ -81,9 +96,18 @@ void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& pla
     // Each says by itself that it cannot be read.
     if (plan.trajectory_every > 0) TrajectoryReader reader(run / "trajectory.nc");
     if (plan.trajectory_every > 0 && scene.output.contacts) ContactsReader reader(run / "contacts.nc");
+    if (scene.output.fields.wanted()) FieldsWriter::records_before(run / "fields.nc", 0);
 }
 
-bool files_reach(const fs::path& run, const Plan& plan, std::int64_t first, std::int64_t step) {
+std::int64_t reached_step(const fs::path& run, std::int64_t last_checkpoint) {
+    const std::vector<std::int64_t> rows = steps_in_measures(run / "measures.csv");
+    return rows.empty() ? last_checkpoint : std::max(last_checkpoint, rows.back());
+}
+
+bool files_reach(const fs::path& run, const Scene& scene, const Plan& plan, std::int64_t first,
+                 std::int64_t step) {
+    if (scene.output.fields.wanted() && !has_all_fields(run / "fields.nc", plan, first, step)) return false;
+    if (plan.trajectory_every > 0 && scene.output.contacts && !has_all_contacts(run, step)) return false;
     const Rhythm trajectory(plan.trajectory_every, plan.trajectory_periods),
         measures(plan.measures_every, plan.measures_periods);
     return (plan.trajectory_every == 0 ||

@@ -24,7 +24,12 @@ std::vector<std::int64_t> steps_in_measures(const std::filesystem::path& file);
 // is touched.
 void check_files_of_run(const std::filesystem::path& run, const Scene& scene, const Plan& plan);
 
-// Whether trajectory and measures have all that a run which began at `first` has written before `step`.
-bool files_reach(const std::filesystem::path& run, const Plan& plan, std::int64_t first, std::int64_t step);
+// How far a run has come whose last checkpoint is of that step: a checkpoint may have been lost, and the rows
+// of measures.csv tell too.
+std::int64_t reached_step(const std::filesystem::path& run, std::int64_t last_checkpoint);
+
+// Whether its files have all that a run which began at `first` has written before `step`.
+bool files_reach(const std::filesystem::path& run, const Scene& scene, const Plan& plan, std::int64_t first,
+                 std::int64_t step);
 
 }  // namespace grainreel

@@ -149,11 +149,15 @@ ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::pa
                       : film_agrees_until(scene, plan, pictures, limits.first, last);
     std::optional<UserError> mistake;
     for (auto one = kept.rbegin(); one != kept.rend(); ++one) {
-        if (one->step > limits.film || !files_reach(run, plan, limits.first, one->step)) continue;
+        if (one->step > limits.film || !files_reach(run, scene, plan, limits.first, one->step)) continue;
         if (std::optional<Simulation> simulation = usable(*one, scene, plan, threads, mistake)) {
             const auto end = std::lower_bound(pictures.begin(), pictures.end(), one->step);
-            return {std::move(*simulation), limits.first, static_cast<std::size_t>(end - pictures.begin()),
-                    one->file, why_held_back(*one, kept.back(), limits, plan)};
+            return {std::move(*simulation),
+                    limits.first,
+                    static_cast<std::size_t>(end - pictures.begin()),
+                    one->file,
+                    why_held_back(*one, kept.back(), limits, plan),
+                    reached_step(run, last)};
         }
     }
     if (mistake) throw *mistake;

@@ -19,6 +19,8 @@ struct ResumePoint {
     std::filesystem::path checkpoint{};
     std::string held_back{};              // why it is not the run's last checkpoint; empty: it is
     std::vector<AcceptedKey> accepted{};  // what was changed on the run's way up to there
+    std::int64_t reached = 0;             // step to which the run has come already
+    bool changed = false;                 // its scene is another one from there on
 };
 
 // The last checkpoint from which all files of the run's folder can go on. Its film, where `film` says that it

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/plain_file.hpp"
 #include "engine/output/measures_csv.hpp"
 
 namespace grainreel {
@@ -20,7 +21,8 @@ State state_of(const std::string& status) {
 }
 
 void read_record(const std::filesystem::path& path, MemberResult& result) {
-    const Json record = Json::parse(std::ifstream(path));
+    std::ifstream file = read_plain(path);
+    const Json record = Json::parse(file);
     result.state = state_of(record.at("status").get<std::string>());
     if (record.at("error").is_string()) result.error = record["error"].get<std::string>();
     result.warnings = record.at("warnings").get<std::vector<std::string>>();

@@ -1,0 +1,23 @@
+// The names of all that a run may leave in its folder.
+#pragma once
+
+#include <filesystem>
+
+namespace grainreel {
+
+// Where FormerRun keeps what a run was, and where it makes that ready.
+inline constexpr const char *kFormerRun = ".before", *kFormerRunPart = ".before.part";
+
+bool is_file_of_runs(const std::filesystem::path& name);        // "movie.mp4"
+bool is_folder_of_runs(const std::filesystem::path& name);      // "frames"
+bool is_frame(const std::filesystem::path& name);               // "000123.png", in frames/
+bool is_checkpoint_of_ring(const std::filesystem::path& name);  // "000000012345.grs", in checkpoints/
+
+// Whether a run writes on at the end of that file, instead of putting another in its place.
+bool grows(const std::filesystem::path& name);
+
+// A run that goes on writes all of these. Throws UserError where one of them is a link, or no file or folder
+// as it should be: what is written there might land anywhere.
+void check_all_plain(const std::filesystem::path& run);
+
+}  // namespace grainreel
