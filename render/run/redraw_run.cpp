@@ -56,6 +56,7 @@ void RedrawRun::choose_pictures(const RenderRequest& what) {
     constexpr double hair = 1e-9;  // s
     const FilmOfRun& film = source_.film();
     const std::vector<Shot> all = film.shots();
+    scene_.film.segments = source_.segments();
     for (const Shot& shot : all) {
         const double time = film.moment(shot.step).time;
         if (time >= what.from.value_or(time) - hair && time <= what.to.value_or(time) + hair)

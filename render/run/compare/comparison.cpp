@@ -71,8 +71,9 @@ void make_panels(const CompareRequest& what, Comparison& all) {
                 panel.caption += fmt::format(", wall motion drawn {:.3g}×", panel.scene.film.exaggerate);
     const PanelLayout layout = layout_of(all.panels, all.film.film);
     if (layout.places.empty())
-        throw UserError(fmt::format("--size: {}x{} is too small for {} panels; make it larger",
-                                    all.film.film.width, all.film.film.height, scenes.size()));
+        throw UserError(fmt::format("{}: {}x{} is too small for {} panels; make it larger",
+                                    all.film.where("film.size"), all.film.film.width, all.film.film.height,
+                                    scenes.size()));
     warn_of_single_moments(all);
     warn_of_pace(all);
     warn_of_what_is_left_out(layout, all);
