@@ -78,7 +78,7 @@ void RedrawRun::show_what_there_is() {
     std::set<std::size_t> uneven;
     for (const Shot& shot : shots_) {
         const std::int64_t step = source_.shown(shot.step);
-        if (step == shot.step) brought_back_ += source_.is_brought_back(step) ? 1 : 0;
+        if (step == shot.step && source_.is_brought_back(step) && ++brought_back_ > 0) source_.prove(step);
         if (step != shot.step) uneven.insert(static_cast<std::size_t>(shot.segment));
         if (!shown.empty() && step <= shown.back().step) {
             ++left_out_;

@@ -93,8 +93,8 @@ Group damaged_trajectories(const Ground& ground) {
                 fs::copy(ground.run, here / "run");
                 const std::string bytes = damaged_somewhere(whole, dice);
                 test::write_text(here / "run/trajectory.nc", bytes);
-                const Ran ran = attempt({"render", "run", "--every", "1", "--no-replay", "--no-film", "--frames",
-                                         "--out", "drawn"},
+                const Ran ran = attempt({"render", "run", "--every", "1", "--no-replay", "--no-film",
+                                         "--frames", "--out", "drawn"},
                                         here);
                 if (!ran.problem.empty()) return {"", ran.problem};
                 if (ran.status != 0) return {"refused", ""};

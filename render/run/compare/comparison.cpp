@@ -58,7 +58,12 @@ void make_panels(const CompareRequest& what, Comparison& all) {
                         "as in \"Γ = 1|Γ = 3\"",
                         captions.size(), scenes.size()));
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        all.panels.push_back({scenes[i], captions[i], playback_of(all.members[i]->source(), all)});
+        all.panels.push_back({scenes[i], captions[i], {}});
+        // A still does not play.
+        if (all.still)
+            all.panels[i].playback.resize(all.pictures.segments.size());
+        else
+            all.panels[i].playback = playback_of(all.members[i]->source(), all);
         // All plots and clocks are of the time that is shown.
         if (all.film_end > 0) all.panels[i].scene.run.duration = all.film_end;
     }

@@ -42,6 +42,10 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     bool has_all(const Pictures& pictures) const;
     // Whether it would be brought back.
     bool is_brought_back(std::int64_t step) const;
+    // Throws UserError when what is brought back on the way to the step is another run.
+    void prove(std::int64_t step) {
+        reachable_.prove(step, [](double) { return true; });
+    }
     // Why not all of its moments can be had; empty where they can.
     std::string why_not_all() const;
     // Asked while a replay goes on, with its share; the usual go_on is asked too.

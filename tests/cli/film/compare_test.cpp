@@ -157,8 +157,9 @@ TEST_F(CompareProgram, WhatHasNoRoomOrCannotBeShownIsNamed) {
     const Ended ended = program({"compare", "run", "run", "--size", "320x240", "--set", "film.axes=true",
                                  "--set", "film.words=none", "--no-replay"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("--size: 320x240 has no room for plots under 2 panels; they are left out, "
-                                     "and fit from "));
+    EXPECT_THAT(ended.err,
+                HasSubstr("--size: 320x240 has no room for plots under 2 panels; they are left out, "
+                          "and fit from "));
     EXPECT_THAT(ended.err, HasSubstr("film.axes: films side by side have no axes"));
     EXPECT_THAT(ended.err, HasSubstr("film.words: films side by side have their words beside the panels"));
     EXPECT_THAT(ended.err, HasSubstr("'average' is left out: frames that a run kept are single moments"));
@@ -223,8 +224,8 @@ TEST_F(CompareProgram, VariesAKeyOfOneScene) {
 
 TEST_F(CompareProgram, VariesWhatIsDrawnOfARunToo) {
     ASSERT_EQ(program({"movie", "weak.toml", "--no-film", "--out", "run"}).status, 0);
-    const Ended ended = program({"compare", "run", "--vary", "film.colour.by=speed,start-height", "--at",
-                                 "0.07", "--out", "two"});
+    const Ended ended = program(
+        {"compare", "run", "--vary", "film.colour.by=speed,start-height", "--at", "0.07", "--out", "two"});
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_TRUE(fs::exists(here / "two/still-0.070s.png"));
     const Ended drive = program({"compare", "run", "--vary", "drive.g_level=1,2", "--out", "no"});
@@ -240,7 +241,7 @@ TEST_F(CompareProgram, AtDrawsOneMoment) {
         words.insert(words.end(), {"--out", out});
         const Ended ended = program(words);
         EXPECT_EQ(ended.status, 0) << ended.err;
-        const std::string png = text_of(here / out / "still-0.033s.png");
+        const std::string png = text_of(here / out / "still-0.033333s.png");
         return png.substr(png.find("IDAT"));
     };
     const std::string live = drawn({"compare", "weak.toml", "strong.toml"}, "live");
@@ -254,8 +255,8 @@ TEST_F(CompareProgram, AtDrawsOneMoment) {
 
 // A caption that a scene has for its own drive is not shown over another one.
 TEST_F(CompareProgram, CaptionsOfOneValueAreLeftOutBesideOthers) {
-    write_text(here / "told.toml", text_of(here / "weak.toml") +
-                                       "[[film.caption]]\nfrom = \"0 s\"\ntext = \"Nothing flies\"\n");
+    write_text(here / "told.toml",
+               text_of(here / "weak.toml") + "[[film.caption]]\nfrom = \"0 s\"\ntext = \"Nothing flies\"\n");
     const auto drawn = [&](const std::string& scene, const std::string& out,
                            const std::vector<std::string>& more) {
         std::vector<std::string> words = {"compare", scene,  "--vary", "drive.g_level=1.2,3",
@@ -382,7 +383,7 @@ TEST_F(CompareProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
         {{"compare", "weak.toml", "strong.toml", "--at", "0", "--frames"}, "--at"},
         {{"compare", "weak.toml", "strong.toml", "--at", "0", "--format", "png"}, "--format: is of a film"},
         {{"compare", "weak.toml", "strong.toml", "--out", "-"}, "--out -: stdout takes a film in y4m alone"},
-        {{"compare", "weak.toml", "strong.toml", "--max-size", "1 kB"}, "--max-size: "},
+        {{"compare", "weak.toml", "strong.toml", "--max-size", "0.3 kB"}, "--max-size: "},
         {{"compare", "run", "weak.toml", "--duration", "1 s"}, "the run is over"},
         {{"compare", "weak.toml", "strong.toml", "--out", "run"}, "--out run: exists already"},
     };

@@ -154,7 +154,7 @@ TEST_F(RenderProgram, TakesBackColoursAndListsOfTheRunAndSaysWhatItLeavesOut) {
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr(": 'average' is left out: frames that a run kept are single moments"));
     EXPECT_THAT(program({"render", "run", "--at", "0.1"}).err, Not(HasSubstr("left out: frames")));
-    const Ended wrong = program({"render", "run", "--at", "0.1", "--fps", "500"});
+    const Ended wrong = program({"render", "run", "--fps", "500"});
     EXPECT_EQ(wrong.status, 2);
     EXPECT_THAT(wrong.err, HasSubstr("error: --fps: 'rate' must be from 1 to 240"));
 }
@@ -384,6 +384,7 @@ TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
          "--set film.segment: --every draws the frames of the trajectory"},
         {{"render", "run", "--at", "0", "--format", "png"}, "--format: is of a film"},
         {{"render", "run", "--at", "0", "--sheet", "2x2"}, "--sheet: is of a film"},
+        {{"render", "run", "--at", "0", "--fps", "20"}, "--fps: is of a film"},
         {{"render", "run", "--at", "0", "--set", "film.quality=3"}, "--set film.quality: is of a film"},
         {{"render", "run", "--at", "0", "--out", "-"}, "--out -: with --at, name a file"},
         {{"render", "run", "--at", "0.4"}, "--at: 0.4 s is outside the run"},

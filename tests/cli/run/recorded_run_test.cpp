@@ -242,9 +242,8 @@ TEST_F(Recorded, IsReadWhileItGrows) {
 // Nothing is run, and the progress says so.
 TEST_F(Recorded, ComparedIsDrawingAlone) {
     run("run");
-    const Ended ended =
-        program({"compare", "run", "run", "--out", "both", "--size", "480x270", "--progress", "json",
-                 "--no-replay"});
+    const Ended ended = program(
+        {"compare", "run", "run", "--out", "both", "--size", "480x270", "--progress", "json", "--no-replay"});
     ASSERT_EQ(ended.status, 0) << ended.err;
     std::istringstream lines(ended.err);
     int shown = 0;
