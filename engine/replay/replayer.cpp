@@ -12,6 +12,11 @@ bool Replayer::reaches(std::int64_t step) const {
     return !kept_.empty() && kept_.front().step <= step;
 }
 
+bool Replayer::goes_to(std::int64_t step) const {
+    return reaches(step) && std::none_of(kept_.begin(), kept_.end(),
+                                         [&](const KeptCheckpoint& one) { return one.step == step; });
+}
+
 bool Replayer::is_shortcut(std::int64_t from, std::int64_t to) const {
     return std::any_of(kept_.begin(), kept_.end(),
                        [&](const KeptCheckpoint& one) { return one.step > from && one.step <= to; });

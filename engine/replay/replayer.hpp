@@ -20,6 +20,8 @@ class Replayer {
 
     // Whether there is a checkpoint of the step, or before it.
     bool reaches(std::int64_t step) const;
+    // Whether the engine has a way to go to it from the checkpoint before.
+    bool goes_to(std::int64_t step) const;
     // The run at that step; good until the next call. Throws as replayed() does.
     const Simulation& at(std::int64_t step, const ReplayWatcher& watcher);
 

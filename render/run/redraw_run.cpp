@@ -56,6 +56,7 @@ void RedrawRun::choose_pictures(const RenderRequest& what) {
     constexpr double hair = 1e-9;  // s
     const FilmOfRun& film = source_.film();
     const std::vector<Shot> all = film.shots();
+    scene_.film.segments = source_.segments();
     for (const Shot& shot : all) {
         const double time = film.moment(shot.step).time;
         if (time >= what.from.value_or(time) - hair && time <= what.to.value_or(time) + hair)
@@ -77,7 +78,7 @@ void RedrawRun::show_what_there_is() {
     std::set<std::size_t> uneven;
     for (const Shot& shot : shots_) {
         const std::int64_t step = source_.shown(shot.step);
-        if (step == shot.step) brought_back_ += source_.is_brought_back(step) ? 1 : 0;
+        if (step == shot.step && source_.is_brought_back(step) && ++brought_back_ > 0) source_.prove(step);
         if (step != shot.step) uneven.insert(static_cast<std::size_t>(shot.segment));
         if (!shown.empty() && step <= shown.back().step) {
             ++left_out_;

@@ -116,7 +116,7 @@ class SceneRun final : public FrameSource {
     bool goes_on_ = false;           // in the folder of an earlier run, which it is
     std::size_t pictures_kept_ = 0;  // of that
     std::vector<AcceptedKey> accepted_;
-    std::int64_t former_end_ = 0;    // step
+    std::int64_t former_end_ = 0;  // step
     bool former_kept_ = false, changed_ = false;
     ReadyFiles ready_;
     std::optional<EarlierPictures> earlier_;

@@ -62,8 +62,7 @@ Chosen choose(double at, const RevisitedRun& source) {
         const double apart =
             kept.size() < 2 ? 0
                             : (kept.back().time - kept.front().time) / static_cast<double>(kept.size() - 1);
-        const std::string what =
-            fmt::format("--at: {:.6g} s was not kept ({})", asked.time, source.why_not_all());
+        const std::string what = fmt::format("--at: {:.6g} s was not kept ({})", at, source.why_not_all());
         if (std::abs(time - asked.time) > apart)
             throw UserError(
                 fmt::format("{}; the kept moment nearest to it is {:.6g} s, too far away to stand "
@@ -105,6 +104,25 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Revis
     return steps;
 }
 
+// What a picture shows of the film before it: where grains were at first, and trails. False when told to
+// stop.
+bool remember_what_was(Renderer& renderer, std::int64_t step, RevisitedRun& source,
+                       const FrameSource::GoOn& go_on) {
+    const std::vector<Shot> film = source.film().shots();
+    const FramePtr start = film.empty() ? std::make_shared<const Frame>(source.record().first_whole())
+                                        : source.grains(source.shown(film.front().step), go_on);
+    if (!start) return false;
+    renderer.start_from(*start);
+    const FilmTrails& trails = source.scene().film.shows.trails;
+    if (!trails.wanted()) return true;
+    for (const std::int64_t earlier : before(step, trails.duration, source)) {
+        const FramePtr frame = source.grains(earlier, go_on);
+        if (!frame) return false;
+        renderer.remember(*frame);
+    }
+    return true;
+}
+
 }  // namespace
 
 std::string seconds_in_names(double time) {
@@ -125,24 +143,13 @@ std::optional<fs::path> draw_still(const FilmRequest& request, double at, RunLis
     source.watch_replay(watcher_of(listener));
     const auto go_on = [&] { return listener.stop_signal() == 0; };
     // A camera that moves is where it would be in the film.
-    const std::vector<Shot> film = source.film().shots();
     const FilmOfRun::Place place = source.film().place_of(chosen.step);
     Scene scene = source.scene();
-    settle_orbit(scene.film.camera, static_cast<double>(film.size()) / scene.film.rate);
+    settle_orbit(scene.film.camera, static_cast<double>(source.film().shots().size()) / scene.film.rate);
     Renderer renderer(scene, drawing_threads(scene.run.threads).raster, request.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) listener.info("note: " + note);
-    const FramePtr start = film.empty() ? std::make_shared<const Frame>(source.record().first_whole())
-                                        : source.grains(source.shown(film.front().step), go_on);
-    if (!start) return std::nullopt;
-    renderer.start_from(*start);
-    const FilmTrails& trails = scene.film.shows.trails;
-    if (trails.wanted())
-        for (const std::int64_t earlier : before(chosen.step, trails.duration, source)) {
-            const FramePtr frame = source.grains(earlier, go_on);
-            if (!frame) return std::nullopt;
-            renderer.remember(*frame);
-        }
-    source.start({{chosen.step, place.segment}}, segments_of(scene.film));
+    if (!remember_what_was(renderer, chosen.step, source, go_on)) return std::nullopt;
+    source.start({{chosen.step, place.segment}}, source.segments());
     const std::optional<Taken> picture = source.next(go_on);
     if (!picture) return std::nullopt;
     const fs::path path =

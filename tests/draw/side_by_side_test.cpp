@@ -134,6 +134,47 @@ std::vector<Panel> plotted_panels() {
     return panels_of(scenes);
 }
 
+// Curves need pixels, however small the letters around them are. Plots without room are left out.
+TEST(SideBySide, PlotsAreLargeEnoughToBeReadOrLeftOut) {
+    constexpr double curves = 48, lines = 5;  // pixels; lines of words above and below
+    int with = 0, without = 0;
+    for (const auto& [width, height] : {std::pair{640, 360}, {480, 270}, {1280, 720}, {1920, 1080}})
+        for (std::size_t count = 2; count <= 6; ++count) {
+            const Film film = film_of(width, height);
+            const PanelLayout layout = layout_of(full_panels(count), film);
+            if (layout.places.empty()) continue;
+            (layout.plots_fit ? with : without) += 1;
+            const double room = curves + lines * panel_type(film).minor - panel_type(film).gap - 1;
+            for (const PanelLayout::Place& place : layout.places)
+                for (const Rectangle& plot : place.plots)
+                    EXPECT_GE(plot.height, room) << width << " x " << height << ", " << count;
+        }
+    EXPECT_GT(with, 0);
+    EXPECT_GT(without, 0);
+}
+
+// A caption of time that all scenes have stands once below them, and each scene's own under its panel.
+TEST(SideBySide, CaptionsOfAllStandOnce) {
+    std::vector<Panel> panels = panels_of({scene_with(0.06, 1), scene_with(0.06, 3)});
+    for (Panel& panel : panels) panel.scene.film.captions = {{0, 1, "The bed flies", 0}};
+    const double below = layout_of(panels, film_of(960, 540)).bottom.height;
+    SideBySide once(panels, film_of(960, 540), 1, gl::Provider::automatic);
+    EXPECT_EQ(once.layout().places[0].note.height, 0);
+    const FramePtr now = one_ball(0.01);
+    Frame later = *now;
+    later.time = 2;
+    const Picture with = once.draw({now, now});
+    const Picture without =
+        once.draw({std::make_shared<const Frame>(later), std::make_shared<const Frame>(later)});
+    const Rectangle bottom = once.layout().bottom;
+    const Rectangle row{bottom.x, bottom.y, bottom.width, bottom.height / 3};
+    EXPECT_GT(changed(with, without, row, 60).count, 50);
+    panels[1].scene.film.captions.clear();
+    const PanelLayout own = layout_of(panels, film_of(960, 540));
+    EXPECT_GT(own.places[0].note.height, 0);
+    EXPECT_LT(own.bottom.height, below);
+}
+
 // A plot follows its own panel's rows, on axes that hold those of all.
 TEST(SideBySide, PlotsAreThoseOfTheirPanelOnOneSpan) {
     const std::vector<Panel> panels = plotted_panels();

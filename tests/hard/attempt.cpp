@@ -97,7 +97,7 @@ Ground lay_ground(const fs::path& folder) {
             throw std::runtime_error(command_text(words) + " fails: " + ran.err);
     };
     must({"movie", "fifty.toml", "--no-film", "--out", "run", "--set", "output.trajectory_interval=20 ms"});
-    must({"render", "run", "--no-film", "--frames", "--out", "drawn"});
+    must({"render", "run", "--every", "1", "--no-replay", "--no-film", "--frames", "--out", "drawn"});
     return {folder / "run", folder / "drawn/frames", {}};
 }
 

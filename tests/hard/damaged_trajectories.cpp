@@ -93,7 +93,9 @@ Group damaged_trajectories(const Ground& ground) {
                 fs::copy(ground.run, here / "run");
                 const std::string bytes = damaged_somewhere(whole, dice);
                 test::write_text(here / "run/trajectory.nc", bytes);
-                const Ran ran = attempt({"render", "run", "--no-film", "--frames", "--out", "drawn"}, here);
+                const Ran ran = attempt({"render", "run", "--every", "1", "--no-replay", "--no-film",
+                                         "--frames", "--out", "drawn"},
+                                        here);
                 if (!ran.problem.empty()) return {"", ran.problem};
                 if (ran.status != 0) return {"refused", ""};
                 // Without damaged frames the others are drawn, under other words of how fast they play.

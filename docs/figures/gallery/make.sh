@@ -51,6 +51,6 @@ picture text "${still[@]}" --set 'film.text="big above small {big_above_small}\n
 picture plots "${still[@]}" --set 'film.plot=[{y="height_difference"}, {y="big_above_small"}]'
 
 # What wants more than one frame.
-run render "$work/wedge" --from 4 --to 5 --no-film --frames --size 640x480 "${still[@]}" "${view[@]}" \
+run render "$work/wedge" --every 1 --from 4 --to 5 --no-film --frames --size 640x480 "${still[@]}" "${view[@]}" \
     --set 'film.trails={species=["big"], duration="1 s"}' --out "$work/trails"
 cp "$(find "$work/trails/frames" -name '*.png' | sort | tail -1)" "$here/trails.png"

@@ -14,7 +14,7 @@ beside() { ffmpeg -v error -y -i "$work/$2" -i "$work/$3" -filter_complex hstack
 
 # The front page's moving picture.
 run movie "$wedge" --out "$work/wedge" --no-film
-run render "$work/wedge" --format gif --size 560x420 --set film.rate=12 --out "$work/gif"
+run render "$work/wedge" --every 1 --format gif --size 560x420 --set film.rate=12 --out "$work/gif"
 cp "$work/gif/movie.gif" "$here/wedge.gif"
 
 # Colours and marks: rise, arrows, plots.

@@ -49,9 +49,9 @@ void add_file_keys(CLI::App& verb, Assignments& sets) {
         "Alpha in place of the background; of png and ffv1");
 }
 
-// Keys of a film's file, which a single picture does not have.
-constexpr std::array of_film_file = {"film.format", "film.quality", "film.preset", "film.max_size",
-                                     "film.sheet"};
+// Keys of a film's file and pace, which a single picture does not have.
+constexpr std::array of_film_file = {"film.format",   "film.quality", "film.preset",
+                                     "film.max_size", "film.sheet",   "film.rate"};
 
 }  // namespace
 

@@ -71,7 +71,8 @@ class Report final : public Verb {
         std::error_code ignored;
         const fs::path folder = out.parent_path();
         if (!folder.empty() && !fs::is_directory(folder, ignored))
-            throw UserError(fmt::format("{}: there is no such folder; make it first", folder.string()));
+            throw UserError(
+                fmt::format("--out {}: there is no folder {}; make it first", out.string(), folder.string()));
         if (fs::is_directory(out, ignored))
             throw UserError(fmt::format("--out {}: is a folder; name a file, as in {}", out.string(),
                                         (out / "report.html").string()));

@@ -17,8 +17,17 @@ struct PlotGrid {
     int columns = 1, rows = 1, width = 0, height = 0;  // pixels that they take from the port
 };
 
-constexpr double least_wide = 12, least_high = 7.5;  // of a plot, in sizes of minor letters
-constexpr double most_upright = 0.75;                // height of a plot over its width
+constexpr double most_upright = 0.75;  // height of a plot over its width
+// Of a plot, pixels. Words above and below its curves take five sizes of minor letters, and curves need as
+// many pixels whatever the letters' size is.
+double least_high(double minor) {
+    constexpr double words = 5, usual = 7.5, curves = 48;
+    return std::max(usual * minor, words * minor + curves);
+}
+double least_wide(double minor) {
+    constexpr double usual = 12;
+    return std::max(usual * minor, least_high(minor) / most_upright);
+}
 
 // None where they would be too small, or leave too little to the grains.
 PlotGrid plot_grid(const std::vector<Panel>& panels, const Film& film, int width, int height, PlotsAt at) {
@@ -27,15 +36,15 @@ PlotGrid plot_grid(const std::vector<Panel>& panels, const Film& film, int width
     for (const Panel& panel : panels) most_plots = std::max(most_plots, panel.scene.film.shows.plots.size());
     const auto count = static_cast<int>(most_plots);
     const double minor = panel_type(film).minor;
-    if (count == 0 || at == PlotsAt::none || width < least_wide * minor) return {};
+    if (count == 0 || at == PlotsAt::none || width < least_wide(minor)) return {};
     PlotGrid grid{at, 1, count, 0, 0};
     if (at == PlotsAt::beside) {
-        grid.width = static_cast<int>(std::max(least_wide * minor, usual_width * width));
+        grid.width = static_cast<int>(std::max(least_wide(minor), usual_width * width));
         return grid.width <= most * width ? grid : PlotGrid();
     }
-    grid.columns = std::clamp(static_cast<int>(width / (least_wide * minor)), 1, count);
+    grid.columns = std::clamp(static_cast<int>(width / (least_wide(minor))), 1, count);
     grid.rows = (count + grid.columns - 1) / grid.columns;
-    grid.height = grid.rows * static_cast<int>(std::max(least_high * minor, usual_height * height));
+    grid.height = grid.rows * static_cast<int>(std::max(least_high(minor), usual_height * height));
     return grid.height <= most * height ? grid : PlotGrid();
 }
 
@@ -99,7 +108,7 @@ Planned grid(const std::vector<Panel>& panels, const Film& film, const WordHeigh
     layout.bottom = {0, film.height - bottom, film.width, bottom};
     const int port = height - around_port(words, planned.plots);
     layout.plots_fit = planned.plots.at == at &&
-                       (at != PlotsAt::beside || port >= planned.plots.rows * least_high * type.minor);
+                       (at != PlotsAt::beside || port >= planned.plots.rows * least_high(type.minor));
     if (width - planned.plots.width < least_panel || port < least_panel || !layout.plots_fit) return planned;
     for (int i = 0; i < count; ++i) {
         const Scene& scene = panels[static_cast<std::size_t>(i)].scene;
@@ -166,7 +175,7 @@ void close_up(const std::vector<Panel>& panels, const Film& film, const WordHeig
     PlotGrid plots = planned.plots;
     const int gap = static_cast<int>(panel_type(film).gap), rows = layout.places.back().row + 1;
     const int panel = (film.height - layout.top.height - layout.bottom.height) / rows;
-    double seen = plots.at == PlotsAt::beside ? plots.rows * least_high * panel_type(film).minor : 0;
+    double seen = plots.at == PlotsAt::beside ? plots.rows * least_high(panel_type(film).minor) : 0;
     seen = std::max<double>(seen, least_panel);
     for (std::size_t i = 0; i < panels.size(); ++i)
         seen = std::max(seen, seen_height(panels[i], layout.places[i]));

@@ -1,5 +1,5 @@
-// Which moments all panels show: those of the film's segments, or, where a finished run cannot give them, those
-// that it kept.
+// Which moments all panels show: those of the film's segments, or, where a finished run cannot give them,
+// those that it kept.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -74,7 +74,11 @@ bool take_moments_of_schedule(Comparison& all) {
     const Clock& clock = all.members[all.reference]->clock();
     if (clock.step <= 0) return false;
     const Span common = common_time(all);
+    const bool any_moment = std::all_of(all.members.begin(), all.members.end(), [](const auto& member) {
+        return member->source().supply().any_moment;
+    });
     Scene film = all.film;
+    if (!any_moment) film.film.segments = of_single_moments(segments_of(film.film));
     for (FilmSegment& segment : film.film.segments) segment = spanning(segment, common_periods(all));
     Pictures pictures;
     pictures.instants = instants_of(film, clock, std::llround(common.to / clock.step));
@@ -138,9 +142,10 @@ void take_moments_of_record(Comparison& all) {
 void take_one(double at, Comparison& all) {
     const Span common = common_time(all);
     if (at < common.from - hair || at > common.to + hair)
-        throw UserError(fmt::format("--at: {:.6g} s is outside the time that all show, which goes from {:.6g} "
-                                    "to {:.6g} s",
-                                    at, common.from, common.to));
+        throw UserError(
+            fmt::format("--at: {:.6g} s is outside the time that all show, which goes from {:.6g} "
+                        "to {:.6g} s",
+                        at, common.from, common.to));
     std::vector<Instant>& instants = all.pictures.instants;
     const auto after = std::upper_bound(instants.begin(), instants.end(), at + hair,
                                         [](double time, const Instant& one) { return time < one.time; });
@@ -152,9 +157,10 @@ void take_one(double at, Comparison& all) {
     for (const auto& member : all.members) {
         if (has_all(*member, all.pictures)) continue;
         const double shown = member->source().moments(all.pictures).front().time;
-        all.warnings.push_back(fmt::format("--at: {:.6g} s was not kept ({}); {:.6g} s is drawn of {}, the "
-                                           "kept moment that is nearest",
-                                           at, member->record()->why_not_all(), shown, member->place()));
+        all.warnings.push_back(
+            fmt::format("--at: {:.6g} s was not kept ({}); {:.6g} s is drawn of {}, the "
+                        "kept moment that is nearest",
+                        at, member->record()->why_not_all(), shown, member->place()));
     }
 }
 

@@ -64,7 +64,12 @@ void make_panels(const CompareRequest& what, Comparison& all) {
                         "as in \"Γ = 1|Γ = 3\"",
                         captions.size(), scenes.size()));
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        all.panels.push_back({scenes[i], captions[i], playback_of(all.members[i]->source(), all)});
+        all.panels.push_back({scenes[i], captions[i], {}});
+        // A still does not play.
+        if (all.still)
+            all.panels[i].playback.resize(all.pictures.segments.size());
+        else
+            all.panels[i].playback = playback_of(all.members[i]->source(), all);
         // All plots and clocks are of the time that is shown.
         if (all.film_end > 0) all.panels[i].scene.run.duration = all.film_end;
     }
@@ -77,8 +82,9 @@ void make_panels(const CompareRequest& what, Comparison& all) {
                 panel.caption += fmt::format(", wall motion drawn {:.3g}×", panel.scene.film.exaggerate);
     const PanelLayout layout = layout_of(all.panels, all.film.film);
     if (layout.places.empty())
-        throw UserError(fmt::format("--size: {}x{} is too small for {} panels; make it larger",
-                                    all.film.film.width, all.film.film.height, scenes.size()));
+        throw UserError(fmt::format("{}: {}x{} is too small for {} panels; make it larger",
+                                    all.film.where("film.size"), all.film.film.width, all.film.film.height,
+                                    scenes.size()));
     warn_of_single_moments(all);
     warn_of_pace(all);
     warn_of_what_is_left_out(layout, all);

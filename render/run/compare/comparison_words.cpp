@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "render/draw/panels/side_by_side.hpp"
 #include "render/draw/words/missing_letters.hpp"
 #include "render/film/sampling/pacing.hpp"
 #include "render/film/sampling/sampler.hpp"
@@ -20,6 +21,19 @@ namespace {
 // That the moments were chosen by.
 const Clock& schedule_clock(const Comparison& all) {
     return all.members[all.reference]->clock();
+}
+
+// The smallest of this shape in which plots have room, as far as one looks; empty beyond.
+std::string size_with_plots(const std::vector<Panel>& panels, Film film) {
+    constexpr int parts = 8, most = 5;  // of the size; times the size
+    const int width = film.width, height = film.height;
+    for (int k = parts + 1; k <= most * parts; ++k) {
+        film.width = (k * width + parts - 1) / parts / 2 * 2;
+        film.height = (k * height + parts - 1) / parts / 2 * 2;
+        const PanelLayout layout = layout_of(panels, film);
+        if (!layout.places.empty() && layout.plots_fit) return fmt::format("{}x{}", film.width, film.height);
+    }
+    return "";
 }
 
 }  // namespace
@@ -64,7 +78,9 @@ void warn_of_single_moments(Comparison& all) {
             warning && said.insert(*warning).second)
             all.warnings.push_back(*warning);
     }
-    if (all.by_schedule) return;
+    const bool all_any = std::all_of(all.members.begin(), all.members.end(),
+                                     [](const auto& member) { return member->source().supply().any_moment; });
+    if (all.by_schedule && all_any) return;
     for (const auto& member : all.members) {
         if (!member->run()) continue;
         for (std::string& line :
@@ -93,10 +109,13 @@ void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all) {
     }
     if (axes) all.warnings.emplace_back("film.axes: films side by side have no axes");
     if (words) all.warnings.emplace_back("film.words: films side by side have their words beside the panels");
-    if (!layout.plots_fit)
-        all.warnings.push_back(
-            fmt::format("--size: {}x{} has no room for plots under {} panels; they are left out",
-                        all.film.film.width, all.film.film.height, all.panels.size()));
+    if (layout.plots_fit) return;
+    const Film& film = all.film.film;
+    const std::string enough = size_with_plots(all.panels, film);
+    all.warnings.push_back(fmt::format("{}: {}x{} has no room for plots under {} panels; they are left out{}",
+                                       all.film.where("film.size"), film.width, film.height,
+                                       all.panels.size(),
+                                       enough.empty() ? "" : fmt::format(", and fit from {}", enough)));
 }
 
 std::string playback_of_all(const std::vector<Panel>& panels, std::size_t segment) {

@@ -19,11 +19,11 @@ namespace grainreel {
 namespace {
 
 // Keys and tables that the whole film has once: of its file, its time, and of what stands around the panels.
-constexpr std::array of_the_whole = {
-    "film.size",       "film.rate",     "film.for",      "film.format",  "film.quality",
-    "film.preset",     "film.max_size", "film.sheet",    "film.segment", "film.transparent",
-    "film.background", "film.title",    "film.words",    "film.axes",    "film.caption",
-    "title",           "run.duration",  "run.threads"};
+constexpr std::array of_the_whole = {"film.size",    "film.rate",        "film.for",        "film.format",
+                                     "film.quality", "film.preset",      "film.max_size",   "film.sheet",
+                                     "film.segment", "film.transparent", "film.background", "film.title",
+                                     "film.words",   "film.axes",        "film.caption",    "title",
+                                     "run.duration", "run.threads"};
 
 bool is_or_is_in(const std::string& key, const std::string& table) {
     return key.rfind(table, 0) == 0 &&
@@ -47,8 +47,8 @@ std::vector<std::string> split(const std::string& text) {
             parts.back() += text[++i];
             continue;
         }
-        const bool begins = quote == 0 && (c == '"' || c == '\'') &&
-                            (depth > 0 || trimmed(parts.back()).empty());
+        const bool begins =
+            quote == 0 && (c == '"' || c == '\'') && (depth > 0 || trimmed(parts.back()).empty());
         if (begins)
             quote = c;
         else if (c == quote)
@@ -68,8 +68,8 @@ std::vector<std::string> split(const std::string& text) {
 
 // "20 Hz" of "\"20 Hz\"".
 std::string bare(const std::string& value) {
-    const bool quoted = value.size() >= 2 && (value.front() == '"' || value.front() == '\'') &&
-                        value.back() == value.front();
+    const bool quoted =
+        value.size() >= 2 && (value.front() == '"' || value.front() == '\'') && value.back() == value.front();
     return quoted ? value.substr(1, value.size() - 2) : value;
 }
 
@@ -88,9 +88,9 @@ std::string path_of(const Assignment& value, const Scene& scene) {
 
 std::string with_unit(const std::string& text, const std::string& path) {
     const Key* key = path.empty() ? nullptr : find_key(path);
-    const bool measured = key != nullptr && key->dimension != Dimension::number &&
-                          (key->kind == KeyKind::quantity || key->kind == KeyKind::diameter ||
-                           key->kind == KeyKind::gravity);
+    const bool measured =
+        key != nullptr && key->dimension != Dimension::number &&
+        (key->kind == KeyKind::quantity || key->kind == KeyKind::diameter || key->kind == KeyKind::gravity);
     return measured && is_number(text) ? fmt::format("{} {}", text, text_of(key->dimension).unit) : text;
 }
 
@@ -125,8 +125,7 @@ std::vector<Assignment> read_vary(const std::string& typed) {
             throw UserError(fmt::format("{}: is the same for all panels; vary another key", place));
     std::vector<std::string> values = split(all.value());
     if (values.size() < 2)
-        throw UserError(
-            fmt::format("{}: has one value; give two or more, with commas between them", place));
+        throw UserError(fmt::format("{}: has one value; give two or more, with commas between them", place));
     std::vector<Assignment> assignments;
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i].empty())
@@ -143,8 +142,8 @@ std::vector<std::string> labels_of(const std::vector<Assignment>& values, const 
     std::vector<std::string> symbols, words;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::string path = path_of(values[i], scenes[i]);
-        words.push_back(fmt::format("{} = {}", words_of_key(values[i].key()),
-                                    with_unit(bare(values[i].value()), path)));
+        words.push_back(
+            fmt::format("{} = {}", words_of_key(values[i].key()), with_unit(bare(values[i].value()), path)));
         symbols.push_back(with_symbol(path, scenes[i]));
     }
     const std::set<std::string> different(symbols.begin(), symbols.end());

@@ -14,8 +14,8 @@ namespace grainreel {
 // comes twice, and for a key of what all panels share.
 std::vector<Assignment> read_vary(const std::string& typed);
 
-// What tells the panels apart: "Γ = 2", "friction = 0.3", "density of big = 2500 kg/m3". scenes: read with the
-// values, in the same order.
+// What tells the panels apart: "Γ = 2", "friction = 0.3", "density of big = 2500 kg/m3". scenes: read with
+// the values, in the same order.
 std::vector<std::string> labels_of(const std::vector<Assignment>& values, const std::vector<Scene>& scenes);
 
 // Whether the value changes what happens in the scene, and not its picture or its random choices alone.

@@ -48,6 +48,11 @@ std::vector<std::string> single_moment_warnings(const Scene& scene, const std::s
     return warnings;
 }
 
+std::vector<FilmSegment> of_single_moments(std::vector<FilmSegment> segments) {
+    for (FilmSegment& segment : segments) segment.average = 0, segment.exposure = 0;
+    return segments;
+}
+
 std::optional<std::string> periods_warning(const Scene& scene, const FrameArchive& run) {
     if (run.periods() == 1 || scene.film.periods > 0) return std::nullopt;
     return fmt::format(

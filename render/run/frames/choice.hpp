@@ -22,6 +22,9 @@ std::vector<Frame> alike(const std::vector<Frame>& moments, int periods);
 // cannot.
 std::vector<std::string> single_moment_warnings(const Scene& scene, const std::string& why);
 
+// Without means and exposures.
+std::vector<FilmSegment> of_single_moments(std::vector<FilmSegment> segments);
+
 // What is to be said of a run whose bed repeats itself only every so many periods, where the scene leaves it
 // open.
 std::optional<std::string> periods_warning(const Scene& scene, const FrameArchive& run);

@@ -30,6 +30,7 @@ FilmOfRun::FilmOfRun(const RecordedRun& run, const Assignments& sets) : run_(run
         same_ = now.segments == then.segments && now.rate == then.rate && now.periods == then.periods;
     }
     if (same_) read_film_times();
+    same_ = !filmed_.empty();
     read_periods();
 }
 
@@ -71,8 +72,7 @@ std::vector<Shot> FilmOfRun::shots() const {
     if (clock.step <= 0) return {{last_, 0}};  // a single moment
     const std::int64_t steps = std::llround(scene.run.duration / clock.step);
     const std::vector<FilmSegment> segments = segments_of(scene.film);
-    std::vector<Shot> shots =
-        with_bed(shots_at(instants_of(scene, clock, steps), segments, clock, steps));
+    std::vector<Shot> shots = with_bed(shots_at(instants_of(scene, clock, steps), segments, clock, steps));
     const std::int64_t first = run_.moments().front().step;
     std::erase_if(shots, [&](const Shot& shot) { return shot.step < first || shot.step > last_; });
     return shots;
@@ -101,8 +101,9 @@ std::vector<Shot> FilmOfRun::with_bed(const std::vector<Shot>& shots) const {
 
 FilmOfRun::Place FilmOfRun::place_of(std::int64_t step) const {
     const std::vector<Shot> all = shots();
-    const auto after = std::upper_bound(all.begin(), all.end(), step,
-                                        [](std::int64_t wanted, const Shot& shot) { return wanted < shot.step; });
+    const auto after =
+        std::upper_bound(all.begin(), all.end(), step,
+                         [](std::int64_t wanted, const Shot& shot) { return wanted < shot.step; });
     if (after == all.begin()) return {};
     const Shot& before = *std::prev(after);
     double pictures = static_cast<double>(after - all.begin()) - 1;

@@ -41,11 +41,11 @@ class FilmOfRun {
     std::vector<Shot> with_bed(const std::vector<Shot>& shots) const;
 
     const RecordedRun& run_;
-    bool same_ = true;  // the schedule, as in the run
+    bool same_ = true;  // the schedule, as in the run's own film, which there is
     std::int64_t last_ = 0;
-    std::set<std::int64_t> filmed_;          // steps, of the run's own film
-    std::vector<double> steps_, periods_;    // of rows of measures.csv
-    std::vector<double> differences_;        // m, likewise
+    std::set<std::int64_t> filmed_;        // steps, of the run's own film
+    std::vector<double> steps_, periods_;  // of rows of measures.csv
+    std::vector<double> differences_;      // m, likewise
 };
 
 }  // namespace grainreel

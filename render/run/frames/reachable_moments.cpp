@@ -26,6 +26,13 @@ std::vector<Touch> touches_of(const Simulation& run) {
     return touches;
 }
 
+bool same_grains(const Frame& a, const Frame& b) {
+    bool same = a.id == b.id;
+    for (std::size_t i = 0; same && i < a.size(); ++i)
+        same = (a.position[i] - b.position[i]).norm() <= same_place * b.radius[i];
+    return same;
+}
+
 }  // namespace
 
 ReachableMoments::ReachableMoments(const RecordedRun& run, int threads) : run_(run) {
@@ -68,11 +75,7 @@ void ReachableMoments::check_film_moments() const {
         const std::optional<std::size_t> both = in_trajectory(step);
         if (!both) continue;
         try {
-            const Frame here = film_moments_->read(place), there = run_.grains(*both);
-            bool same = here.id == there.id;
-            for (std::size_t i = 0; same && i < here.size(); ++i)
-                same = (here.position[i] - there.position[i]).norm() <= same_place * there.radius[i];
-            if (same) return;
+            if (same_grains(film_moments_->read(place), run_.grains(*both))) return;
         } catch (const DamagedFrame&) {
             continue;  // whoever draws it says so
         }
@@ -123,6 +126,7 @@ ReachableMoments::Found ReachableMoments::at(std::int64_t step, bool touches, co
         kept = whole([&] { return film_moment(filmed->second); });
     if (kept) return {std::move(*kept), false};
     if (replayer_ && replayer_->reaches(step)) {
+        prove(step, watcher);
         const Simulation& run = replayer_->at(step, watcher);
         Found found{run.frame(), true};
         if (touches) found.frame.touches = touches_of(run);
@@ -131,6 +135,25 @@ ReachableMoments::Found ReachableMoments::at(std::int64_t step, bool touches, co
     if (damage) throw *damage;
     throw UserError(fmt::format("{}: {:.6g} s was not kept, and cannot be brought back",
                                 run_.folder().string(), run_.clock().time(step)));
+}
+
+void ReachableMoments::prove(std::int64_t step, const ReplayWatcher& watcher) {
+    if (proven_ || !replayer_) return;
+    const std::vector<Frame>& moments = run_.moments();
+    for (std::size_t k = moments.size(); k-- > 0;) {
+        if (moments[k].step > step || !replayer_->goes_to(moments[k].step)) continue;
+        try {
+            const Frame kept = run_.grains(k);
+            proven_ = same_grains(kept, replayer_->at(moments[k].step, watcher).frame());
+        } catch (const DamagedFrame&) {
+            continue;
+        }
+        if (proven_) return;
+        throw UserError(fmt::format(
+            "{}: brought back to {:.6g} s it has other grains than in trajectory.nc: its checkpoints are of "
+            "another run, or do not hold all of it; --no-replay draws what was kept",
+            run_.folder().string(), moments[k].time));
+    }
 }
 
 bool ReachableMoments::brings_all_back() const {

@@ -32,6 +32,9 @@ class ReachableMoments {
     // replay fails or the watcher stops it.
     Found at(std::int64_t step, bool touches, const ReplayWatcher& watcher);
 
+    // Goes to a kept moment on the way to this step, if there is one, and compares the grains. Throws
+    // UserError when they are others: the checkpoints are of another run. Once is enough.
+    void prove(std::int64_t step, const ReplayWatcher& watcher);
     // Whether a checkpoint leads to the run's first moment, and so to all of them.
     bool brings_all_back() const;
     // The kept moment that is nearest.
@@ -49,6 +52,7 @@ class ReachableMoments {
     std::optional<TrajectoryReader> film_moments_;
     std::map<std::int64_t, std::size_t> filmed_;  // places of its moments, by step
     std::optional<Replayer> replayer_;
+    bool proven_ = false;  // that the replay goes the run's way
     std::vector<std::string> news_;
 };
 

@@ -166,6 +166,11 @@ void RecordedRun::read_contacts(bool alone) {
                                       "the run was not told to keep contacts (output.contacts = true); let "
                                       "film.colour.by be something else and film.force_chains false");
     contacts_.emplace(file);
+    if (!use.alone && contacts_->cut_off()) {
+        contacts_.reset();
+        news_.push_back(fmt::format("{}: was cut off; contacts are brought back", file.string()));
+        return;
+    }
     if (contacts_->cut_off())
         faults_.push_back(
             fmt::format("{}: was cut off; the last frames are drawn without contacts", file.string()));

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/run/frames/choice.hpp"
 #include "render/run/thread_plan.hpp"
 
 namespace grainreel {
@@ -37,6 +38,11 @@ void RevisitedRun::leave_out_damaged() {
 
 bool RevisitedRun::wants_touches() const {
     return needs_touches(scene().film.shows);
+}
+
+std::vector<FilmSegment> RevisitedRun::segments() const {
+    std::vector<FilmSegment> segments = segments_of(scene().film);
+    return reachable_.brings_all_back() ? segments : of_single_moments(std::move(segments));
 }
 
 bool RevisitedRun::has(std::int64_t step) const {
@@ -83,8 +89,7 @@ std::vector<std::string> RevisitedRun::news() const {
 }
 
 std::vector<Shot> RevisitedRun::shots_of(const Pictures& pictures) const {
-    if (clock().step > 0)
-        return shots_at(pictures.instants, pictures.segments, clock(), film_.last_step());
+    if (clock().step > 0) return shots_at(pictures.instants, pictures.segments, clock(), film_.last_step());
     std::vector<Shot> shots;  // of a run with one moment
     for (const Instant& instant : pictures.instants) shots.push_back({film_.last_step(), instant.segment});
     return shots;

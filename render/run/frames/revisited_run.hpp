@@ -1,6 +1,6 @@
-// A run that lies on disk, as a source of any of its moments: those that it kept (RecordedRun), and the others
-// brought back from its checkpoints. Where that cannot be, or must not be, a picture shows the kept moment
-// that is nearest, and news() counts them.
+// A run that lies on disk, as a source of any of its moments: those that it kept (RecordedRun), and the
+// others brought back from its checkpoints. Where that cannot be, or must not be, a picture shows the kept
+// moment that is nearest, and news() counts them.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +33,8 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     const Clock& clock() const { return run_.clock(); }
     // The pictures of its scene's film, as far as the run has come, or as the run's own film has them.
     const FilmOfRun& film() const { return film_; }
+    // The film's segments; without means and exposures where these are not to be had.
+    std::vector<FilmSegment> segments() const;
     // Whether a picture of that step shows it, and not another one.
     bool has(std::int64_t step) const;
     // The step that a picture of this one shows.
@@ -40,6 +42,10 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     bool has_all(const Pictures& pictures) const;
     // Whether it would be brought back.
     bool is_brought_back(std::int64_t step) const;
+    // Throws UserError when what is brought back on the way to the step is another run.
+    void prove(std::int64_t step) {
+        reachable_.prove(step, [](double) { return true; });
+    }
     // Why not all of its moments can be had; empty where they can.
     std::string why_not_all() const;
     // Asked while a replay goes on, with its share; the usual go_on is asked too.
@@ -79,8 +85,8 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     std::vector<Shot> shots_;
     std::vector<FilmSegment> segments_;
     KeptMoments kept_;
-    std::set<std::int64_t> wanted_;  // steps of moments that later pictures are made of
-    std::size_t next_ = 0;           // of the shots
+    std::set<std::int64_t> wanted_;             // steps of moments that later pictures are made of
+    std::size_t next_ = 0;                      // of the shots
     std::optional<std::int64_t> brought_back_;  // the step whose frame has its contacts with it
 };
 

@@ -86,11 +86,15 @@ TEST_F(CompareProgram, TakesFinishedRunsToo) {
         ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);
     const Ended runs = program({"compare", "weak", "strong", "--out", "runs"});
     EXPECT_EQ(runs.status, 0) << runs.err;
-    EXPECT_EQ(decoded_pictures(here / "runs/movie.mp4"), 5);  // 0.2 s at 20 Hz, one a period
+    EXPECT_EQ(decoded_pictures(here / "runs/movie.mp4"), frames_of_film);
+    const Ended kept = program({"compare", "weak", "strong", "--out", "kept", "--no-replay"});
+    EXPECT_EQ(kept.status, 0) << kept.err;
+    EXPECT_EQ(decoded_pictures(here / "kept/movie.mp4"), 5);  // 0.2 s at 20 Hz, one a period
+    EXPECT_THAT(kept.err, HasSubstr("--no-replay: nothing is brought back; the film shows the moments that"));
     const nlohmann::json record = record_of(here / "runs");
     EXPECT_EQ(record["drawn"].size(), 2u);
     EXPECT_TRUE(record["engine"].is_null());
-    // Mixed: the scene follows the moments of the run. The same scene either way: the same film.
+    // Mixed: the same scene either way, and the same film.
     ASSERT_EQ(program({"compare", "weak", "strong.toml", "--out", "mixed", "--frames", "--set",
                        "film.camera.frame=container"})
                   .status,
@@ -150,11 +154,15 @@ TEST_F(CompareProgram, WhatHasNoRoomOrCannotBeShownIsNamed) {
                        "film.plot=[{y=\"lacey\"}]", "--set", "film.segment=[{average=1,kind=\"locked\"}]"})
                   .status,
               0);
-    const Ended ended = program({"compare", "run", "run", "--size", "320x240", "--set", "film.axes=true"});
+    const Ended ended = program({"compare", "run", "run", "--size", "320x240", "--set", "film.axes=true",
+                                 "--set", "film.words=none", "--no-replay"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("--size: 320x240 has no room for plots under 2 panels"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("--size: 320x240 has no room for plots under 2 panels; they are left out, "
+                          "and fit from "));
     EXPECT_THAT(ended.err, HasSubstr("film.axes: films side by side have no axes"));
-    EXPECT_THAT(ended.err, HasSubstr("'average' is left out: frames of a finished run are single moments"));
+    EXPECT_THAT(ended.err, HasSubstr("film.words: films side by side have their words beside the panels"));
+    EXPECT_THAT(ended.err, HasSubstr("'average' is left out: frames that a run kept are single moments"));
 }
 
 // A run that kept no frame a period before the others cannot show displacements over one.
@@ -163,7 +171,14 @@ TEST_F(CompareProgram, DisplacementsThatCannotBeKnownAreNamed) {
     std::vector<std::string> sparse = movie;
     sparse.insert(sparse.end(), {"--set", "output.trajectory_interval=80 ms"});
     ASSERT_EQ(program(sparse).status, 0);
-    const Ended ended = program({"compare", "run", "run", "--set", "film.colour.by=displacement"});
+    const std::vector<std::string> compare = {"compare", "run", "run", "--set",
+                                              "film.colour.by=displacement"};
+    const Ended whole = program(compare);
+    EXPECT_EQ(whole.status, 0) << whole.err;
+    EXPECT_THAT(whole.err, Not(HasSubstr("a period before them")));
+    std::vector<std::string> kept = compare;
+    kept.insert(kept.end(), {"--no-replay", "--out", "kept"});
+    const Ended ended = program(kept);
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("run/trajectory.nc: 2 of its 3 frames have none a period before them"));
 }
@@ -181,6 +196,85 @@ TEST_F(CompareProgram, UnlikeDrivesHaveACaptionEach) {
     const std::string png = text_of(here / "both/frames/000001.png");
     EXPECT_THAT(png, HasSubstr("1 frame a period at phase 0 (plays 1.5×) | "
                                "on average 1 frame every 1.25 periods, at phase 0 (plays 1.5×)"));
+}
+
+// The same film as of files of their own with these values, but for the panels' names.
+TEST_F(CompareProgram, VariesAKeyOfOneScene) {
+    const Ended ended = program({"compare", "weak.toml", "--vary", "drive.g_level=1.2,3", "--seed", "4",
+                                 "--frames", "--no-film", "--out", "varied"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(record_of(here / "varied")["panels"],
+                testing::ElementsAre("weak-g_level-1.2", "weak-g_level-3"));
+    ASSERT_EQ(program({"compare", "weak.toml", "strong.toml", "--seed", "4", "--frames", "--no-film", "--out",
+                       "files"})
+                  .status,
+              0);
+    const auto pixels = [&](const char* frame) {
+        const std::string text = text_of(here / frame);
+        return text.substr(text.find("IDAT"));
+    };
+    EXPECT_TRUE(pixels("varied/frames/000007.png") == pixels("files/frames/000007.png"));
+    EXPECT_EQ(record_of(here / "varied/weak-g_level-3")["engine"]["state_hash"],
+              record_of(here / "files/strong")["engine"]["state_hash"]);
+    const Ended again = program({"compare", "varied/weak-g_level-1.2", "varied/weak-g_level-3", "--frames",
+                                 "--no-film", "--out", "again"});
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(std::distance(fs::directory_iterator(here / "again/frames"), {}), frames_of_film);
+}
+
+TEST_F(CompareProgram, VariesWhatIsDrawnOfARunToo) {
+    ASSERT_EQ(program({"movie", "weak.toml", "--no-film", "--out", "run"}).status, 0);
+    const Ended ended = program(
+        {"compare", "run", "--vary", "film.colour.by=speed,start-height", "--at", "0.07", "--out", "two"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_TRUE(fs::exists(here / "two/still-0.070s.png"));
+    const Ended drive = program({"compare", "run", "--vary", "drive.g_level=1,2", "--out", "no"});
+    EXPECT_EQ(drive.status, 2);
+    EXPECT_THAT(drive.err, HasSubstr("--vary drive.g_level: the run is over"));
+}
+
+// One moment of all: of scenes, which are run, and of their runs.
+TEST_F(CompareProgram, AtDrawsOneMoment) {
+    const std::vector<std::string> still = {"--at", "0.0333333333", "--set", "film.camera.frame=container"};
+    const auto drawn = [&](std::vector<std::string> words, const std::string& out) {
+        words.insert(words.end(), still.begin(), still.end());
+        words.insert(words.end(), {"--out", out});
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        const std::string png = text_of(here / out / "still-0.033333s.png");
+        return png.substr(png.find("IDAT"));
+    };
+    const std::string live = drawn({"compare", "weak.toml", "strong.toml"}, "live");
+    EXPECT_FALSE(fs::exists(here / "live/movie.mp4"));
+    EXPECT_TRUE(live == drawn({"compare", "live/weak", "live/strong"}, "finished"));
+    const Ended far = program({"compare", "live/weak", "live/strong", "--at", "0.5", "--out", "far"});
+    EXPECT_EQ(far.status, 2);
+    EXPECT_THAT(far.err, HasSubstr("--at: 0.5 s is outside the time that all show"));
+    EXPECT_FALSE(fs::exists(here / "far"));
+}
+
+// A caption that a scene has for its own drive is not shown over another one.
+TEST_F(CompareProgram, CaptionsOfOneValueAreLeftOutBesideOthers) {
+    write_text(here / "told.toml",
+               text_of(here / "weak.toml") + "[[film.caption]]\nfrom = \"0 s\"\ntext = \"Nothing flies\"\n");
+    const auto drawn = [&](const std::string& scene, const std::string& out,
+                           const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"compare", scene,  "--vary", "drive.g_level=1.2,3",
+                                          "--at",    "0.05", "--out",  out};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        const std::string png = text_of(here / out / "still-0.050s.png");
+        return std::pair(ended.err, png.substr(png.find("IDAT")));
+    };
+    const auto [said, told] = drawn("told.toml", "told", {});
+    EXPECT_THAT(said, HasSubstr("film.caption: the scene's captions were written for one value of "
+                                "drive.g_level and are left out"));
+    EXPECT_TRUE(told == drawn("weak.toml", "weak", {}).second);
+    const auto [nothing, own] =
+        drawn("told.toml", "own", {"--set", "film.caption=[{from=0,text=\"Two drives\"}]"});
+    EXPECT_THAT(nothing, Not(HasSubstr("film.caption")));
+    EXPECT_NE(own, told);
 }
 
 TEST_F(CompareProgram, AllEndWithTheShortest) {
@@ -270,6 +364,26 @@ TEST_F(CompareProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
         {{"compare", "weak.toml", "strong.toml", "--size", "64x64"},
          "--size: 64x64 is too small for 2 panels"},
         {{"compare", "weak.toml", "strong.toml", "--no-film"}, "--no-film"},
+        {{"compare", "weak.toml", "strong.toml", "--vary", "drive.g_level=1,2"}, "--vary: takes one scene"},
+        {{"compare", "weak.toml", "--vary", "drive.g_level"}, "--vary drive.g_level: write KEY=VALUE,VALUE"},
+        {{"compare", "weak.toml", "--vary", "drive.g_level=2"}, "--vary drive.g_level: has one value"},
+        {{"compare", "weak.toml", "--vary", "drive.g_level=2,"}, "--vary drive.g_level: value 2 is empty"},
+        {{"compare", "weak.toml", "--vary", "drive.g_level=2,3,2"}, "--vary drive.g_level: has 2 twice"},
+        {{"compare", "weak.toml", "--vary", "drive.g_level=1,2,3,4,5,6,7"}, "--vary: has 7 values"},
+        {{"compare", "weak.toml", "--vary", "drive.g_levle=1,2"}, "--vary drive.g_levle: unknown key"},
+        {{"compare", "weak.toml", "--vary", "drive.g_level=1,x"}, "--vary drive.g_level: "},
+        {{"compare", "weak.toml", "--vary", "drive.frequency=20 Hz,3 mm"},
+         "--vary drive.frequency: 'frequency' must be a frequency, but \"3 mm\" is a length"},
+        {{"compare", "weak.toml", "--vary", "film.size=64x64,65x65"},
+         "--vary film.size: is the same for all panels"},
+        {{"compare", "weak.toml", "--vary", "run.duration=1 s,2 s"}, "--vary run.duration: is the same"},
+        {{"compare", "weak.toml", "--vary", "drive.g_level=1,2", "--set", "drive.g_level=3"},
+         "--vary drive.g_level: --set drive.g_level gives it a value too"},
+        {{"compare", "weak.toml", "strong.toml", "--at", "9"}, "--at: 9 s is outside"},
+        {{"compare", "weak.toml", "strong.toml", "--at", "0", "--frames"}, "--at"},
+        {{"compare", "weak.toml", "strong.toml", "--at", "0", "--format", "png"}, "--format: is of a film"},
+        {{"compare", "weak.toml", "strong.toml", "--out", "-"}, "--out -: stdout takes a film in y4m alone"},
+        {{"compare", "weak.toml", "strong.toml", "--max-size", "0.3 kB"}, "--max-size: "},
         {{"compare", "run", "weak.toml", "--duration", "1 s"}, "the run is over"},
         {{"compare", "weak.toml", "strong.toml", "--out", "run"}, "--out run: exists already"},
     };

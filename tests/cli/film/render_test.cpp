@@ -77,8 +77,11 @@ TEST_F(RenderProgram, KeptContactsDrawForceChainsAndTheirColours) {
     ASSERT_EQ(program({"render", "run", "--frames", "--no-film", "--out", "again"}).status, 0);
     expect_same_pictures(here / "run/frames", here / "again/frames");
     EXPECT_EQ(program({"render", "run", "--at", "0.1", "--set", "film.force_chains=true"}).status, 0);
+    ASSERT_EQ(program({"render", "run", "--at", "0.1", "--out", "kept.png"}).status, 0);
     fs::remove(here / "run/contacts.nc");
-    const Ended refused = program({"render", "run", "--at", "0.1"});
+    ASSERT_EQ(program({"render", "run", "--at", "0.1", "--out", "replayed.png"}).status, 0);
+    EXPECT_TRUE(text_of(here / "kept.png") == text_of(here / "replayed.png"));
+    const Ended refused = program({"render", "run", "--at", "0.1", "--no-replay"});
     EXPECT_EQ(refused.status, 2);
     EXPECT_THAT(refused.err, HasSubstr("has no contacts.nc; the run was not told to keep contacts"));
 }
@@ -133,6 +136,9 @@ TEST_F(RenderProgram, AnotherSizeAnotherCameraAnotherColour) {
         EXPECT_NE(text_of(here / "plain/frames/000003.png"), text_of(here / "other/frames/000003.png"))
             << set;
     }
+    const Ended clear = program({"render", "run", "--at", "0", "--transparent", "--out", "clear.png"});
+    EXPECT_EQ(clear.status, 0) << clear.err;
+    EXPECT_EQ(text_of(here / "clear.png")[25], 6) << "colour type of IHDR: with alpha";
     const Ended small = program({"render", "run", "--at", "0", "--size", "200x100", "--out", "one.png"});
     ASSERT_EQ(small.status, 0) << small.err;
     // IHDR: width and height, big-endian, after the signature and the chunk's head.
@@ -143,24 +149,114 @@ TEST_F(RenderProgram, TakesBackColoursAndListsOfTheRunAndSaysWhatItLeavesOut) {
     run("[film.colour]\nby = \"speed\"\nmap = \"cividis\"\nunit = \"cm/s\"\n[[film.plot]]\ny = \"lacey\"\n"
         "[[film.segment]]\nkind = \"locked\"\naverage = 2\n",
         {"--no-film"});
-    const Ended ended = program(
-        {"render", "run", "--at", "0.1", "--set", "film.colour.by=start-height", "--set", "film.plot=[]"});
+    const Ended ended = program({"render", "run", "--at", "0.1", "--set", "film.colour.by=start-height",
+                                 "--set", "film.plot=[]", "--no-replay"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr(": 'average' is left out: frames of a finished run are single moments"));
-    const Ended wrong = program({"render", "run", "--at", "0.1", "--fps", "500"});
+    EXPECT_THAT(ended.err, HasSubstr(": 'average' is left out: frames that a run kept are single moments"));
+    EXPECT_THAT(program({"render", "run", "--at", "0.1"}).err, Not(HasSubstr("left out: frames")));
+    const Ended wrong = program({"render", "run", "--fps", "500"});
     EXPECT_EQ(wrong.status, 2);
     EXPECT_THAT(wrong.err, HasSubstr("error: --fps: 'rate' must be from 1 to 240"));
 }
 
-TEST_F(RenderProgram, AtDrawsTheNearestFrame) {
+TEST_F(RenderProgram, AtDrawsTheNearestKeptFrameWhereItMayNotBringBack) {
     short_run();
-    const Ended ended = program({"render", "run", "--at", "0.17 s"});
+    const std::vector<std::string> words = {"render", "run", "--at", "0.17 s", "--no-replay"};
+    const Ended ended = program(words);
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(ended.out, "run-0.150s.png\n");
     EXPECT_THAT(ended.err, HasSubstr("frame 4 of 7"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("--at: 0.17 s was not kept (--no-replay: nothing is brought back); 0.15 s "
+                          "is drawn, the kept moment that is nearest"));
     EXPECT_THAT(text_of(here / "run-0.150s.png"), HasSubstr("0.15 s"));
-    EXPECT_EQ(program({"render", "run", "--at", "0.17 s"}).out, "run-0.150s-2.png\n");
+    EXPECT_EQ(program(words).out, "run-0.150s-2.png\n");
     EXPECT_EQ(text_of(here / "run-0.150s.png"), text_of(here / "run-0.150s-2.png"));
+}
+
+// A still of a moment that the film shows is the film's picture, wherever its grains come from.
+TEST_F(RenderProgram, AtDrawsAnyMoment) {
+    run("[[film.segment]]\nplayback = 0.5\nexposure = \"10 ms\"\n", {"--frames"});
+    const std::string picture = text_of(here / "run/frames/000004.png");  // 4 * 0.5 / 30 s
+    const auto pixels = [](const std::string& png) { return png.substr(png.find("IDAT")); };
+    const auto still = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"render", "run", "--at", "0.0666666667", "--out", name};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return ended.err;
+    };
+    EXPECT_THAT(still("filmed.png", {}), HasSubstr("film_moments.nc"));
+    EXPECT_TRUE(pixels(text_of(here / "filmed.png")) == pixels(picture));
+    fs::remove(here / "run/film_moments.nc");
+    EXPECT_THAT(still("replayed.png", {"--threads", "2"}), HasSubstr("brought back from a checkpoint"));
+    EXPECT_TRUE(pixels(text_of(here / "replayed.png")) == pixels(picture));
+    const Ended odd = program({"render", "run", "--at", "0.0625s"});
+    EXPECT_EQ(odd.out, "run-0.0625s.png\n");
+    EXPECT_THAT(text_of(here / "run-0.0625s.png"), HasSubstr("0.0625 s"));
+    fs::remove_all(here / "run/checkpoints");  // its last one remains
+    EXPECT_THAT(still("near.png", {}), HasSubstr("has no checkpoint before 0.3 s from which moments can be "
+                                                 "brought back); 0.05 s is drawn"));
+    EXPECT_EQ(program({"render", "run", "--at", "0.3", "--out", "end.png"}).status, 0);
+}
+
+// Frames of 0.1 s apart say nothing of what lies half a second behind the last of them.
+TEST_F(RenderProgram, AtIsRefusedWhereNothingIsNear) {
+    short_run();
+    fs::remove_all(here / "run/checkpoints");
+    const std::string whole = text_of(here / "run/trajectory.nc");
+    run("[[film.segment]]\nkind = \"locked\"\n",
+        {"--no-film", "--force", "--set", "output.trajectory_interval=1 s"});
+    fs::remove_all(here / "run/checkpoints");
+    const Ended ended = program({"render", "run", "--at", "0.1"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, HasSubstr("--at: 0.1 s was not kept"));
+    EXPECT_THAT(ended.err, HasSubstr("too far away to stand for it"));
+    EXPECT_EQ(ended.out, "");
+}
+
+// Another title, and as many pictures; with the same words the same bytes, also where all is brought back.
+TEST_F(RenderProgram, DrawsTheWholeFilmOnceMore) {
+    run("[[film.segment]]\nplayback = 0.5\nduration = 0.1\n[[film.segment]]\nkind = \"locked\"\nphase = "
+        "0.25\n"
+        "[[film.segment]]\nplayback = 0.25\nexposure = \"10 ms\"\nduration = 0.1\n",
+        {"--frames"});
+    const auto pictures = entries_of(here / "run/frames");
+    const Ended titled = program({"render", "run", "--frames", "--title", "Other", "--out", "titled"});
+    ASSERT_EQ(titled.status, 0) << titled.err;
+    EXPECT_EQ(entries_of(here / "titled/frames"), pictures);
+    EXPECT_THAT(titled.err, Not(HasSubstr("brought back")));
+    ASSERT_EQ(program({"render", "run", "--frames", "--out", "again"}).status, 0);
+    expect_same_pictures(here / "run/frames", here / "again/frames");
+    fs::remove(here / "run/film_moments.nc");
+    const Ended back = program({"render", "run", "--frames", "--no-film", "--out", "back", "--threads", "3"});
+    EXPECT_EQ(back.status, 0) << back.err;
+    EXPECT_THAT(back.err, HasSubstr("pictures were not kept and are brought back from checkpoints"));
+    expect_same_pictures(here / "run/frames", here / "back/frames");
+    const Ended kept = program({"render", "run", "--frames", "--no-replay", "--out", "kept"});
+    EXPECT_EQ(kept.status, 0) << kept.err;
+    EXPECT_EQ(entries_of(here / "kept/frames"), 7);  // 0.3 s at 20 Hz, both ends
+    EXPECT_THAT(kept.err, HasSubstr(fmt::format("of the film's {} pictures ", pictures)));
+    EXPECT_THAT(kept.err, HasSubstr("--no-replay: nothing is brought back"));
+}
+
+TEST_F(RenderProgram, SegmentsOfItsOwnAreShown) {
+    run("[[film.segment]]\nkind = \"locked\"\n", {"--no-film"});
+    const auto drawn = [&](const std::string& segments, const std::string& out) {
+        const Ended ended = program(
+            {"render", "run", "--frames", "--no-film", "--set", "film.segment=" + segments, "--out", out});
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return entries_of(here / out / "frames");
+    };
+    EXPECT_EQ(drawn("[{kind=\"locked\",phase=0.5}]", "half"), 6);  // 0.025 s and every 0.05 s
+    EXPECT_THAT(text_of(here / "half/frames/000002.png"), HasSubstr("1 frame a period at phase 0.5"));
+    EXPECT_THAT(text_of(here / "half/frames/000002.png"), HasSubstr("0.125 s"));
+    EXPECT_EQ(drawn("[{playback=0.3}]", "slow"), 31);  // one every 0.3 / 30 s, both ends
+    const Ended cut =
+        program({"render", "run", "--frames", "--no-film", "--set", "film.segment=[{playback=0.3}]", "--from",
+                 "0.1", "--to", "0.2", "--out", "cut"});
+    EXPECT_EQ(cut.status, 0) << cut.err;
+    EXPECT_EQ(entries_of(here / "cut/frames"), 11);
 }
 
 // Trails in one picture are those that the film of the same frames has there.
@@ -225,11 +321,13 @@ TEST_F(RenderProgram, ALastFrameThatIsNotWholeIsLeftOut) {
     short_run();
     ASSERT_EQ(program({"render", "run", "--no-film", "--frames", "--out", "all"}).status, 0);
     fs::resize_file(here / "run/trajectory.nc", fs::file_size(here / "run/trajectory.nc") - 100);
-    const Ended ended = program({"render", "run", "--no-film", "--frames", "--out", "cut"});
+    const Ended ended = program({"render", "run", "--no-film", "--frames", "--out", "cut", "--no-replay"});
     EXPECT_EQ(ended.status, 0);
     EXPECT_THAT(ended.err,
                 HasSubstr("run/trajectory.nc: frame 6 (the first is 0) is not whole, and is left"));
     EXPECT_EQ(entries_of(here / "cut/frames"), entries_of(here / "all/frames") - 1);
+    ASSERT_EQ(program({"render", "run", "--no-film", "--frames", "--out", "back"}).status, 0);
+    expect_same_pictures(here / "all/frames", here / "back/frames");
 }
 
 TEST_F(RenderProgram, AStartFileThatIsGoneDoesNotMatter) {
@@ -245,7 +343,7 @@ TEST_F(RenderProgram, AStartFileThatIsGoneDoesNotMatter) {
 
 TEST_F(RenderProgram, CtrlCLeavesAFilmThatPlays) {
     run("[[film.segment]]\nplayback = 0.1\n", {"--no-film", "--set", "output.trajectory_interval=0.0003"});
-    Program render({"render", "run", "--size", "1280x720"}, {here.path(), {}});
+    Program render({"render", "run", "--size", "1280x720", "--every", "1"}, {here.path(), {}});
     ASSERT_TRUE(wait_until(render, [&] { return decoded_pictures(here / "run-render/movie.mp4") >= 30; }));
     render.send(SIGINT);
     const Ended ended = render.wait();
@@ -279,7 +377,18 @@ TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
         {{"render", "run", "--set", "species.big.count=3"}, "the run is over"},
         {{"render", "run", "--set", "film.shade=3"}, "unknown key"},
         {{"render", "run", "--from", "1 s"},
+         "--from: no picture of the film lies there; they go from 0 to 0.3 s"},
+        {{"render", "run", "--from", "1 s", "--every", "1"},
          "--from: no frame of the run lies there; they go from 0 to 0.3 s"},
+        {{"render", "run", "--every", "2", "--set", "film.segment=[{}]"},
+         "--set film.segment: --every draws the frames of the trajectory"},
+        {{"render", "run", "--at", "0", "--format", "png"}, "--format: is of a film"},
+        {{"render", "run", "--at", "0", "--sheet", "2x2"}, "--sheet: is of a film"},
+        {{"render", "run", "--at", "0", "--fps", "20"}, "--fps: is of a film"},
+        {{"render", "run", "--at", "0", "--set", "film.quality=3"}, "--set film.quality: is of a film"},
+        {{"render", "run", "--at", "0", "--out", "-"}, "--out -: with --at, name a file"},
+        {{"render", "run", "--at", "0.4"}, "--at: 0.4 s is outside the run"},
+        {{"render", "run", "--transparent"}, "--transparent"},
         {{"render", "run", "--to", "3 kg"}, "--to must be a time, but \"3 kg\" is a mass"},
         {{"render", "run", "--every", "0"}, "--every"},
         {{"render", "run", "--at", "0", "--from", "0"}, "--at"},
