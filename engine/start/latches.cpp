@@ -1,6 +1,7 @@
 #include "engine/start/latches.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -30,14 +31,40 @@ const PairPlan& plan_of(const Plan& plan, const Grains& grains, const ContactVie
 }
 
 bool latches(const PairPlan& pair) {
-    return (pair.model.normal == NormalForce::walton_braun ||
-            pair.model.normal == NormalForce::walton_braun_corrected) &&
-           pair.unloading_stiffness > pair.loading_stiffness;
+    return pair.model.normal != NormalForce::spring_dashpot && pair.model.normal != NormalForce::hertz &&
+           pair.model.own == nullptr && pair.unloading_stiffness > pair.loading_stiffness;
 }
 
+// Straight lines between the rows, constant beyond.
+double restitution_at(const std::vector<RestitutionPoint>& table, double speed) {
+    const auto above =
+        std::find_if(table.begin(), table.end(), [&](const auto& p) { return p.speed > speed; });
+    if (above == table.begin() || above == table.end())
+        return above == table.end() ? table.back().restitution : table.front().restitution;
+    const RestitutionPoint& below = *(above - 1);
+    return below.restitution +
+           (speed - below.speed) / (above->speed - below.speed) * (above->restitution - below.restitution);
+}
+
+// N/m, K2 of a contact whose largest overlap was this one, of grains with the pair's effective mass.
+double unloading(const PairPlan& pair, double largest) {
+    const double k1 = pair.loading_stiffness;
+    if (pair.hardening > 0) return k1 * (1 + pair.hardening * largest);
+    if (pair.restitution_table.empty()) return pair.unloading_stiffness;
+    const double e = restitution_at(pair.restitution_table, largest * std::sqrt(k1 / pair.effective_mass));
+    return k1 / (e * e);
+}
+
+// m: the largest overlap that leaves a contact of this overlap so large a share of its force; by halves.
 double latched(const PairPlan& pair, double overlap, double share) {
-    const double e2 = pair.loading_stiffness / pair.unloading_stiffness;
-    return overlap * (1 - share * e2) / (1 - e2);
+    const double k1 = pair.loading_stiffness, wanted = share * k1 * overlap;
+    const auto force = [&](double largest) {
+        return k1 * largest - unloading(pair, largest) * (largest - overlap);
+    };
+    double low = overlap, high = 2 * overlap;
+    for (int k = 0; k < 60 && force(high) > wanted; ++k) low = high, high *= 2;
+    for (int k = 0; k < 60; ++k) (force(0.5 * (low + high)) > wanted ? low : high) = 0.5 * (low + high);
+    return low;
 }
 
 }  // namespace
@@ -71,7 +98,7 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
         if (found == fresh.end()) return false;
         const PairPlan& pair = *found->second.pair;
         std::fill_n(to, group.history_size(), 0.0);
-        to[0] = latched(pair, found->second.overlap, share);  // a_max, which both laws have first
+        to[0] = latched(pair, found->second.overlap, share);  // a_max, which all of them have first
         if (pair.model.normal == NormalForce::walton_braun_corrected) to[2] = 1 / pair.unloading_stiffness;
         return true;
     });

@@ -10,10 +10,10 @@
 namespace grainreel {
 
 // A bed that Walton and Braun's law has brought to rest lies on overlaps that impacts have left: with fresh
-// contacts it would push as hard as in these impacts. So each fresh contact of constant restitution e gets
-// the largest overlap that leaves it the share s of the force of a fresh one,
+// contacts it would push as hard as in these impacts. So each fresh contact gets the largest overlap a_max
+// that leaves it the share s of the force of a fresh one,
 //
-//   a_max = a (1 - s e^2) / (1 - e^2)   from   K2 (a - a_max (1 - e^2)) = s K1 a,
+//   K1 a_max - K2 (a_max - a) = s K1 a,
 //
 // with the one s, at most 1, for which all contacts together carry the bed's weight. is_fresh says it of a
 // kind of contact. The loop has been restarted.

@@ -103,7 +103,7 @@ std::string text_of(const Plan& plan, const BedInFile& bed, bool all_kept) {
         text += "contacts begin anew, for a table has no histories";
     if (plan.start.relaxes) return text + "; the bed rests in the file and is brought to rest before time 0";
     if (all_kept && is_at_rest(bed)) return text;
-    return text + fmt::format("; {}, so it is not damped", bed.moves_because);
+    return text + fmt::format("; nothing is damped, for {}", bed.moves_because);
 }
 
 void plan_start(const BedInFile& bed, Plan& plan) {

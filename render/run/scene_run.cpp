@@ -104,9 +104,9 @@ std::optional<std::string> SceneRun::packing_warning() const {
     if (packing_.settled) return std::nullopt;
     if (plan_.start.relaxes)
         return fmt::format(
-            "{}: the bed of '{}' does not come to rest in this scene, within {:.3g} s and without grains "
-            "that "
-            "move away, so it starts as it is in the file, without being damped",
+            "{}: the bed of '{}' does not rest in this scene: after {:.3g} s it still moved, or grains had "
+            "moved "
+            "away. It starts as it is in the file, and nothing is damped",
             scene_.where("start.file"), scene_.start.file, packing_.settle_time);
     return fmt::format(
         "{}: the bed still moves after {:.3g} s of settling ({:.2g} J a grain); raise start.settle_limit",

@@ -1,20 +1,12 @@
 // Runs that start anew from a file: a bed at rest stays at rest, whatever the law, and one that moves is
 // never damped.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <numbers>
 
-#include "engine/base/error.hpp"
-#include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
 #include "engine/scene/text/writer.hpp"
-#include "engine/start/grain_table.hpp"
-#include "engine/start/restart.hpp"
-#include "tests/cli/temporary_folder.hpp"
-#include "tests/physics/world.hpp"
+#include "tests/physics/bed/start_file.hpp"
 
 namespace grainreel {
 namespace {
@@ -22,94 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr double kDiameter = 0.004;
-
-const char* const kSpecies = R"([[species]]
-name = "beads"
-count = 60
-diameter = { min = "3.5 mm", max = "4.5 mm" }
-density = "2.5 g/cm3"
-[contact]
-restitution = 0.5
-friction = 0.5
-)";
-const char* const kBox = R"([container]
-shape = "box"
-width = "18 mm"
-depth = "16 mm"
-height = "50 mm"
-)";
-
-class StartFile : public testing::Test {
-  protected:
-    static Scene scene_of(const std::string& more, std::vector<std::string> sets) {
-        sets.insert(sets.begin(), {"run.duration=0.05", "run.threads=1"});
-        return read_scene_text(kSpecies + more, "bed.toml", with_tested_precision(sets));
-    }
-    Scene next_of(const std::string& more, const char* file, std::vector<std::string> sets) const {
-        sets.insert(sets.end(), {"start.method=file", "start.file=" + (here / file).string()});
-        return scene_of(more, sets);
-    }
-
-    struct Rest {
-        double contacts = 0, height = 0, energy = 0;  // a grain; m; over m g d
-    };
-    static Rest rest_of(const Simulation& run, const Scene& scene) {
-        const double mass = scene.species[0].density * std::numbers::pi / 6 * std::pow(kDiameter, 3);
-        const double unit = static_cast<double>(run.grains()) * mass * scene.gravity.norm() * kDiameter;
-        return {run.measure("contact_number"), run.measure("centre_z_m"),
-                (run.measure("kinetic_J") + run.measure("rotational_J")) / unit};
-    }
-    // A bed that has settled and then lain still, in both files.
-    Rest settle(const Scene& scene, double still = 0.02) const {
-        const Plan plan = make_plan(scene);
-        Simulation run(scene, plan, 1);
-        run.pack();
-        run.advance(std::llround(still / plan.clock.step));
-        write_grain_table(here / "final.csv", run.frame());
-        run.save_checkpoint(here / "checkpoint.grs");
-        return rest_of(run, scene);
-    }
-    // Runs on for `seconds`; contacts within `share` of before at every look, and nothing moves.
-    static void expect_rest(const Scene& scene, const Rest& before, double share, const std::string& what,
-                            double seconds = 0.02) {
-        const Plan plan = make_plan(scene);
-        Simulation run(scene, plan, 1);
-        const PackingResult packed = run.pack();
-        EXPECT_TRUE(packed.settled) << what;
-        constexpr int looks = 20;
-        Rest worst{before.contacts, before.height, 0};
-        for (int look = 0; look <= looks; ++look) {
-            run.advance(std::llround(look * seconds / looks / plan.clock.step));
-            const Rest now = rest_of(run, scene);
-            if (std::abs(now.contacts - before.contacts) > std::abs(worst.contacts - before.contacts))
-                worst.contacts = now.contacts;
-            worst.height = std::max(worst.height, now.height);
-            worst.energy = std::max(worst.energy, now.energy);
-        }
-        EXPECT_LT(worst.energy, 1e-3) << what;
-        EXPECT_NEAR(worst.contacts, before.contacts, share * before.contacts) << what;
-        EXPECT_LT(worst.height, before.height + 1e-3 * kDiameter) << what;
-        if (std::getenv("SHOW"))
-            fmt::print("{}: energy {:.2g}, contacts {:.3f} -> {:.3f}, rise {:.2g} d, packed {:.3f} s\n", what,
-                       worst.energy, before.contacts, worst.contacts,
-                       (worst.height - before.height) / kDiameter, packed.settle_time);
-    }
-    test::TemporaryFolder here;
-};
-
-const std::vector<std::string> kLaws = {"walton-braun", "spring-dashpot", "hertz"};
-
-std::string law(const std::string& name) {
-    return "contact.law=" + name;
-}
-
 TEST_F(StartFile, ABedAtRestStaysAtRestUnderTheSameLaw) {
-    for (const std::string& name : kLaws) {
-        const Scene scene = scene_of(kBox, {law(name)});
+    for (const std::string& name :
+         {law(kLaws[0]), law(kLaws[1]), law(kLaws[2]), std::string("contact.restitution_speed=1")}) {
+        const Scene scene = scene_of(kBox, {name});
         const Rest before = settle(scene);
         for (const char* file : {"final.csv", "checkpoint.grs"}) {
-            const Scene next = next_of(kBox, file, {law(name)});
+            const Scene next = next_of(kBox, file, {name});
             const Plan plan = make_plan(next), first = make_plan(scene);
             EXPECT_EQ(plan.between(0, 0).loading_stiffness, first.between(0, 0).loading_stiffness);
             EXPECT_EQ(plan.clock.step, first.clock.step);
@@ -155,7 +66,7 @@ TEST_F(StartFile, TheStiffnessOfTheSceneWins) {
     Simulation run(stiff, plan, 1);
     run.pack();
     EXPECT_LT(rest_of(run, stiff).energy, 1e-4);
-    EXPECT_NEAR(run.measure("centre_z_m"), before.height, 0.02 * kDiameter);
+    EXPECT_NEAR(run.measure("centre_z_m"), before.height, 0.02 * kBedDiameter);
 }
 
 // Of a table alone only the overlaps are known. Those of springs carry the weight at the stiffness that made
@@ -194,7 +105,7 @@ TEST_F(StartFile, ABedThatMovesKeepsItsMomentum) {
         const Scene next = next_of(kBox, "checkpoint.grs", {law(other)});
         const Plan anew = make_plan(next);
         EXPECT_FALSE(anew.start.relaxes) << other;
-        EXPECT_THAT(anew.start.text, HasSubstr("it is not damped"));
+        EXPECT_THAT(anew.start.text, HasSubstr("nothing is damped, for the bed in the file moves"));
         EXPECT_EQ(anew.start.keeps_histories, other == "walton-braun");
         Simulation begun(next, anew, 1);
         const double before = begun.measure("kinetic_J");
@@ -237,91 +148,6 @@ TEST_F(StartFile, ABedWithoutItsWallsIsTakenBack) {
     }
 }
 
-struct Around {
-    const char *name, *container;
-    std::vector<std::string> before, sets, laws;
-};
-
-const char* const kWedge = R"([container]
-shape = "wedge"
-half_width = "12 mm"
-half_angle = "20 deg"
-slant_height = "15 mm"
-height = "50 mm"
-depth = "16 mm"
-)";
-const char* const kCylinder = R"([container]
-shape = "cylinder"
-diameter = "18 mm"
-height = "50 mm"
-)";
-
-// With what else a scene may have; the same bits on any number of threads, and from a checkpoint on the way.
-TEST_F(StartFile, IsAlikeInEveryContainer) {
-    const std::string rolls = "contact.rolling_friction=0.1", round = "container.periodic_depth=true";
-    const std::string glued = "container.wall_grains={species=\"beads\", faces=[\"floor\"]}";
-    const std::string outlet = "container.outlet={ width = \"9 mm\", opens = 0.02 }";
-    const std::string feed = "feed=[{rate = 500, count = 5, until = 0.04}]";
-    const std::vector<Around> all = {
-        {"cylinder", kCylinder, {}, {}, {kLaws[0]}},
-        {"wedge", kWedge, {rolls}, {rolls}, {kLaws[0], kLaws[1]}},
-        {"periodic", kBox, {round}, {round}, {kLaws[0]}},
-        {"glued", kBox, {glued}, {glued}, {kLaws[0], kLaws[1]}},
-        {"fed", kBox, {}, {outlet, feed}, {kLaws[0]}},
-    };
-    for (const Around& one : all) {
-        const Rest before = settle(scene_of(one.container, one.before), 0.005);
-        for (const std::string& other : one.laws) {
-            std::vector<std::string> sets = one.sets;
-            sets.push_back(law(other));
-            const Scene next = next_of(one.container, "checkpoint.grs", sets);
-            const Plan plan = make_plan(next);
-            EXPECT_EQ(plan.start.relaxes, other != kLaws[0]) << one.name;
-            std::uint64_t hash = 0;
-            for (const int threads : {1, 2, 3}) {
-                Simulation run(next, plan, threads);
-                EXPECT_TRUE(run.pack().settled) << one.name;
-                const double share = plan.start.relaxes ? 0.2 : 0.05;
-                EXPECT_NEAR(run.measure("contact_number"), before.contacts, share * before.contacts)
-                    << one.name << ", " << other;
-                if (threads == 1) run.save_checkpoint(here / "begun.grs");
-                run.advance(300);
-                if (threads == 1) hash = run.state_hash();
-                EXPECT_EQ(run.state_hash(), hash) << one.name << ", " << threads << " threads";
-            }
-            Simulation on = Simulation::at_checkpoint(next, plan, here / "begun.grs", 2);
-            on.advance(300);
-            EXPECT_EQ(on.state_hash(), hash) << one.name;
-        }
-    }
-}
-
-// Only the walls have another law: contacts between grains go on, those at walls begin anew.
-TEST_F(StartFile, HistoriesAreKeptKindByKind) {
-    const std::string big = "[[species]]\nname = \"big\"\ncount = 5\ndiameter = \"7 mm\"\ndensity = 2500\n";
-    const Rest before = settle(scene_of(big + kBox, {}));
-    const Scene next = next_of(big + kBox, "checkpoint.grs", {"contact.wall.law=spring-dashpot"});
-    const Plan plan = make_plan(next);
-    EXPECT_TRUE(plan.start.keeps_histories && plan.start.relaxes);
-    EXPECT_EQ(plan.between(0, 1).stiffness_reason, "the start file");
-    EXPECT_EQ(plan.wall[1].stiffness_reason, "overlaps in the start file");
-    EXPECT_THAT(plan.start.text, HasSubstr("contacts whose law is the file's keep their histories"));
-    expect_rest(next, before, 0.2, "walls of another law");
-}
-
-TEST_F(StartFile, ADriveThatWantsMoreIsSaid) {
-    settle(scene_of(kBox, {}));
-    const std::string drive = "[drive]\nfrequency = \"10 Hz\"\ng_level = 5\n";
-    const auto warnings = [&](const std::string& more) {
-        const Plan plan = make_plan(next_of(more, "checkpoint.grs", {}));
-        EXPECT_EQ(plan.between(0, 0).stiffness_reason, "the start file");
-        return plan.warnings;
-    };
-    EXPECT_THAT(warnings(kBox + drive),
-                testing::Contains(HasSubstr("start.file: the stiffness follows from")));
-    EXPECT_THAT(warnings(kBox), testing::Not(testing::Contains(HasSubstr("start.file"))));
-}
-
 // A bed whose histories are kept goes on as one that never stopped, up to rounding.
 TEST_F(StartFile, KeptHistoriesGoOnAsBefore) {
     for (const std::string& name : kLaws) {
@@ -336,7 +162,7 @@ TEST_F(StartFile, KeptHistoriesGoOnAsBefore) {
         whole.advance(100), anew.advance(100);
         const Frame one = whole.frame(), other = anew.frame();
         for (std::size_t i = 0; i < one.size(); ++i)
-            EXPECT_LT((one.position[i] - other.position[i]).norm(), of_rounding(1e-12, 1e-7) * kDiameter)
+            EXPECT_LT((one.position[i] - other.position[i]).norm(), of_rounding(1e-12, 1e-7) * kBedDiameter)
                 << name << ", grain " << i;
         EXPECT_NEAR(anew.measure("elastic_J"), whole.measure("elastic_J"),
                     of_rounding(1e-6, 1e-3) * whole.measure("elastic_J"));
