@@ -16,12 +16,13 @@ std::string container_text(const Container& c) {
             text = fmt::format("cylinder, {:.9g} m in diameter, {:.9g} m high", 2 * c.half_width, c.height);
             break;
         case Container::Shape::box:
-            text = fmt::format("box, {:.9g} m wide (y), {:.9g} m deep (x), {:.9g} m high (z)", 2 * c.half_width,
-                               c.depth, c.height);
+            text = fmt::format("box, {:.9g} m wide (y), {:.9g} m deep (x), {:.9g} m high (z)",
+                               2 * c.half_width, c.depth, c.height);
             break;
         case Container::Shape::wedge:
             text = fmt::format(
-                "wedge, {:.9g} m wide (y) above its slants and {:.9g} m at its floor, slants {:.9g} m high, {:.9g} "
+                "wedge, {:.9g} m wide (y) above its slants and {:.9g} m at its floor, slants {:.9g} m high, "
+                "{:.9g} "
                 "m deep (x), {:.9g} m high (z)",
                 2 * c.half_width, 2 * c.floor_half_width(), c.slant_height, c.depth, c.height);
     }
@@ -36,8 +37,8 @@ std::string drive_text(const Drive& drive) {
     if (!drive.present) return "none";
     const Vec3& along = drive.direction;
     return fmt::format(
-        "at first {:.9g} Hz, amplitude {:.9g} m, along ({:.6g}, {:.6g}, {:.6g}), moves the {}{}", drive.frequency,
-        drive.amplitude, along.x(), along.y(), along.z(),
+        "at first {:.9g} Hz, amplitude {:.9g} m, along ({:.6g}, {:.6g}, {:.6g}), moves the {}{}",
+        drive.frequency, drive.amplitude, along.x(), along.y(), along.z(),
         drive.moves == Drive::Moves::container ? "container" : "floor alone",
         drive.changes() ? "; it changes later, see scene.toml" : "");
 }

@@ -1,5 +1,5 @@
-// Means of the measures over the last periods of a run: a single row of a shaken bed says where in its period it
-// was taken.
+// Means of the measures over the last periods of a run: a single row of a shaken bed says where in its period
+// it was taken.
 #pragma once
 
 #include <deque>
@@ -12,8 +12,8 @@ namespace grainreel {
 
 class LateMeans {
   public:
-    // Over the last ten periods of the drive, or as many whole ones as there are; without a drive over the last
-    // tenth of the run's duration (s).
+    // Over the last ten periods of the drive, or as many whole ones as there are; without a drive over the
+    // last tenth of the run's duration (s).
     LateMeans(const Clock& clock, double duration) : clock_(clock), duration_(duration) {}
 
     // Rows come one after the other, with their step.
@@ -26,8 +26,8 @@ class LateMeans {
 
   private:
     std::int64_t step_of(const Measures& row) const { return static_cast<std::int64_t>(row.at("step")); }
-    int periods() const;                        // whole ones, with a drive
-    bool is_late(const Measures& row) const;    // as seen from the last row
+    int periods() const;                      // whole ones, with a drive
+    bool is_late(const Measures& row) const;  // as seen from the last row
 
     Clock clock_;
     double duration_;

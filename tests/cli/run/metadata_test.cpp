@@ -16,7 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// A feed, an outlet, a plane, two species, orientations, forces on walls, fields: all variables that there are.
+// A feed, an outlet, a plane, two species, orientations, forces on walls, fields: all variables that there
+// are.
 constexpr const char* kEverything = R"(title = "Everything"
 [[species]]
 name = "small"
@@ -62,8 +63,8 @@ rate = 10
 )";
 
 // What UDUNITS-2 was seen to read.
-const std::set<std::string> known_units{"1",       "s",      "second", "m",     "meter", "degree", "m s-1",
-                                        "rad s-1", "N",      "Pa",     "m3",    "kg m-3", "m2 s-2"};
+const std::set<std::string> known_units{"1",       "s", "second", "m",  "meter",  "degree", "m s-1",
+                                        "rad s-1", "N", "Pa",     "m3", "kg m-3", "m2 s-2"};
 
 std::string text_of(int file, int variable, const char* name) {
     std::size_t length = 0;
@@ -76,11 +77,11 @@ std::string text_of(int file, int variable, const char* name) {
 TEST(MetadataOfRuns, EveryVariableSaysWhatItIs) {
     const test::TemporaryFolder here;
     test::write_text(here / "all.toml", kEverything);
-    const test::Ended ended = test::run_program({"movie", "all.toml", "--out", "run", "--threads", "1"},
-                                                {.folder = here.path()});
+    const test::Ended ended =
+        test::run_program({"movie", "all.toml", "--out", "run", "--threads", "1"}, {.folder = here.path()});
     ASSERT_EQ(ended.status, 0) << ended.err;
-    for (const char* name : {"trajectory.nc", "film_moments.nc", "key_moments.nc", "contacts.nc", "key_contacts.nc",
-                             "fields.nc"}) {
+    for (const char* name : {"trajectory.nc", "film_moments.nc", "key_moments.nc", "contacts.nc",
+                             "key_contacts.nc", "fields.nc"}) {
         int file = -1, count = 0;
         ASSERT_EQ(nc_open((here / "run" / name).c_str(), NC_NOWRITE, &file), NC_NOERR) << name;
         for (const char* attribute : {"title", "program", "programVersion", "gravity", "container", "drive",
