@@ -209,6 +209,14 @@ TEST(Look, ProfilesStandInPlaceOfColumns) {
     expect_complaint({"film.plot=[{profile=\"share\", of=\"now\"}]"}, "only profiles of velocities");
     expect_complaint({"film.plot=[{profile=\"speed\"}]"}, "solid-fraction");
     expect_complaint({"film.plot=[{}]"}, "lacks 'y'");
+    expect_complaint({"film.plot=[{profile=\"share\", smooth=\"period\"}]"}, "a 'profile' is of one moment");
+    expect_complaint({"film.plot=[{y=\"lacey\", smooth=\"day\"}]"}, "\"none\"");
+    const FilmPlot rows = plots("[[film.plot]]\ny = \"lacey\"\n").at(0);
+    const FilmPlot smooth = plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"period\"\n").at(0);
+    EXPECT_FALSE(rows.period);
+    EXPECT_TRUE(smooth.period);
+    EXPECT_EQ(smooth.label, rows.label + ", mean of a period");
+    EXPECT_EQ(plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"period\"\nlabel = \"L\"\n").at(0).label, "L");
 }
 
 TEST(Look, WallForcesAreMeasuredAndScaledByTheWeight) {
@@ -242,6 +250,8 @@ TEST(Look, WithoutADriveOrScaleItIsSaid) {
         return "accepted";
     };
     EXPECT_THAT(complaint({"film.colour.by=rise"}), testing::HasSubstr("nothing oscillates"));
+    EXPECT_THAT(complaint({"film.plot=[{y=\"lacey\", smooth=\"period\"}]"}),
+                testing::HasSubstr("nothing oscillates; add [drive] or write \"none\""));
     EXPECT_THAT(complaint({"film.colour.by=speed"}), testing::HasSubstr("gives no scale; write a 'range'"));
 }
 
