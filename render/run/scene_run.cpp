@@ -41,9 +41,9 @@ SceneRun::SceneRun(const Scene& scene, const Plan& plan, ResumePoint point)
       first_step_(point.first),
       goes_on_(true),
       pictures_kept_(point.pictures),
-      accepted_(std::move(point.accepted)),
       former_end_(point.reached),
-      changed_(point.changed) {}
+      changed_(point.changed),
+      accepted_(std::move(point.accepted)) {}
 
 void SceneRun::keep_former(const FolderLock& folder, const Pictures& pictures,
                            const std::string& program_version) {

@@ -115,9 +115,9 @@ class SceneRun final : public FrameSource {
     bool keys_wanted_ = false;
     bool goes_on_ = false;           // in the folder of an earlier run, which it is
     std::size_t pictures_kept_ = 0;  // of that
-    std::vector<AcceptedKey> accepted_;
-    std::int64_t former_end_ = 0;  // step
+    std::int64_t former_end_ = 0;    // step
     bool former_kept_ = false, changed_ = false;
+    std::vector<AcceptedKey> accepted_;
     ReadyFiles ready_;
     std::optional<EarlierPictures> earlier_;
     std::optional<RunFiles> files_;

@@ -166,7 +166,7 @@ void RecordedRun::read_contacts(bool alone) {
                                       "the run was not told to keep contacts (output.contacts = true); let "
                                       "film.colour.by be something else and film.force_chains false");
     contacts_.emplace(file);
-    if (!use.alone && contacts_->cut_off()) {
+    if (!alone && contacts_->cut_off()) {
         contacts_.reset();
         news_.push_back(fmt::format("{}: was cut off; contacts are brought back", file.string()));
         return;

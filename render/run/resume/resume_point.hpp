@@ -18,9 +18,9 @@ struct ResumePoint {
     std::size_t pictures = 0;  // of the film, that are drawn again from their kept moments
     std::filesystem::path checkpoint{};
     std::string held_back{};              // why it is not the run's last checkpoint; empty: it is
-    std::vector<AcceptedKey> accepted{};  // what was changed on the run's way up to there
     std::int64_t reached = 0;             // step to which the run has come already
     bool changed = false;                 // its scene is another one from there on
+    std::vector<AcceptedKey> accepted{};  // what was changed on the run's way up to there
 };
 
 // The last checkpoint from which all files of the run's folder can go on. Its film, where `film` says that it
