@@ -5,13 +5,13 @@
 // numbers as they stand in memory, in this order). Forces and points are floats.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "engine/output/netcdf/kept_records.hpp"
 #include "engine/run/simulation.hpp"
 
 namespace grainreel {
@@ -26,8 +26,8 @@ class ContactsWriter {
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);
     ~ContactsWriter();
 
-    // How many bytes stay of the file then. Throws UserError likewise, and where it lacks some of these.
-    static std::uintmax_t bytes_of(const std::filesystem::path& path, std::size_t frames);
+    // How much stays of the file then. Throws UserError likewise, and where it lacks some of these.
+    static KeptRecords kept_of(const std::filesystem::path& path, std::size_t frames);
 
     // The rows are in the file when this returns. Throws RunError when they could not be written; those of
     // the frames before stay readable.
