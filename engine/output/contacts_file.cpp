@@ -112,7 +112,7 @@ ContactsWriter::ContactsWriter(const std::filesystem::path& path, std::size_t fr
 
 ContactsWriter::~ContactsWriter() = default;
 
-std::uintmax_t ContactsWriter::bytes_of(const std::filesystem::path& path, std::size_t frames) {
+KeptRecords ContactsWriter::kept_of(const std::filesystem::path& path, std::size_t frames) {
     const ContactsReader reader(path);
     if (frames > 0 && !reader.has_all(frames - 1))
         throw UserError(
@@ -120,7 +120,7 @@ std::uintmax_t ContactsWriter::bytes_of(const std::filesystem::path& path, std::
     const NetcdfFile file = NetcdfFile::open(path);
     for (const char* name : {"frame", "first", "second", "normal", "tangential", "point", "checksum"})
         file.find_variable(name);
-    return NetcdfFile::bytes_of(path, reader.rows_of_first(frames));
+    return NetcdfFile::kept_of(path, reader.rows_of_first(frames));
 }
 
 void ContactsWriter::write(std::int64_t frame, const std::vector<Simulation::ContactRecord>& contacts) {

@@ -5,7 +5,6 @@
 // numbers as they stand in memory, in this order). Forces and points are floats.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,6 +12,7 @@
 
 #include "engine/frame.hpp"
 #include "engine/output/file_facts.hpp"
+#include "engine/output/netcdf/kept_records.hpp"
 #include "engine/run/simulation.hpp"
 
 namespace grainreel {
@@ -27,8 +27,8 @@ class ContactsWriter {
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);
     ~ContactsWriter();
 
-    // How many bytes stay of the file then. Throws UserError likewise, and where it lacks some of these.
-    static std::uintmax_t bytes_of(const std::filesystem::path& path, std::size_t frames);
+    // How much stays of the file then. Throws UserError likewise, and where it lacks some of these.
+    static KeptRecords kept_of(const std::filesystem::path& path, std::size_t frames);
 
     // The rows are in the file when this returns. Throws RunError when they could not be written; those of
     // the frames before stay readable.

@@ -172,13 +172,13 @@ std::size_t FieldsWriter::records_before(const std::filesystem::path& path, doub
     return before;
 }
 
-std::uintmax_t FieldsWriter::bytes_before(const std::filesystem::path& path,
-                                          const std::vector<const FieldSet*>& sets, double time) {
+KeptRecords FieldsWriter::kept_before(const std::filesystem::path& path,
+                                      const std::vector<const FieldSet*>& sets, double time) {
     const NetcdfFile file = NetcdfFile::open(path);
     for (const FieldSet* const set : sets)
         for (const FieldInfo& field : set->fields) file.find_variable(field.name);
     for (const char* sum : {"checksum_high", "checksum_low"}) file.find_variable(sum);
-    return NetcdfFile::bytes_of(path, records_before(path, time));
+    return NetcdfFile::kept_of(path, records_before(path, time));
 }
 
 FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,

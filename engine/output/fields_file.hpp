@@ -6,7 +6,6 @@
 // checksum.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "engine/measure/field.hpp"
 #include "engine/output/file_facts.hpp"
+#include "engine/output/netcdf/kept_records.hpp"
 
 namespace grainreel {
 
@@ -25,11 +25,11 @@ class FieldsWriter {
     // Goes on with a file that was written with these sets, behind the records that end before `time` (s);
     // what comes after them is cut off.
     FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets, double time);
-    // How many records such a file has that end before `time`, and how many bytes these take. Throws
+    // How many records such a file has that end before `time`, and how much of the file these are. Throws
     // UserError where it is damaged, or was written with other sets.
     static std::size_t records_before(const std::filesystem::path& path, double time);
-    static std::uintmax_t bytes_before(const std::filesystem::path& path,
-                                       const std::vector<const FieldSet*>& sets, double time);
+    static KeptRecords kept_before(const std::filesystem::path& path,
+                                   const std::vector<const FieldSet*>& sets, double time);
     ~FieldsWriter();
 
     // What is the mean of the time from `begin` to `end` (s), set by set. It is in the file when this

@@ -16,6 +16,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text_file.hpp"
+#include "engine/output/netcdf/netcdf_file.hpp"
 #include "engine/output/run_names.hpp"
 
 namespace grainreel {
@@ -154,7 +155,8 @@ void remove_new_files(const fs::path& run) {
     for (std::string name; std::getline(list, name);) names.insert(name);
     std::error_code ignored;
     for (const fs::path& file : files_of(run))
-        if (!stays(file) && names.count(file.string()) == 0) fs::remove(run / file, ignored);
+        if (!stays(file) && names.count(file.string()) == 0 && file.string().find('\n') == std::string::npos)
+            fs::remove(run / file, ignored);
 }
 
 }  // namespace
@@ -178,7 +180,7 @@ fs::path FormerRun::new_file(const std::string& name) {
 
 void FormerRun::begin() {
     const std::string names = keep_whole();
-    for (const auto& [name, bytes] : cuts_) keep_growing(name, bytes);
+    for (const Cut& cut : cuts_) keep_growing(cut);
     for (const std::string& name : new_files_)
         if (is_plain(run_ / name) && !is_plain(part_ / name)) give_second_name(run_ / name, part_ / name);
     TextFile(part_ / kNames).write(names);
@@ -193,7 +195,8 @@ void FormerRun::begin() {
     }
 }
 
-void FormerRun::keep_growing(const std::string& name, std::uintmax_t bytes) {
+void FormerRun::keep_growing(const Cut& cut) {
+    const auto& [name, bytes, records] = cut;
     std::error_code error;
     const std::uintmax_t size = fs::file_size(run_ / name, error);
     check(error, run_ / name);
@@ -202,6 +205,7 @@ void FormerRun::keep_growing(const std::string& name, std::uintmax_t bytes) {
     const fs::path beginning = new_file(name);
     const OpenFile from(open_to_read(run_ / name), run_ / name), to(make_plain(beginning), beginning);
     copy_bytes(from, 0, bytes, to, 0);
+    if (records) NetcdfFile::count_records(beginning, *records);
 }
 
 // Returns the names of all that there is, one a line.

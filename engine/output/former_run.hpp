@@ -8,9 +8,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "engine/output/netcdf/kept_records.hpp"
 
 namespace grainreel {
 
@@ -23,7 +25,11 @@ class FormerRun {
     FormerRun& operator=(const FormerRun&) = delete;
 
     // A growing file of which so many bytes stay.
-    void cut(const std::string& name, std::uintmax_t bytes) { cuts_.emplace_back(name, bytes); }
+    void cut(const std::string& name, std::uintmax_t bytes) { cuts_.push_back({name, bytes, {}}); }
+    // Of a NetCDF file, which says itself how many records it has.
+    void cut(const std::string& name, const KeptRecords& kept) {
+        cuts_.push_back({name, kept.bytes, kept.records});
+    }
     // Where a file is to be made that takes the place of one that grows.
     std::filesystem::path new_file(const std::string& name);
 
@@ -39,11 +45,16 @@ class FormerRun {
     static void put_back(const std::filesystem::path& run);
 
   private:
-    void keep_growing(const std::string& name, std::uintmax_t bytes);
+    struct Cut {
+        std::string name;
+        std::uintmax_t bytes = 0;
+        std::optional<std::size_t> records{};
+    };
+    void keep_growing(const Cut& cut);
     std::string keep_whole() const;
 
     std::filesystem::path run_, part_;
-    std::vector<std::pair<std::string, std::uintmax_t>> cuts_;
+    std::vector<Cut> cuts_;
     std::vector<std::string> new_files_;
 };
 

@@ -15,7 +15,6 @@
 // pose and one of its grains.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -24,6 +23,7 @@
 #include "engine/base/error.hpp"
 #include "engine/frame.hpp"
 #include "engine/output/file_facts.hpp"
+#include "engine/output/netcdf/kept_records.hpp"
 
 namespace grainreel {
 
@@ -59,8 +59,8 @@ class TrajectoryWriter {
     // Whether a file can be gone on with: it has as many places, and the same variables. Throws UserError
     // where it cannot be read, or is of other grains.
     static bool goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path);
-    // How many bytes the first `frames` take in it. Reads these where that will be needed. Throws UserError.
-    static std::uintmax_t bytes_of(const std::filesystem::path& path, std::size_t frames);
+    // How much of it the first `frames` are. Reads these where that will be needed. Throws UserError.
+    static KeptRecords kept_of(const std::filesystem::path& path, std::size_t frames);
     // The first `frames` of a file, in a new one with this info, as if they had been written to that one from
     // the first. Whether there are contact numbers the old file decides.
     static void write_again(const std::filesystem::path& path, std::size_t frames,

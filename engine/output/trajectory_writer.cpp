@@ -304,10 +304,10 @@ bool TrajectoryWriter::goes_on_with(const TrajectoryInfo& info, const std::files
     return there.capacity == std::max<std::size_t>(info.capacity, 1);
 }
 
-std::uintmax_t TrajectoryWriter::bytes_of(const std::filesystem::path& path, std::size_t frames) {
+KeptRecords TrajectoryWriter::kept_of(const std::filesystem::path& path, std::size_t frames) {
     const TrajectoryReader reader(path);
     for (std::size_t k = 0; reader.info().traffic && k < frames; ++k) reader.read(k);
-    return NetcdfFile::bytes_of(path, frames);
+    return NetcdfFile::kept_of(path, frames);
 }
 
 void TrajectoryWriter::write_again(const std::filesystem::path& path, std::size_t frames,

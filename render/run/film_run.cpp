@@ -187,6 +187,7 @@ void FilmRun::close_record(bool stopped) {
 // The run counts as complete only with its page.
 void FilmRun::write_record() {
     RunRecord now = record_;
+    if (now.status == RunStatus::failed) now.missing.clear();
     if (!now.missing.empty() && now.status == RunStatus::complete) {
         now.status = RunStatus::running;
         now.exit_status.reset();

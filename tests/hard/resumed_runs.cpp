@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/cli/busy_scene.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -33,6 +34,36 @@ Words movie(const fs::path& here, const std::string& out) {
             out};
 }
 
+// Of a run with all at once that a run goes on with, and long enough for several checkpoints.
+Words busy_movie(const fs::path& here, const std::string& out) {
+    test::write_text(here / "busy.toml", test::busy_scene_text);
+    return {"movie",    "busy.toml", "--duration", "1 s", "--set", "output.trajectory_interval=20 ms",
+            "--frames", "--out",     out};
+}
+
+std::size_t checkpoints_in(const fs::path& run) {
+    std::error_code none;
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(run / "checkpoints", none))
+        count += entry.path().extension() == ".grs";
+    return count;
+}
+
+// Kills the program as soon as its run has so many checkpoints, and so long after that; says whether it was
+// still there.
+bool kill_at(std::size_t checkpoints, const Words& words, const fs::path& here,
+             std::chrono::milliseconds later) {
+    test::Program program(words, limits(here));
+    test::wait_until(program, [&] { return checkpoints_in(here / "run") >= checkpoints; });
+    const auto end = std::chrono::steady_clock::now() + later;
+    while (program.running() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const bool killed = program.running();
+    if (killed) program.send(SIGKILL);
+    program.wait();
+    return killed;
+}
+
 // Kills the program after a while, unless it has ended by itself; says whether it was killed.
 bool kill_after(const Words& words, const fs::path& here, std::chrono::milliseconds while_) {
     test::Program program(words, limits(here));
@@ -54,7 +85,7 @@ std::string engine_hash(const fs::path& run) {
 std::string difference(const fs::path& whole, const fs::path& run) {
     if (engine_hash(whole) != engine_hash(run)) return "another end state";
     for (const char* file : {"trajectory.nc", "measures.csv", "contacts.nc", "fields.nc", "film_moments.nc",
-                             "key_moments.nc", "key_contacts.nc"})
+                             "key_moments.nc", "key_contacts.nc", "outflow.csv", "final.csv", "scene.toml"})
         if (test::text_of(whole / file) != test::text_of(run / file)) return fmt::format("{} differs", file);
     for (const auto& entry : fs::directory_iterator(whole / "frames"))
         if (test::text_of(entry.path()) != test::text_of(run / "frames" / entry.path().filename()))
@@ -65,38 +96,60 @@ std::string difference(const fs::path& whole, const fs::path& run) {
     return "";
 }
 
+// At a random time of a run that takes about as long as `took`.
+Outcome killed_at_any_time(int number, Dice& dice, const fs::path& here, std::chrono::milliseconds took) {
+    // As long as the run takes here and now, so that most kills meet it on its way.
+    const auto some_time = [&] {
+        return std::chrono::milliseconds(dice.below(static_cast<std::uint64_t>(took.count()) + 1));
+    };
+    int kills = kill_after(movie(here, "run"), here, some_time());
+    if (kills == 0) return {"ended before it was killed", difference(here / "whole", here / "run")};
+    if (!fs::exists(here / "run/checkpoint.grs")) {
+        const Ran refused = attempt({"resume", "run"}, here);
+        const bool said = refused.status == 2 && (!fs::exists(here / "run/scene.toml") ||
+                                                  refused.err.find("has no checkpoint") != std::string::npos);
+        return {"killed while packing", said ? "" : "resume says: " + first_line(refused.err)};
+    }
+    for (int more = number % 3; more > 0; --more) kills += kill_after({"resume", "run"}, here, some_time());
+    const Ran resumed = attempt({"resume", "run"}, here);
+    const bool over = resumed.err.find("has come to 3 s already") != std::string::npos;
+    if (resumed.status != 0 && !over)
+        return {"", fmt::format("after {} kills: {}", kills, first_line(resumed.err))};
+    return {fmt::format("resumed after {} kill{}", kills, kills == 1 ? "" : "s"),
+            difference(here / "whole", here / "run")};
+}
+
+// When it has several checkpoints, and a second time when it has some more.
+Outcome killed_late(Dice& dice, const fs::path& here) {
+    std::size_t checkpoints = 2 + dice.below(5);
+    const auto some_time = [&] { return std::chrono::milliseconds(dice.below(30)); };
+    int kills = kill_at(checkpoints, busy_movie(here, "run"), here, some_time());
+    if (kills == 0) return {"ended before it was killed", difference(here / "whole", here / "run")};
+    if (dice.one_in(2)) {
+        checkpoints = checkpoints_in(here / "run") + 1 + dice.below(3);
+        kills += kill_at(checkpoints, {"resume", "run"}, here, some_time());
+    }
+    const Ran resumed = attempt({"resume", "run"}, here);
+    const bool over = resumed.err.find("has come to 1 s already") != std::string::npos;
+    if (resumed.status != 0 && !over)
+        return {"", fmt::format("after {} kills: {}", kills, first_line(resumed.err))};
+    if (resumed.err.find("goes on from 0 s") != std::string::npos)
+        return {"", fmt::format("goes on from 0 s, though it had {} checkpoints", checkpoints)};
+    return {"resumed from a later checkpoint", difference(here / "whole", here / "run")};
+}
+
 }  // namespace
 
 Group resumed_runs(const Ground&) {
-    return {
-        "resumed", 50, [](int number, Dice& dice, const fs::path& here) -> Outcome {
-            const auto start = std::chrono::steady_clock::now();
-            const Ran whole = attempt(movie(here, "whole"), here);
-            const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(
-                std::chrono::steady_clock::now() - start);
-            if (whole.status != 0) return {"", "cannot be run: " + first_line(whole.err)};
-            // As long as the run takes here and now, so that most kills meet it on its way.
-            const auto some_time = [&] {
-                return std::chrono::milliseconds(dice.below(static_cast<std::uint64_t>(took.count()) + 1));
-            };
-            int kills = kill_after(movie(here, "run"), here, some_time());
-            if (kills == 0) return {"ended before it was killed", difference(here / "whole", here / "run")};
-            if (!fs::exists(here / "run/checkpoint.grs")) {
-                const Ran refused = attempt({"resume", "run"}, here);
-                const bool said =
-                    refused.status == 2 && (!fs::exists(here / "run/scene.toml") ||
-                                            refused.err.find("has no checkpoint") != std::string::npos);
-                return {"killed while packing", said ? "" : "resume says: " + first_line(refused.err)};
-            }
-            for (int more = number % 3; more > 0; --more)
-                kills += kill_after({"resume", "run"}, here, some_time());
-            const Ran resumed = attempt({"resume", "run"}, here);
-            const bool over = resumed.err.find("has come to 3 s already") != std::string::npos;
-            if (resumed.status != 0 && !over)
-                return {"", fmt::format("after {} kills: {}", kills, first_line(resumed.err))};
-            return {fmt::format("resumed after {} kill{}", kills, kills == 1 ? "" : "s"),
-                    difference(here / "whole", here / "run")};
-        }};
+    return {"resumed", 50, [](int number, Dice& dice, const fs::path& here) -> Outcome {
+                const bool late = number % 2 == 1;
+                const auto start = std::chrono::steady_clock::now();
+                const Ran whole = attempt(late ? busy_movie(here, "whole") : movie(here, "whole"), here);
+                const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(
+                    std::chrono::steady_clock::now() - start);
+                if (whole.status != 0) return {"", "cannot be run: " + first_line(whole.err)};
+                return late ? killed_late(dice, here) : killed_at_any_time(number, dice, here, took);
+            }};
 }
 
 }  // namespace grainreel::hard

@@ -57,18 +57,22 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& path, NetcdfFormat fo
     return file;
 }
 
-std::uintmax_t NetcdfFile::bytes_of(const std::filesystem::path& path, std::size_t records) {
+KeptRecords NetcdfFile::kept_of(const std::filesystem::path& path, std::size_t records) {
     const NetcdfHeader header = read_netcdf_header(path);
     std::error_code error;
     const std::uintmax_t end = header.begin + header.record * records;
     if ((records > 0 && end > std::filesystem::file_size(path, error)) || error)
         throw UserError(
             fmt::format("{}: was cut off; it lacks some of its first {} records", path.string(), records));
-    return end;
+    return {records, end};
+}
+
+void NetcdfFile::count_records(const std::filesystem::path& path, std::size_t records) {
+    set_record_count(path, records);
 }
 
 NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t records) {
-    const std::uintmax_t end = bytes_of(path, records);
+    const std::uintmax_t end = kept_of(path, records).bytes;
     if (const std::string other = other_than_file(path, false); !other.empty())
         throw RunError(fmt::format("{}: cannot be written: it is {}", path.string(), other));
     std::error_code error;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/output/netcdf/kept_records.hpp"
 #include "engine/output/netcdf/netcdf_header.hpp"
 
 namespace grainreel {
@@ -23,8 +24,10 @@ class NetcdfFile {
     // Opens one that create() made, to write on behind its first `records`; whatever comes behind them is cut
     // off. Throws UserError when there are fewer, or as open() does, and RunError when it cannot be written.
     static NetcdfFile append(const std::filesystem::path& path, std::size_t records);
-    // How many bytes such a file has up to there. Throws UserError likewise.
-    static std::uintmax_t bytes_of(const std::filesystem::path& path, std::size_t records);
+    // How much of such a file that is. Throws UserError likewise.
+    static KeptRecords kept_of(const std::filesystem::path& path, std::size_t records);
+    // Puts the count of records into a file that was cut off. Does nothing where it cannot.
+    static void count_records(const std::filesystem::path& path, std::size_t records);
     // Opens it for reading. Throws UserError when it is missing, no classic NetCDF file, or its header is
     // damaged.
     static NetcdfFile open(const std::filesystem::path& path);

@@ -43,7 +43,8 @@ class Ready {
         const fs::path file = run_ / "outflow.csv";
         const OutflowWriter::Kept kept = OutflowWriter::kept_until(file, now());
         OutflowRecord::read(file, scene_);
-        if (kept.rows != simulation_.traffic().left)
+        // With the clock of an earlier run its grains have left too, and are in its file.
+        if (!scene_.start.keep_clock && kept.rows != simulation_.traffic().left)
             throw UserError(fmt::format(
                 "{}: has {} grains up to {:.6g} s, where {} have left; the run cannot go on without them",
                 file.string(), kept.rows, now(), simulation_.traffic().left));
@@ -53,7 +54,7 @@ class Ready {
     void fields() {
         const auto sets = simulation_.field_sets();
         if (!sets.empty())
-            former_.cut("fields.nc", FieldsWriter::bytes_before(run_ / "fields.nc", sets, now()));
+            former_.cut("fields.nc", FieldsWriter::kept_before(run_ / "fields.nc", sets, now()));
     }
 
     void trajectory() {
@@ -61,7 +62,7 @@ class Ready {
         const std::size_t frames = frames_before(run_ / "trajectory.nc");
         moments("trajectory.nc", frames);
         if (scene_.output.contacts)
-            former_.cut("contacts.nc", ContactsWriter::bytes_of(run_ / "contacts.nc", frames));
+            former_.cut("contacts.nc", ContactsWriter::kept_of(run_ / "contacts.nc", frames));
     }
 
     // One of which nothing is kept may be damaged: a new one takes its place.
@@ -83,7 +84,7 @@ class Ready {
                                        (run_ / (moments_there ? kKeyContacts : kKeyMoments)).string())};
         try {
             const std::size_t frames = frames_before(run_ / kKeyMoments);
-            const std::uintmax_t contacts = ContactsWriter::bytes_of(run_ / kKeyContacts, frames);
+            const KeptRecords contacts = ContactsWriter::kept_of(run_ / kKeyContacts, frames);
             moments(kKeyMoments, frames);
             former_.cut(kKeyContacts, contacts);
         } catch (const UserError& problem) {
@@ -104,9 +105,9 @@ class Ready {
 
     void moments(const char* name, std::size_t frames) {
         const bool fits = TrajectoryWriter::goes_on_with(info_, run_ / name);
-        const std::uintmax_t bytes = TrajectoryWriter::bytes_of(run_ / name, frames);
+        const KeptRecords kept = TrajectoryWriter::kept_of(run_ / name, frames);
         if (fits)
-            former_.cut(name, bytes);
+            former_.cut(name, kept);
         else
             TrajectoryWriter::write_again(run_ / name, frames, former_.new_file(name), info_);
     }
