@@ -51,6 +51,28 @@ TEST_F(ContinuedMovie, IsTheSameRunAlsoInItsOwnFolder) {
     EXPECT_EQ(state_hash("run"), state_hash("whole"));
 }
 
+TEST_F(ContinuedMovie, CheckSaysWhatHappensToABedFromAFile) {
+    const auto line = [&](const char* file, const std::string& law) {
+        const Ended check = run({"check", "fifty.toml", "--set", "start.method=file", "--set",
+                                 std::string("start.file=run/") + file, "--set", "contact.law=" + law});
+        EXPECT_EQ(check.status, 0) << check.err;
+        const auto at = check.out.find("\nstart ");
+        return at == std::string::npos ? check.out
+                                       : check.out.substr(at + 1, check.out.find('\n', at + 1) - at);
+    };
+    // Of the packed bed, and of one that is shaken.
+    const char *rests = "checkpoints/000000000000.grs", *moves = "checkpoint.grs";
+    EXPECT_THAT(line(rests, "walton-braun"),
+                HasSubstr("stiffness as in the file's run; contacts keep their histories\n"));
+    EXPECT_THAT(
+        line(rests, "hertz"),
+        HasSubstr("contacts begin anew, for their law is not that of the file's run; the bed rests in "
+                  "the file and is brought to rest before time 0\n"));
+    EXPECT_THAT(line(moves, "hertz"), HasSubstr("; nothing is damped, for "));
+    EXPECT_THAT(line("final.csv", "walton-braun"),
+                HasSubstr("contacts begin anew, for a table has no histories"));
+}
+
 TEST_F(ContinuedMovie, CheckRefusesWhatMovieRefuses) {
     const std::vector<std::string> change = {"--set", "drive.direction=[1, 0, 0]"};
     const Ended check = go_on("check", change);
