@@ -78,8 +78,12 @@ TEST(LateMeansOfARun, AreOverWholePeriods) {
             EXPECT_EQ(late.over(), "the last row");
             EXPECT_EQ(late.means().at("height_difference"), value(3));
         }
-        if (k == 9) EXPECT_EQ(late.over(), "the last period");
-        if (k == 20) EXPECT_EQ(late.over(), "the last 2 periods");
+        if (k == 9) {
+            EXPECT_EQ(late.over(), "the last period");
+        }
+        if (k == 20) {
+            EXPECT_EQ(late.over(), "the last 2 periods");
+        }
     }
     EXPECT_EQ(late.over(), "the last 10 periods");
     double sum = 0;

@@ -68,8 +68,9 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string fed = wedge_text + "[[feed]]\nrate = 10\n";
     const std::string staged = wedge_text + "[[drive.stage]]\nfrom = 1\n";
     const std::string captioned = wedge_text + "[[film.caption]]\nfrom = 1\ntext = \"a\"\n";
-    const std::string cases[] = {wedge_text, box,    locked, motion, from_file, exact,    layers,
-                                 fields,     outlet, rough,  fed,    staged,    captioned};
+    const std::string plotted = wedge_text + "[[film.plot]]\ny = \"lacey\"\n";
+    const std::string cases[] = {wedge_text, box,    locked, motion, from_file, exact,     layers,
+                                 fields,     outlet, rough,  fed,    staged,    captioned, plotted};
     for (const Key& key : scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

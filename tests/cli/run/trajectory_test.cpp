@@ -220,7 +220,9 @@ TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const bool corner = x[frame][3 * place + k] == info.cell_origin[static_cast<int>(k)];
                 EXPECT_EQ(corner, !here_now) << frame << " " << place;
-                if (!here_now) EXPECT_EQ(v[frame][3 * place + k], 0);
+                if (!here_now) {
+                    EXPECT_EQ(v[frame][3 * place + k], 0);
+                }
             }
         }
 }

@@ -181,10 +181,11 @@ TEST(WallForcesOfRuns, PressureIsTheMeanOfItsRecord) {
     run.pack();
     const auto of_right_wall = [&](const Simulation& of) {
         const FieldSet& set = *of.field_sets().at(0);
+        const std::vector<FieldValues> values = of.fields();
         for (std::size_t f = 0; f < set.fields.size(); ++f)
             if (set.fields[f].name == "pressure_right_wall") {
                 double sum = 0;
-                for (const double pressure : of.fields().at(0).at(f)) sum += pressure;
+                for (const double pressure : values.at(0).at(f)) sum += pressure;
                 return sum;
             }
         return -1.0;
