@@ -85,11 +85,19 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, const StartFacts& fil
 // where that is more.
 void plan_overlaps(const Scene& scene, const BedPlan& bed, Plan& plan) {
     double between_grains = 0, at_walls = 0;
+    std::string heaviest;  // the species whose grains land on others the hardest
+    for (const Species& species : scene.species)
+        if (species.all() > 0 && mass_of(species, species.diameter.largest) >= bed.largest_mass)
+            heaviest = species.name;
     for (const ContactKind& kind : contact_kinds(scene, plan)) {
         const Species* other = kind.other();
         const double largest =
             expected_overlap(scene, bed, *kind.pair, extremes(kind.first, other), bed.largest_mass);
-        if (largest > plan.expected_overlap) plan.expected_overlap = largest, plan.deepest = kind.name;
+        if (largest > plan.expected_overlap) {
+            plan.expected_overlap = largest;
+            const bool under = kind.first.name != heaviest && (!other || other->name != heaviest);
+            plan.deepest = kind.name + (under ? fmt::format(" under \"{}\"", heaviest) : "");
+        }
         const double usual =
             expected_overlap(scene, bed, *kind.pair, {mean_touching(kind.first, other)}, bed.usual_mass);
         (kind.at_wall ? at_walls : between_grains) += kind.share * usual;

@@ -235,7 +235,7 @@ BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
     double diameters = 0;
     for (const Species& s : scene.species) {
         bed.largest_density = std::max(bed.largest_density, s.density);
-        bed.largest_mass = std::max(bed.largest_mass, mass_of(s, s.diameter.largest));
+        if (s.all() > 0) bed.largest_mass = std::max(bed.largest_mass, mass_of(s, s.diameter.largest));
         diameters += static_cast<double>(s.all()) * s.diameter.mean;
     }
     const std::vector<double> shares = contact_shares(scene);

@@ -82,6 +82,7 @@ TEST(Warnings, OfOverlapsNameThePairThatHasThem) {
     const Plan plan = make_plan(read_text(nut_text));
     EXPECT_LT(plan.usual_overlap, 0.012) << "as wanted, for most";
     EXPECT_GT(plan.expected_overlap, 2 * plan.usual_overlap);
+    EXPECT_EQ(plan.deepest, "\"bead\" and \"bead\" under \"nut\"");
 }
 
 // A lone grain never meets its like, and where there are no walls nothing meets one.
