@@ -93,7 +93,7 @@ TEST(Look, ShowNamesTheWords) {
               nothing.film.word_kinds);
     expect_complaint(
         {"film.show=[\"titel\"]"},
-        "--set film.show=[\"titel\"]: 'show' has \"titel\", which is none of the words: title, legend, "
+        "--set film.show: 'show' has \"titel\", which is none of the words: title, legend, "
         "time, cycle, dial, drive, playback, scale, arrows, counts, captions");
     expect_complaint({"film.show=title"}, "must be a list of names, but is \"title\"");
     try {

@@ -54,9 +54,10 @@ std::string clipped_words(const GrainColouring& colouring, const ClippedCount& c
     const auto part = [&](std::int64_t beyond, const char* side, double end) {
         if (beyond == 0) return;
         const std::string unit = colouring.unit.empty() ? "" : " " + colouring.unit;
-        parts += fmt::format("{}{:.2g} % of the {} lie {} {:.3g}{}", parts.empty() ? "" : ", ",
-                             100 * static_cast<double>(beyond) / static_cast<double>(count.all), of, side,
-                             end / unit_size(colouring.unit, dimension_of(colouring.by)), unit);
+        const double percent = 100 * static_cast<double>(beyond) / static_cast<double>(count.all);
+        parts += fmt::format("{}{} % of the {} lie {} {:.3g}{}", parts.empty() ? "" : ", ",
+                             percent < 10 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent), of,
+                             side, end / unit_size(colouring.unit, dimension_of(colouring.by)), unit);
     };
     part(count.below, "below", colouring.range[0]);
     if (!banded) part(count.above, "above", colouring.range[1]);

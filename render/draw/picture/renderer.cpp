@@ -283,7 +283,8 @@ void Renderer::draw_into(Picture& picture, const Frame& frame, const std::string
 
 std::string Renderer::colour_note() const {
     const GrainColouring& colour = impl_->scene.film.shows.colour;
-    if (colour.of_grains()) return clipped_words(colour, impl_->sphere_painter.clipped(), "grains");
+    const SpherePainter& of_all = impl_->ghost_painter ? *impl_->ghost_painter : impl_->sphere_painter;
+    if (colour.of_grains()) return clipped_words(colour, of_all.clipped(), "grains");
     return colour.of_field() ? clipped_words(colour, impl_->marks.clipped(), "layer") : "";
 }
 
