@@ -62,8 +62,7 @@ Chosen choose(double at, const RevisitedRun& source) {
         const double apart =
             kept.size() < 2 ? 0
                             : (kept.back().time - kept.front().time) / static_cast<double>(kept.size() - 1);
-        const std::string what =
-            fmt::format("--at: {:.6g} s was not kept ({})", at, source.why_not_all());
+        const std::string what = fmt::format("--at: {:.6g} s was not kept ({})", at, source.why_not_all());
         if (std::abs(time - asked.time) > apart)
             throw UserError(
                 fmt::format("{}; the kept moment nearest to it is {:.6g} s, too far away to stand "
