@@ -240,6 +240,26 @@ TEST_F(RenderProgram, DrawsTheWholeFilmOnceMore) {
     EXPECT_THAT(kept.err, HasSubstr("--no-replay: nothing is brought back"));
 }
 
+// Of the same scene but for the seed: what is brought back from them is another run.
+TEST_F(RenderProgram, CheckpointsOfAnotherRunAreRefused) {
+    run("[[film.segment]]\nplayback = 0.5\n", {"--no-film"});
+    ASSERT_EQ(
+        program({"movie", "run.toml", "--no-film", "--out", "other", "--duration", "0.3 s", "--seed", "7"})
+            .status,
+        0);
+    fs::remove_all(here / "run/checkpoints");
+    fs::copy(here / "other/checkpoints", here / "run/checkpoints", fs::copy_options::recursive);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"render", "run"}, {"render", "run", "--at", "0.12"}}) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 2) << ended.err;
+        EXPECT_EQ(ended.out, "");
+        EXPECT_FALSE(fs::exists(here / "run-render"));
+    }
+    const Ended kept = program({"render", "run", "--no-replay"});
+    EXPECT_EQ(kept.status, 0) << kept.err;
+}
+
 TEST_F(RenderProgram, SegmentsOfItsOwnAreShown) {
     run("[[film.segment]]\nkind = \"locked\"\n", {"--no-film"});
     const auto drawn = [&](const std::string& segments, const std::string& out) {
