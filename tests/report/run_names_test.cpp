@@ -26,7 +26,8 @@ struct Runs {
         scenes.push_back(read_scene_text(test::small_scene_text, "fifty.toml", all));
         folders.push_back(folder);
         std::filesystem::create_directories(here / folder);
-        test::write_text(here / (folder + "/scene.toml"), resolved_scene(scenes.back(), make_plan(scenes.back())));
+        test::write_text(here / (folder + "/scene.toml"),
+                         resolved_scene(scenes.back(), make_plan(scenes.back())));
     }
     std::vector<std::string> names() const {
         std::vector<RunToName> runs;
@@ -64,7 +65,8 @@ TEST(RunNames, AreTheFoldersWhereNothingElseTellsThemApart) {
     same.add("b", {});
     EXPECT_THAT(same.names(), ElementsAre("a", "b"));
     much.add("a", {});
-    much.add("b", {"run.seed=3", "container.width=32 mm", "container.depth=22 mm", "contact.restitution=0.5"});
+    much.add("b",
+             {"run.seed=3", "container.width=32 mm", "container.depth=22 mm", "contact.restitution=0.5"});
     EXPECT_THAT(much.names(), ElementsAre("a", "b"));
     Runs twice;
     twice.add("x/run", {});
