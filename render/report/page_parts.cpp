@@ -178,8 +178,9 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
         if (!note.empty()) html += fmt::format("<p class=\"faint\">{}</p>\n", html_text(note));
     if (film.whole_in_folder && beside)
         html += fmt::format(
-            "<p class=\"faint no-print\"><a href=\"{}\">{}</a> in the run's folder, while this page lies "
-            "there</p>\n",
+            "<p class=\"faint no-print\"><a href=\"{}\" title=\"Opens while this page lies there\">{}</a> in "
+            "the "
+            "run's folder</p>\n",
             file_link(film.file), html_text(film.file));
     return html;
 }

@@ -191,7 +191,7 @@ TEST_F(ReportProgram, DoesWithoutFilmAndMeasures) {
 
 // One line a file, and the page is made all the same; a file that contradicts the others is refused.
 TEST_F(ReportProgram, SaysWhichFilesLackOrAreDamaged) {
-    run({"--set", "output.contacts=true", "--no-report"});
+    run({"--set", "output.contacts=true"});
     EXPECT_THAT(program({"report", "run"}).err, Not(HasSubstr("warning")));
     const auto damaged = [&](const char* file, const std::string& text) {
         fs::remove_all(here / "copy");
