@@ -24,10 +24,10 @@ constexpr double assumed_seconds = 0.02;
 // Drawing and encoding have a thread each, and more where there are processors for them. Two threads are not
 // twice as fast as one where their processors share a core, or the caches.
 double film_wall(double processor_seconds, double drawing, const ThreadPlan& threads,
-                 const MachineFigures& machine) {
-    if (machine.processors < 2) return processor_seconds;
+                 const MachineFigures& machine, int processors) {
+    if (processors < 2) return processor_seconds;
     const double drawn = drawing / threads.raster, encoded = (1 - drawing) / threads.encoder;
-    const double at_once = std::min(threads.raster + threads.encoder, machine.processors);
+    const double at_once = std::min(threads.raster + threads.encoder, processors);
     const double gain = 1 + (machine.gain_of_two - 1) * (at_once - 1);
     return processor_seconds * std::min(1.0, std::max({drawn, encoded, 1 / gain}));
 }
@@ -71,8 +71,12 @@ CostEstimate estimate_cost(const Scene& scene, const Plan& plan, const std::vect
     double film_seconds = 0;
     if (cost.frames > 0) {
         const double used = film_processor_seconds(film, machine);
+        // Who asks for one thread is told what one processor does.
+        const int processors =
+            scene.run.threads > 0 ? std::min(scene.run.threads, machine.processors) : machine.processors;
         cost.frame_seconds = used / static_cast<double>(cost.frames);
-        film_seconds = film_wall(used, machine.frame_drawing, threads, machine) + film_setup_seconds;
+        film_seconds =
+            film_wall(used, machine.frame_drawing, threads, machine, processors) + film_setup_seconds;
     }
     cost.film_seconds = film_seconds;
     cost.total_seconds = seconds_to_start + cost.packing_seconds +

@@ -27,7 +27,7 @@ constexpr double kRow = 3.7;          // a row of measures, for each grain
 constexpr double kInstrument = 2.5;   // what an instrument adds to a row
 constexpr double kFieldMoment = 8.4;  // a moment of fields, for each grain
 // What the energy balance adds to a step: of a grain, and of each of its contacts.
-constexpr double kBalance = 0.25, kBalanceContact = 0.3;
+constexpr double kBalance = 0.3, kBalanceContact = 0.4;
 
 // Radii grow in about so many steps. Then the bed falls and comes to rest; until it counts as calm a grain
 // falls through its diameter several times.

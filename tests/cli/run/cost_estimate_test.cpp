@@ -99,6 +99,8 @@ TEST(CostEstimate, AFilmGainsWhatTwoThreadsGain) {
     const double used = 13 * machine.frame_seconds;
     EXPECT_NEAR(two.film_seconds, used * (1 - machine.frame_drawing) + film_setup_seconds, 1e-12);
     EXPECT_NEAR(one_core.film_seconds, used / 1.25 + film_setup_seconds, 1e-12);
+    const CostEstimate one_thread = cost_of(scene_with({"run.threads=1"}), in_turn, machine);
+    EXPECT_NEAR(one_thread.film_seconds, used + film_setup_seconds, 1e-12);
 }
 
 TEST(CostEstimate, ABoxThatIsOnlyFedIsNotPacked) {
