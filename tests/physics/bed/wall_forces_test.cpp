@@ -176,7 +176,7 @@ TEST(WallForcesOfRuns, PressureIsTheMeanOfItsRecord) {
     text.replace(text.find("\"3 mm\", \"-5 mm\""), 15, "\"3 mm\", \"13 mm\"");
     Scene scene = scene_of(text, {"gravity=[0, 9.81, 0]"});
     const Plan plan = make_plan(scene);
-    const double weight = mass(scene) * 9.81, slice = 0.016 / 4;
+    const double weight = mass(scene) * 9.81, slice = 0.016 / 2;
     Simulation run(scene, plan, 1);
     run.pack();
     const auto of_right_wall = [&](const Simulation& of) {
