@@ -88,6 +88,8 @@ void RunPart::read_table(const fs::path& file) {
     MeasuresFile read = read_measures_file(file);
     const std::string name = file.string();
     const std::int64_t rows = read.table ? static_cast<std::int64_t>(read.table->rows()) : 0;
+    // A run that failed before its first row has no such file.
+    if (!read.table && !is_there(file) && record_.fault.empty() && record_.measures_rows == 0) return;
     if (!read.table)
         no_charts_ = fmt::format("{}: {}", name, is_there(file) ? "is empty" : "is missing");
     else if (std::find(read.table->columns().begin(), read.table->columns().end(), "time_s") ==
@@ -188,11 +190,19 @@ std::string RunPart::fields(int level) const {
                   {{"n", n_}, {"level", std::to_string(level)}, {"about", html_text(about)}});
 }
 
+// Whoever reads the page knows no other place: "measures.csv:3: ...".
+std::string RunPart::in_folder(const std::string& line) const {
+    const std::string start = folder().string() + "/";
+    return line.starts_with(start) ? line.substr(start.size()) : line;
+}
+
 std::string RunPart::charts_about() const {
-    if (!no_charts_.empty()) return html_text(fmt::format("The page has no charts: {}.", no_charts_));
+    if (!no_charts_.empty())
+        return html_text(fmt::format("The page has no charts: {}.", in_folder(no_charts_)));
     if (measures_.rows.empty()) return "The run has no measures.";
     if (!table_fault_.empty())
-        return html_text(fmt::format("Charts end before the damage of the file: {}.", table_fault_));
+        return html_text(
+            fmt::format("Charts end before the damage of the file: {}.", in_folder(table_fault_)));
     std::string text =
         whole_table_ ? "" : "The complete table is too long for this page; it lies in measures.csv. ";
     if (!whole_table_ && measures_.rows.size() < table_->rows())

@@ -51,6 +51,7 @@ class RunPart {
     void read_table(const std::filesystem::path& file);
     FilmTimes film_times_of();
     std::vector<std::string> lacking_files() const;
+    std::string in_folder(const std::string& line) const;
     std::string no_moments() const;
     Span kept_span() const;  // of moments and measures
 

@@ -183,7 +183,7 @@ TEST_F(ReportProgram, DoesWithoutFilmAndMeasures) {
     ASSERT_EQ(ended.status, 0) << ended.err;
     const std::string page = text_of(here / "run/report.html");
     EXPECT_THAT(page, HasSubstr("The run has no film and no poster."));
-    EXPECT_THAT(page, HasSubstr("The page has no charts: run/measures.csv: is missing."));
+    EXPECT_THAT(page, HasSubstr("The page has no charts: measures.csv: is missing."));
     EXPECT_THAT(page, HasSubstr("status is “unknown”"));
     EXPECT_THAT(ended.err, HasSubstr("warning: run/measures.csv: is missing; the page has no charts"));
     EXPECT_THAT(ended.err, HasSubstr("warning: run/run.json: is missing; "));
