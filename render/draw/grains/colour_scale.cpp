@@ -56,8 +56,8 @@ std::string clipped_words(const GrainColouring& colouring, const ClippedCount& c
         const std::string unit = colouring.unit.empty() ? "" : " " + colouring.unit;
         const double percent = 100 * static_cast<double>(beyond) / static_cast<double>(count.all);
         parts += fmt::format("{}{} % of the {} lie {} {:.3g}{}", parts.empty() ? "" : ", ",
-                             percent < 10 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent), of,
-                             side, end / unit_size(colouring.unit, dimension_of(colouring.by)), unit);
+                             percent < 10 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent),
+                             of, side, end / unit_size(colouring.unit, dimension_of(colouring.by)), unit);
     };
     part(count.below, "below", colouring.range[0]);
     if (!banded) part(count.above, "above", colouring.range[1]);

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "engine/measure/columns.hpp"
 #include "engine/measure/energy/energy_balance.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/run/surroundings.hpp"
