@@ -24,6 +24,10 @@ int if_plain(int file) {
     return -1;
 }
 
+bool is_device(const fs::path& path) {
+    return other_than_file(path, false) == "a device";
+}
+
 }  // namespace
 
 std::string other_than_file(const fs::path& path, bool behind_links) {
@@ -65,12 +69,14 @@ int open_plain(const fs::path& path, int flags) {
 }
 
 int make_plain(const fs::path& path) {
+    if (is_device(path)) return ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
     make_way(path);
     return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, for_all);
 }
 
 void make_way(const fs::path& path) {
-    ::unlink(path.c_str());  // fails for a folder; who makes the file then says so
+    // Fails for a folder; who makes the file then says so.
+    if (!is_device(path)) ::unlink(path.c_str());
 }
 
 std::error_code make_plain_folder(const fs::path& path) {

@@ -214,7 +214,7 @@ std::vector<std::string> panels_in_run_json(const std::filesystem::path& path) {
 }
 
 std::vector<AcceptedKey> accepted_in_run_json(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    std::ifstream file = read_plain(path);
     const Json document = Json::parse(file, nullptr, false);
     std::vector<AcceptedKey> keys;
     if (!document.is_object() || !document.contains("accepted")) return keys;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -19,7 +20,7 @@ TableMark mark_of_table(std::int64_t grains, std::string_view bytes) {
 std::optional<TableMark> mark_in_run_json(const std::filesystem::path& run_json) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(run_json, ignored)) return std::nullopt;
-    std::ifstream file(run_json);
+    std::ifstream file = read_plain(run_json);
     const nlohmann::json document = nlohmann::json::parse(file, nullptr, false);
     if (!document.is_object()) return std::nullopt;
     const auto written = document.find("written");
@@ -44,7 +45,7 @@ void check_as_written(const std::filesystem::path& table, std::int64_t grains) {
     if (grains < written->grains)
         throw UserError(fmt::format("{}: was cut off: it has {} of the {} grains that its run wrote; {}",
                                     table.string(), grains, written->grains, advice));
-    std::ifstream file(table, std::ios::binary);
+    std::ifstream file = read_plain(table);
     const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     if (mark_of_table(grains, bytes).checksum != written->checksum)
         throw UserError(

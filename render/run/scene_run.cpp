@@ -159,7 +159,7 @@ std::vector<Frame> SceneRun::moments(const Pictures& pictures) const {
 void SceneRun::start(const Pictures& pictures) {
     const std::vector<Shot> shots = shots_of(pictures);
     segments_ = pictures.segments;
-    bed_periods_.emplace(scene_, plan_.clock, shots, pictures.may_leave_out);
+    bed_periods_.emplace(scene_, plan_.clock, shots, segments_, pictures.may_leave_out);
     open_files(shots);
     if (changed_) {
         std::error_code ignored;

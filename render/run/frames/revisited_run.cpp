@@ -84,6 +84,8 @@ Span RevisitedRun::span() const {
 
 std::vector<std::string> RevisitedRun::news() const {
     std::vector<std::string> news = run_.news();
+    if (replay_)
+        for (std::string& line : run_.checkpoint_news()) news.push_back(std::move(line));
     news.insert(news.end(), reachable_.news().begin(), reachable_.news().end());
     return news;
 }

@@ -10,13 +10,12 @@
 namespace grainreel {
 
 BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots,
-                       bool may_leave_out)
+                       const std::vector<FilmSegment>& segments, bool may_leave_out)
     : clock_(clock),
       wanted_(scene.film.periods),
       may_leave_out_(may_leave_out),
       diameter_(mean_diameter(scene)) {
     for (const Shot& shot : shots) first_.emplace(shot.segment, shot.step);
-    const std::vector<FilmSegment> segments = segments_of(scene.film);
     for (const auto& [number, step] : first_) {
         const FilmSegment& segment = segments.at(static_cast<std::size_t>(number));
         locks_ = locks_ || segment.kind == FilmSegment::Kind::locked;

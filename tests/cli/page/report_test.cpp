@@ -325,7 +325,7 @@ TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
     run({"--no-film", "--no-report"});
     expect_mistake({"report", "run", "--out", "page.txt"}, "a page's name ends in .html");
     expect_mistake({"report", "run", "--out", "empty"}, "is a folder");
-    expect_mistake({"report", "run", "--out", "none/page.html"}, "there is no such folder");
+    expect_mistake({"report", "run", "--out", "none/page.html"}, "there is no folder none");
     write_text(here / "run/trajectory.nc", "no trajectory");
     expect_mistake({"report", "run"}, "trajectory.nc");
     EXPECT_FALSE(fs::exists(here / "run/report.html"));

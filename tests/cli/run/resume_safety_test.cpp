@@ -87,7 +87,9 @@ TEST_F(ResumedFolder, AFileWithWhichItCannotGoOnIsNamedAndNothingChanges) {
 
 TEST_F(ResumedFolder, ARowThatWasTakenOutOfTheOutflowIsMissed) {
     std::string text = busy_scene_text;
+    // Without fields, of walls too, it goes on from its end.
     text.erase(text.find("[output.fields]"), text.find("[film]") - text.find("[output.fields]"));
+    text.replace(text.find("[\"walls\", \"outflow\"]"), 20, "[\"outflow\"]");
     write_text(here / "busy.toml", text);
     movie("run", {"--no-film"});
     std::string rows = text_of(here / "run/outflow.csv");
@@ -120,7 +122,7 @@ TEST_F(ResumedFolder, CutContactsAndFieldsAreWrittenAgain) {
     movie("whole", {"--frames", "--duration", "0.13 s"});
     movie("run", {"--frames"});
     for (const char* file : {"contacts.nc", "fields.nc"})
-        fs::resize_file(here / "run" / file, fs::file_size(here / "run" / file) * 2 / 3);
+        fs::resize_file(here / "run" / file, fs::file_size(here / "run" / file) * 9 / 10);
     const Ended ended = run({"resume", "run", "--for", "0.03 s"});
     ASSERT_EQ(ended.status, 0) << ended.err;
     expect_same_run("whole", "run");

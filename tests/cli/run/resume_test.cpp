@@ -228,7 +228,7 @@ TEST_F(ResumedRun, AnAcceptedDriveTakesOverSmoothly) {
     const double fastest = 2 * 9.81 / (2 * std::numbers::pi * 20);  // a 2 pi f at the first drive, m/s
     for (std::size_t k = 1; k < time.size(); ++k)
         EXPECT_LE(std::abs(floor[k] - floor[k - 1]), 1.01 * fastest * (time[k] - time[k - 1])) << time[k];
-    EXPECT_NEAR(level.front(), 2, 1e-6);
+    EXPECT_NEAR(*std::max_element(level.begin(), level.end()), 2, 1e-6);  // it grows from 0 at first
     EXPECT_NEAR(level.back(), 1.5, 1e-6);
     // A kept moment of the second part, as it was kept and as it comes back.
     const auto place = [&](const std::vector<std::string>& more) {
