@@ -17,7 +17,9 @@ namespace grainreel {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-    const std::string other = other_than_file(path, false);
+    // Another reason than a full disk or missing rights.
+    const bool refused = error == EINVAL || error == EEXIST || error == ELOOP || error == ENXIO;
+    const std::string other = refused ? other_than_file(path, false) : "";
     const std::string why = other.empty() ? std::strerror(error) : "it is " + other;
     errno = error;  // for replace_file()
     throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));

