@@ -11,7 +11,7 @@
 namespace grainreel {
 
 RunLog::RunLog(const std::filesystem::path& path, bool goes_on) {
-    if (const std::string other = other_than_file(path, false); !other.empty())
+    if (const std::string other = other_than_file(path, false); !other.empty() && other != "a device")
         throw RunError(fmt::format("{}: cannot be written: it is {}", path.string(), other));
     try {
         auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), !goes_on);
