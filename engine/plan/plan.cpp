@@ -55,7 +55,8 @@ PairPlan plan_kind(const Scene& scene, const BedPlan& bed, const StartFacts& fil
 }
 
 // A glued grain is as heavy as its wall. Its contacts have the numbers of the pair of species, but for the
-// stiffness, which an effective mass up to twice as large may demand and the scene may give.
+// stiffness, which a larger effective mass may demand: that of the free grain, for equal grains twice as
+// large.
 void plan_glued(const Scene& scene, const BedPlan& bed, const StartFacts& file, Plan& plan) {
     if (!scene.container.wall_grains) return;
     const Species glued = glued_species(scene);

@@ -147,12 +147,12 @@ const KeyTable<PairContact>& contact_table() {
             .useless_for(of_hertz)
             .written_at(of_springs),
         quantity("glued_stiffness", &P::glued_stiffness, Dimension::stiffness, positive, of_the_pair(),
-                 "Likewise, with a grain that is glued to a wall.")
+                 "As `stiffness`, of contacts with a grain that is glued to a wall.")
             .often_chosen()
             .useless_for(of_linear_springs)
             .written_at(of_springs),
         quantity("glued_modulus", &P::glued_stiffness, Dimension::pressure, positive, of_the_pair(),
-                 "hertz only: E* of the pair, one of them a grain that is glued to a wall.")
+                 "As `modulus`, of contacts with a grain that is glued to a wall.")
             .often_chosen()
             .useless_for(of_hertz)
             .written_at(of_springs),
