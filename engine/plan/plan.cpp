@@ -55,15 +55,15 @@ PairPlan plan_kind(const Scene& scene, const BedPlan& bed, const StartFacts& fil
 }
 
 // A glued grain is as heavy as its wall. Its contacts have the numbers of the pair of species, but for the
-// stiffness, which an effective mass up to twice as large may demand.
+// stiffness, which a larger effective mass may demand: that of the free grain, for equal grains twice as
+// large.
 void plan_glued(const Scene& scene, const BedPlan& bed, const StartFacts& file, Plan& plan) {
     if (!scene.container.wall_grains) return;
-    const std::size_t species = scene.container.wall_grains->species;
     const Species glued = glued_species(scene);
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         const Species& first = scene.species[a];
         plan.glued.push_back(
-            plan_kind(scene, bed, file, scene.between(a, species), first, &glued, file.glued, a));
+            plan_kind(scene, bed, file, glued_contact(scene, a), first, &glued, file.glued, a));
     }
 }
 

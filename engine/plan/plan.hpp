@@ -64,6 +64,7 @@ struct PairPlan {
     double tangential_damping_rate(double mass) const;  // 1/s, likewise
     // Of a free impact at that speed (m/s), of two with this effective mass (kg).
     double restitution_of(double mass, double speed) const;
+    bool operator==(const PairPlan&) const = default;
 };
 
 // What a plan takes from the file that a run starts from (engine/start/start_plan.cpp looks into it).

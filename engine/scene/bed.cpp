@@ -56,6 +56,12 @@ Species glued_species(const Scene& scene) {
     return species;
 }
 
+PairContact glued_contact(const Scene& scene, std::size_t species) {
+    PairContact contact = scene.between(species, scene.container.wall_grains->species);
+    if (contact.glued_stiffness) contact.stiffness = contact.glued_stiffness;
+    return contact;
+}
+
 double fill_height(const Scene& scene, double solid_fraction) {
     const Container& c = scene.container;
     const double volume = std::min(solid_volume(scene) / solid_fraction, c.volume());

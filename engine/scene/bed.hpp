@@ -15,6 +15,8 @@ double total_mass(const Scene& scene);     // kg
 // The species of the grains that are glued to walls, as heavy as these: of infinite density. Only where there
 // are some.
 Species glued_species(const Scene& scene);
+// The contact of grains of this species with these: that of the two species, but for a stiffness of its own.
+PairContact glued_contact(const Scene& scene, std::size_t species);
 
 // m, how high the container is filled when the grains lie at this solid fraction; its height at most.
 double fill_height(const Scene& scene, double solid_fraction);

@@ -80,6 +80,9 @@ struct PairContact {
     bool attraction = false;               // laws with a dashpot may pull at the end of contact
     std::optional<double> normal_damping;  // 1/s, force = value * m_eff * v; from the restitution when empty
     std::optional<double> tangential_damping;  // 1/s, likewise; half of the normal damping when empty
+    // As `stiffness`, of grains of one species with glued ones of the other. When empty it is `stiffness`;
+    // when both are, the plan chooses it.
+    std::optional<double> glued_stiffness;
     bool operator==(const PairContact&) const = default;
 };
 

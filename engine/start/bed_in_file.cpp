@@ -146,9 +146,9 @@ void stiffness_of_overlaps(const Scene& scene, const BedInFile& bed, StartFacts&
     double linear = 0, hertz = 0, hertz_as_linear = 0, depths = 0, radii = 0, count = 0;
     for (const BedInFile::Overlap& o : bed.overlaps) {
         const auto first = static_cast<std::size_t>(bed.grains.species[o.first]);
-        const PairContact& contact =
+        const PairContact contact =
             o.second >= 0 ? scene.between(first, static_cast<std::size_t>(bed.grains.species[o.second]))
-            : o.glued     ? scene.between(first, scene.container.wall_grains->species)
+            : o.glued     ? glued_contact(scene, first)
                           : scene.contact.wall[first];
         const bool of_hertz = contact.normal == NormalLaw::hertz;
         const double as_hertz = 4.0 / 3 * std::sqrt(o.radius * o.depth) * o.depth;

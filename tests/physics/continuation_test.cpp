@@ -180,6 +180,10 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
     take(changed("height = \"40 mm\"\n",
                  "height = \"40 mm\"\noutlet = { width = \"12 mm\" }\ntray = { depth = \"30 mm\" }\n"
                  "wall_grains = { species = \"big\", faces = [\"left_wall\"] }\n"));
+    take(
+        changed("height = \"40 mm\"\n",
+                "height = \"40 mm\"\nwall_grains = { faces = [\"floor\"] }\n[contact.wall]\nlaw = \"hertz\"\n"
+                "[[contact.pair]]\nbetween = [\"small\", \"small\"]\nlaw = \"hertz\"\n"));
 
     const auto compared = deciding_differences("", all);
     const auto is_compared = [&](const std::string& key) {

@@ -429,6 +429,27 @@ TEST(Messages, GluedGrainsLargerThanTheRoom) {
         "larger container");
 }
 
+TEST(Messages, AStiffnessOfGluedGrainsThatAreNotThere) {
+    EXPECT_EQ(complaint(wedge_text, {"contact.glued_stiffness=1e4"}),
+              "--set contact.glued_stiffness: 'glued_stiffness' is of no use here: no grains are glued to "
+              "walls; remove it");
+    EXPECT_THAT(complaint(wedge_text, {"contact.wall.glued_stiffness=1e4"}),
+                testing::HasSubstr("unknown key 'glued_stiffness' in [contact.wall]"));
+    const auto of_pair = [&](const std::string& between, const char* law) {
+        return complaint(wedge_text + "[[contact.pair]]\nbetween = " + between + "\nglued_stiffness = 1e4\n",
+                         {"container.wall_grains={species=\"big\", faces=[\"floor\"]}", law});
+    };
+    EXPECT_THAT(of_pair(R"(["small", "small"])", "contact.friction=0.3"),
+                testing::HasSubstr("'glued_stiffness' is of no use here: 'container.wall_grains' glues "
+                                   "grains of neither species; remove it"));
+    EXPECT_THAT(of_pair(R"(["small", "wall"])", "contact.friction=0.3"),
+                testing::HasSubstr("'glued_stiffness' is of no use here: a wall itself is smooth; name the "
+                                   "two species; remove it"));
+    EXPECT_THAT(of_pair(R"(["small", "big"])", "contact.law=hertz"),
+                testing::HasSubstr("'glued_stiffness' is of no use here: hertz has a 'modulus'; remove it"));
+    EXPECT_EQ(of_pair(R"(["small", "big"])", "contact.friction=0.3"), "");
+}
+
 TEST(Messages, CommandLine) {
     EXPECT_EQ(complaint(wedge_text, {"drive.frequenzy=3"}),
               "--set drive.frequenzy: unknown key 'frequenzy' in [drive]; did you mean 'frequency'?");

@@ -127,6 +127,29 @@ TEST(PlanStiffness, TheSceneHasTheLastWord) {
     EXPECT_EQ(plan.wall[0].loading_stiffness, 3e5);
 }
 
+// The scene may give it in general, of a pair, or for both kinds of contact in one.
+TEST(PlanStiffness, OfGluedGrains) {
+    const std::string rough =
+        with(wedge_text, "height = \"180 mm\"\n",
+             "height = \"180 mm\"\nwall_grains = { species = \"big\", faces = [\"floor\"] }\n");
+    const auto glued = [&](const std::string& more, const Assignments& sets) {
+        const Plan plan = make_plan(read_text(rough + more, sets));
+        return std::vector{plan.glued[0].loading_stiffness, plan.glued[1].loading_stiffness,
+                           plan.between(0, 1).loading_stiffness, plan.wall[0].loading_stiffness};
+    };
+    const std::string pair = "[[contact.pair]]\nbetween = [\"big\", \"small\"]\nglued_stiffness = 3e4\n";
+    const std::vector<double> chosen = glued("", {});
+    EXPECT_EQ(glued("", {"contact.glued_stiffness=2e4"}), (std::vector{2e4, 2e4, chosen[2], chosen[3]}));
+    EXPECT_EQ(glued("", {"contact.stiffness=1e4"}), (std::vector{1e4, 1e4, 1e4, 1e4}));
+    EXPECT_EQ(glued(pair, {"contact.glued_stiffness=2e4", "contact.stiffness=1e4"}),
+              (std::vector{3e4, 2e4, 1e4, 1e4}));
+    EXPECT_EQ(glued(pair, {}), (std::vector{3e4, chosen[1], chosen[2], chosen[3]}));
+    const Plan hertz = make_plan(read_text(rough, {"contact.law=hertz", "contact.glued_modulus=20 MPa"}));
+    for (const PairPlan& contact : hertz.glued) EXPECT_EQ(contact.modulus, 2e7);
+    EXPECT_EQ(hertz.between(0, 1).modulus,
+              make_plan(read_text(rough, {"contact.law=hertz"})).between(0, 1).modulus);
+}
+
 TEST(PlanStiffness, WaltonBraunBranches) {
     const Plan plan =
         make_plan(read_text(wedge_text, {"contact.stiffness=1e4", "contact.tangential_ratio=0.7"}));

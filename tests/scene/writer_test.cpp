@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "tests/scene/scene_text.hpp"
 
@@ -18,6 +19,11 @@ Scene filled_in(Scene scene, const Plan& plan) {
     for (std::size_t i = 0; i < count * count; ++i)
         scene.contact.grain[i].stiffness = stiffness(plan.grain[i]);
     for (std::size_t i = 0; i < count; ++i) scene.contact.wall[i].stiffness = stiffness(plan.wall[i]);
+    for (std::size_t i = 0; i < plan.glued.size(); ++i) {
+        const std::size_t glued = scene.container.wall_grains->species;
+        scene.contact.grain[i * count + glued].glued_stiffness = stiffness(plan.glued[i]);
+        scene.contact.grain[glued * count + i].glued_stiffness = stiffness(plan.glued[i]);
+    }
     scene.run.step = plan.clock.step;
     scene.run.steps_per_contact.reset();
     // A drive that changes has its records by periods, which no interval can say.
@@ -26,6 +32,24 @@ Scene filled_in(Scene scene, const Plan& plan) {
     if (plan.measures_periods == 0)
         scene.output.measures_interval = static_cast<double>(plan.measures_every) * plan.clock.step;
     return scene;
+}
+
+std::string scene_without_remarks(const Scene& scene, const Plan& plan) {
+    std::istringstream lines(resolved_scene(scene, plan));
+    std::string text;
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with('#')) text += line + "\n";
+    return text;
+}
+
+// Bit by bit, but for the words about who chose the stiffness.
+void expect_equal(std::vector<PairPlan> again, std::vector<PairPlan> plan) {
+    ASSERT_EQ(again.size(), plan.size());
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        again[i].stiffness_reason = plan[i].stiffness_reason = "";
+        EXPECT_EQ(again[i].loading_stiffness, plan[i].loading_stiffness) << i;
+        EXPECT_TRUE(again[i] == plan[i]) << i;
+    }
 }
 
 void expect_round_trip(const Scene& original) {
@@ -52,11 +76,10 @@ void expect_round_trip(const Scene& original) {
     EXPECT_EQ(again.trajectory_every, plan.trajectory_every);
     EXPECT_EQ(again.measures_every, plan.measures_every);
     EXPECT_EQ(again.settle_steps_limit, plan.settle_steps_limit);
-    for (std::size_t i = 0; i < plan.grain.size(); ++i) {
-        EXPECT_EQ(again.grain[i].unloading_stiffness, plan.grain[i].unloading_stiffness);
-        EXPECT_EQ(again.grain[i].tangential_stiffness, plan.grain[i].tangential_stiffness);
-        EXPECT_EQ(again.grain[i].normal_damping, plan.grain[i].normal_damping);
-    }
+    expect_equal(again.grain, plan.grain);
+    expect_equal(again.wall, plan.wall);
+    expect_equal(again.glued, plan.glued);
+    EXPECT_EQ(scene_without_remarks(back, again), scene_without_remarks(original, plan));
 }
 
 // Keys of [film] that stood below [film.cut] belonged to that, and a run with a cut could not be drawn again.
@@ -97,6 +120,41 @@ TEST(Writer, ResolvedScenesReadBackBitByBit) {
         read_text(box_text, {"container.outlet={width=\"7.3 mm\"}", "container.tray={depth=0.0123}"}));
     expect_round_trip(read_text(wedge_text, {"container.wall_grains={species=\"small\", spacing=0.0071, "
                                              "faces=[\"left_slant\", \"floor\"], disorder=0.13}"}));
+}
+
+const std::string glued_text = with(wedge_text, "height = \"180 mm\"\n",
+                                    "height = \"180 mm\"\n"
+                                    "wall_grains = { species = \"small\", faces = [\"floor\"] }\n");
+
+// The plan chooses their stiffness beside that of the pair: an impact on a wall's mass has the effective mass
+// of the free grain, for equal grains twice that of the pair.
+TEST(Writer, ContactsWithGluedGrainsKeepTheirStiffness) {
+    const Plan plan = make_plan(read_text(glued_text));
+    ASSERT_EQ(plan.between(0, 0).stiffness_reason, "impact");
+    EXPECT_DOUBLE_EQ(plan.glued[0].loading_stiffness, 2 * plan.between(0, 0).loading_stiffness);
+    for (const Assignments& law : std::vector<Assignments>{
+             {"contact.law=walton-braun"},
+             {"contact.law=spring-dashpot"},
+             {"contact.law=hertz"},
+             {"contact.restitution_speed=0.3"},
+             {"contact.restitution_table=[[0.1, 0.95], [2, 0.7]]"},
+             {"contact.law=hertz", "contact.wall.law=spring-dashpot", "contact.attraction=true"},
+             {"contact.friction_law=linear-spring"},
+             {"contact.glued_stiffness=54321.1"},
+             {"contact.stiffness=7777.7"},
+             {"contact.law=hertz", "contact.modulus=12.3 MPa"}}) {
+        SCOPED_TRACE(law[0].text);
+        Assignments sets = law;
+        expect_round_trip(read_text(glued_text, sets));
+        for (const char* spread :
+             {"species.small.diameter={min=0.0041, max=0.0057}",
+              "species.big.diameter={mean=0.0093, deviation=0.0007}", "container.wall_grains.species=big"})
+            sets.push_back(spread);
+        expect_round_trip(read_text(glued_text, sets));
+    }
+    expect_round_trip(read_text(glued_text +
+                                "[[contact.pair]]\nbetween = [\"big\", \"small\"]\nlaw = \"hertz\"\n"
+                                "[[contact.pair]]\nbetween = [\"small\", \"small\"]\nstiffness = 3e4\n"));
 }
 
 TEST(Writer, WhatTheFilmShowsReadsBackBitByBit) {

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/contact_table.hpp"
+#include "engine/scene/chapters/wall_grain_keys.hpp"
 
 namespace grainreel {
 namespace {
@@ -154,30 +156,66 @@ const KeyTable<Contact>& common_table() {
     return table;
 }
 
+// What only contacts with glued grains have.
+constexpr std::array keys_of_glued = {"glued_stiffness", "glued_modulus"};
+
+void refuse_glued(const Document& document, const std::string& table, const char* reason) {
+    for (const char* name : keys_of_glued) document.refuse(table + "." + name, reason);
+}
+
+void forget_glued(PairText& pair) {
+    for (const char* name : keys_of_glued) pair.said.erase(name);
+}
+
 struct ContactText {
     std::vector<PairText> grain, wall;  // as in Contact
 };
+
+bool has_glued(Document& document, const Scene& scene, const Partners& partners) {
+    return is_glued(document, partners.one, scene.species[partners.one].name) ||
+           is_glued(document, partners.other, scene.species[partners.other].name);
+}
 
 void read_exception(Document& document, const Scene& scene, const std::string& table, ContactText& contact) {
     Partners partners;
     partners_table().read(document, scene, table, partners);
     const auto [a, b] = partners;
     const std::size_t count = scene.species.size();
-    if (a == count || b == count) return read_pair(document, scene, table, contact.wall[std::min(a, b)]);
+    if (a == count || b == count) {
+        refuse_glued(document, table, "a wall itself is smooth; name the two species");
+        return read_pair(document, scene, table, contact.wall[std::min(a, b)]);
+    }
+    if (!has_glued(document, scene, partners))
+        refuse_glued(document, table, "'container.wall_grains' glues grains of neither species");
     read_pair(document, scene, table, contact.grain[a * count + b]);
     contact.grain[b * count + a] = contact.grain[a * count + b];
 }
 
+// The stiffness that was used, and why if the scene does not say it.
+std::optional<double> used(SceneText& out, const char* glued, bool said, const PairPlan& plan) {
+    const bool hertz = plan.model.normal == NormalForce::hertz;
+    if (!said)
+        out.remark(fmt::format("{}{}", glued, hertz ? "modulus" : "stiffness"),
+                   fmt::format("chosen for: {}", plan.stiffness_reason));
+    return hertz ? plan.modulus : plan.loading_stiffness;
+}
+
+// glued: of the contacts with those of the two that are glued to walls; null: none are.
 void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, const PairPlan& plan,
-                const Partners& partners) {
+                const PairPlan* glued, const Partners& partners) {
     out.element("contact.pair");
     partners_table().write(out, scene, partners);
     PairContact chosen = pair;
-    const bool hertz = pair.normal == NormalLaw::hertz;
-    chosen.stiffness = hertz ? plan.modulus : plan.loading_stiffness;
-    if (!pair.stiffness)
-        out.remark(hertz ? "modulus" : "stiffness", fmt::format("chosen for: {}", plan.stiffness_reason));
+    chosen.stiffness = used(out, "", pair.stiffness.has_value(), plan);
+    if (glued) chosen.glued_stiffness = used(out, "glued_", pair.glued_stiffness || pair.stiffness, *glued);
     contact_table().write(out, scene, chosen);
+}
+
+// Of grains of one species with glued ones of the other.
+const PairPlan* glued_plan(const Scene& scene, const Plan& plan, std::size_t a, std::size_t b) {
+    if (plan.glued.empty()) return nullptr;
+    const std::size_t glued = scene.container.wall_grains->species;
+    return a == glued ? &plan.glued[b] : b == glued ? &plan.glued[a] : nullptr;
 }
 
 }  // namespace
@@ -185,21 +223,29 @@ void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, con
 void list_contact(Keys& all) {
     common_table().list(all, "contact");
     contact_table().list(all, "contact");
-    contact_table().list(all, "contact.wall", "as in [contact]");
+    Keys of_walls;
+    contact_table().list(of_walls, "contact.wall", "as in [contact]");
+    std::erase_if(of_walls, [](const Key& key) { return name_of(key.path).starts_with("glued_"); });
+    all.insert(all.end(), of_walls.begin(), of_walls.end());
     partners_table().list(all, "contact.pair[]");
     contact_table().list(all, "contact.pair[]", "as in [contact] or [contact.wall]");
 }
 
 void read_contact(Document& document, Scene& scene) {
     PairText grain;
+    if (!document.is_table("container.wall_grains"))
+        refuse_glued(document, "contact", "no grains are glued to walls");
     read_pair(document, scene, "contact", grain);
     PairText wall = grain;
+    forget_glued(wall);
     read_pair(document, scene, "contact.wall", wall);
     const std::size_t count = scene.species.size();
     ContactText text{std::vector(count * count, grain), std::vector(count, wall)};
     for (std::size_t i = 0; i < document.size("contact.pair"); ++i)
         read_exception(document, scene, fmt::format("contact.pair[{}]", i), text);
 
+    for (std::size_t k = 0; k < count * count; ++k)
+        if (!has_glued(document, scene, {k / count, k % count})) forget_glued(text.grain[k]);
     Contact& contact = scene.contact;
     for (const PairText& pair : text.grain) contact.grain.push_back(resolved(pair, scene));
     for (const PairText& pair : text.wall) contact.wall.push_back(resolved(pair, scene));
@@ -215,8 +261,9 @@ void write_contact(SceneText& out, const Scene& scene, const Plan& plan) {
     const std::size_t count = scene.species.size();
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = a; b < count; ++b)
-            write_pair(out, scene, scene.between(a, b), plan.between(a, b), {a, b});
-        write_pair(out, scene, scene.contact.wall[a], plan.wall[a], {a, count});
+            write_pair(out, scene, scene.between(a, b), plan.between(a, b), glued_plan(scene, plan, a, b),
+                       {a, b});
+        write_pair(out, scene, scene.contact.wall[a], plan.wall[a], nullptr, {a, count});
     }
 }
 

@@ -94,6 +94,10 @@ BoundKey<PairContact> restitution_table_key() {
 // In the written scene: the laws, how much is lost, the springs, then friction.
 enum Place { of_laws, of_losses, of_springs, of_rubbing };
 
+Fallback of_the_pair() {
+    return note("that of the pair, if it is given; else chosen by the plan");
+}
+
 }  // namespace
 
 TangentialLaw suiting(NormalLaw law) {
@@ -139,6 +143,16 @@ const KeyTable<PairContact>& contact_table() {
             .written_at(of_springs),
         quantity("modulus", &P::stiffness, Dimension::pressure, positive, note("chosen by the plan"),
                  "hertz only: E* of the pair, 1/E* = (1 - ν²)/E + the same of the other body.")
+            .often_chosen()
+            .useless_for(of_hertz)
+            .written_at(of_springs),
+        quantity("glued_stiffness", &P::glued_stiffness, Dimension::stiffness, positive, of_the_pair(),
+                 "As `stiffness`, of contacts with a grain that is glued to a wall.")
+            .often_chosen()
+            .useless_for(of_linear_springs)
+            .written_at(of_springs),
+        quantity("glued_modulus", &P::glued_stiffness, Dimension::pressure, positive, of_the_pair(),
+                 "As `modulus`, of contacts with a grain that is glued to a wall.")
             .often_chosen()
             .useless_for(of_hertz)
             .written_at(of_springs),

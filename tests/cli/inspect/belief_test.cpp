@@ -175,6 +175,33 @@ TEST_F(Belief, ADamagedFrameIsBroughtBackAndSaidSo) {
                 HasSubstr("warning: run/trajectory.nc: frame 5 (the first is 0) is not whole"));
 }
 
+// What a run with grains glued to its floor kept comes back as it was.
+TEST_F(Belief, AFrameBesideGluedGrainsComesBackAsItWas) {
+    make("run",
+         {"--set", "output.trajectory_interval=20 ms", "--set", "container.wall_grains={faces=[\"floor\"]}"});
+    const auto grains = [&](bool back) {
+        Words question = {"--at", "0.1 s", "--where", "id >= 0", "--limit", "50", "--json"};
+        if (!back) question.push_back("--no-replay");
+        const Ended ended = ask(question);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        EXPECT_EQ(ended.out.find("brought back") != std::string::npos, back);
+        return nlohmann::json::parse(ended.out)["tables"]["grains"]["rows"];
+    };
+    const auto kept = grains(false);
+    ASSERT_EQ(kept.size(), 50u);
+    for (const char* file : {"contacts.nc", "checkpoint.grs"}) fs::remove(here / "run" / file);
+    for (const auto& entry : fs::directory_iterator(here / "run/checkpoints"))
+        if (entry.path().filename() != "000000000000.grs") fs::remove_all(entry.path());
+    std::string damaged = text_of(here / "run/trajectory.nc");
+    damaged[damaged.size() - 600] ^= 8;  // of the last frame's grains
+    write_text(here / "run/trajectory.nc", damaged);
+    const auto back = grains(true);
+    ASSERT_EQ(back.size(), kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        for (int column : {2, 3, 4})  // m; kept ones are rounded
+            EXPECT_NEAR(back[i][column].get<double>(), kept[i][column].get<double>(), 1e-8) << i;
+}
+
 // A table knows no end; the run.json beside it does.
 TEST_F(Belief, AFinalTableThatWasCutAtARowsEndIsRefused) {
     make("run");

@@ -165,6 +165,25 @@ TEST_F(ResumedRun, AFinishedOneIsMadeLonger) {
     expect_same("whole", "run");
 }
 
+// Their contacts have a stiffness that the plan chose beside that of the pair of species.
+TEST_F(ResumedRun, GluedGrainsStayAsStiff) {
+    for (const char* law : {"contact.law=walton-braun", "contact.law=hertz"}) {
+        SCOPED_TRACE(law);
+        for (const char* folder : {"whole", "run", "anew"}) fs::remove_all(here / folder);
+        Words more = {
+            "--duration", "0.2 s", "--no-film", "--no-report", "--threads",
+            "1",          "--set", law,         "--set",       "container.wall_grains={faces=[\"floor\"]}"};
+        ASSERT_EQ(run(movie("whole", more)).status, 0);
+        more[1] = "0.1 s";
+        ASSERT_EQ(run(movie("run", more)).status, 0);
+        ASSERT_EQ(run({"resume", "run", "--for", "0.1 s"}).status, 0);
+        expect_same("whole", "run");
+        const Ended anew = run({"movie", "whole/scene.toml", "--no-film", "--no-report", "--out", "anew"});
+        ASSERT_EQ(anew.status, 0) << anew.err;
+        expect_same("whole", "anew");
+    }
+}
+
 TEST_F(ResumedRun, GrainsThatLeaveAreToldOnce) {
     const Words more = {"--duration", "1 s", "--no-film", "--set",
                         "container.outlet={width=\"9 mm\", exit_depth=\"6 mm\"}"};
