@@ -447,7 +447,7 @@ TEST(Messages, AStiffnessOfGluedGrainsThatAreNotThere) {
                                    "two species; remove it"));
     EXPECT_THAT(of_pair(R"(["small", "big"])", "contact.law=hertz"),
                 testing::HasSubstr("'glued_stiffness' is of no use here: hertz has a 'modulus'; remove it"));
-    EXPECT_EQ(of_pair(R"(["small", "big"])", "contact.friction=0.3"), "");
+    EXPECT_EQ(of_pair(R"(["small", "big"])", "contact.friction=0.3"), "none");
 }
 
 TEST(Messages, CommandLine) {
