@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/base/smooth_step.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/relax.hpp"
@@ -98,6 +99,15 @@ double contacts_in_stage(const Scene& scene, double at_rest, const DriveStage& s
     return at_rest + share * (shaken - at_rest);
 }
 
+// The mean while the amplitude grows: the bed lies until the floor falls away faster than it does.
+double contacts_while_growing(double at_rest, double level) {
+    constexpr int parts = 32;
+    double sum = 0;
+    for (int k = 0; k < parts; ++k)
+        sum += contacts_when_shaken(at_rest, level * smooth_step::value((k + 0.5) / parts));
+    return sum / parts;
+}
+
 // Of the grains that the scene lists, how many there are in the mean over the run.
 double present(const Scene& scene, const Plan& plan) {
     auto grains = static_cast<double>(scene.grains());
@@ -157,6 +167,12 @@ double mean_contacts(const Scene& scene, const Plan& plan) {
     now.frequency = drive.frequency;
     now.amplitude = drive.amplitude;
     double sum = 0, since = 0;
+    // Grains that are listed fall while it grows, with few contacts.
+    if (drive.ramp > 0 && scene.start.method != Start::Method::grains) {
+        const double level = level_along_gravity(scene, drive.frequency, drive.amplitude);
+        since = std::min(end, drive.ramp / drive.frequency);
+        sum = since * contacts_while_growing(at_rest, level);
+    }
     for (std::size_t k = 0; k <= drive.stages.size(); ++k) {
         const double until = k < drive.stages.size() ? std::min(end, drive.stages[k].from) : end;
         sum += std::max(0.0, until - since) * contacts_in_stage(scene, at_rest, now);
