@@ -69,7 +69,8 @@ TEST(CostEstimate, ABedAtRestHasItsContactsAllTheTime) {
     const std::vector<std::string> rests = {"drive.g_level=2",
                                             "drive.stage=[{from = \"0.05 s\", kind = \"rest\"}]"};
     EXPECT_NEAR(contacts(rests), 0.25 * two + 0.75 * 4.5, 1e-12);
-    const double thrown = cost_of(scene_with({"drive.g_level=3", "drive.ramp=0"}), in_turn, machine).engine_one;
+    const double thrown =
+        cost_of(scene_with({"drive.g_level=3", "drive.ramp=0"}), in_turn, machine).engine_one;
     const double lies = cost_of(scene_with({"drive.g_level=0.9"}), in_turn, machine).engine_one;
     EXPECT_GT(thrown / lies, 2);
 }
