@@ -17,7 +17,7 @@ namespace {
 constexpr int kPart = 2500;            // grains of the bed that the whole is copies of
 constexpr double kDiameter = 1e-3;     // m
 constexpr double kAcross = 10.5;       // diameters of a part, which is then about 28 deep
-constexpr std::int64_t kFall = 12000;  // steps until it lies, with drag
+constexpr std::int64_t kFall = 30000;  // steps until it lies, with drag
 constexpr double kDrag = 20;           // 1/s
 
 // Hertz and Mindlin, soft, so that the step is long: what a step costs does not depend on that.
@@ -70,7 +70,7 @@ BenchCase rest_case() {
             "a bed at rest, Hertz-Mindlin: all contacts at once",
             25000,
             0,
-            1500,
+            6000,
             kDrag,
             {{"at rest", 3000}},
             bed_at_rest};

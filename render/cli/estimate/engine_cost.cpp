@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/base/smooth_step.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/relax.hpp"
@@ -20,7 +21,9 @@ constexpr double kThrown = 0.25, kFallsOff = 2.6;
 
 // Over a step of a grain of the lattice: a step of a grain without contacts, and what a contact of it adds.
 constexpr double kGrain = 0.23, kGrainWithoutSpin = 0.115, kGrainOfGas = 0.15, kContact = 0.165;
-constexpr double kStep = 4.2;          // a step besides its grains
+// A part of it is for new lists, which last for some time and so for the more steps the shorter these are.
+constexpr double kLists = 0.1, kStepsOfLists = 5000;  // while a grain falls through its diameter
+constexpr double kStep = 4.2;                         // a step besides its grains
 constexpr double kLargeBedCost = 1.5;  // does not fit into the caches; from kSmallBed on they lose
 constexpr double kSmallBed = 2000;
 constexpr double kRow = 3.7;          // a row of measures, for each grain
@@ -32,6 +35,8 @@ constexpr double kBalance = 0.3, kBalanceContact = 0.4;
 // Radii grow in about so many steps. Then the bed falls and comes to rest; until it counts as calm a grain
 // falls through its diameter several times.
 constexpr double kGrowingSteps = 8e3, kFalling = 0.28 /* s, under Earth's gravity */, kCalm = 10;
+// Without friction a bed slides into closer order for longer: 0.63 s in all, 0.31 with friction.
+constexpr double kFallingWithoutFriction = 0.48;
 
 // A contact by another law than that of the lattice.
 double contact_cost(const PairPlan& pair) {
@@ -59,11 +64,17 @@ bool rubs(const PairPlan& pair) {
     return pair.model.tangential != TangentialLaw::none;
 }
 
+// What a grain saves of its lists where steps are short: up to all of kLists.
+double saved_of_lists(const Scene& scene, const Plan& plan) {
+    const double steps = std::sqrt(mean_diameter(scene) / scene.gravity.norm()) / plan.clock.step;
+    return kLists * (1 - std::min(1.0, kStepsOfLists / steps));
+}
+
 // Over that of the lattice.
 double grain_cost(const Scene& scene, const Plan& plan, double contacts) {
     const PairPlan& pair = commonest(scene, plan);
     const double free = is_gas(scene) ? (rubs(pair) ? 1.0 : 0.5) * kGrainOfGas
-                        : rubs(pair)  ? kGrain
+                        : rubs(pair)  ? kGrain - saved_of_lists(scene, plan)
                                       : kGrainWithoutSpin;
     const auto forces = static_cast<double>(scheme_of(plan.integrator).stages.size());
     const double beyond = std::log(std::max(1.0, static_cast<double>(scene.grains()) / kSmallBed)) /
@@ -98,6 +109,15 @@ double contacts_in_stage(const Scene& scene, double at_rest, const DriveStage& s
     return at_rest + share * (shaken - at_rest);
 }
 
+// The mean while the amplitude grows: the bed lies until the floor falls away faster than it does.
+double contacts_while_growing(double at_rest, double level) {
+    constexpr int parts = 32;
+    double sum = 0;
+    for (int k = 0; k < parts; ++k)
+        sum += contacts_when_shaken(at_rest, level * smooth_step::value((k + 0.5) / parts));
+    return sum / parts;
+}
+
 // Of the grains that the scene lists, how many there are in the mean over the run.
 double present(const Scene& scene, const Plan& plan) {
     auto grains = static_cast<double>(scene.grains());
@@ -119,7 +139,9 @@ double packing_cost(const Scene& scene, const Plan& plan, double& steps) {
     const double gravity = scene.gravity.norm();
     double settling = 0, arriving = kGrowingSteps;
     if (gravity > 0)
-        settling = kCalm * std::sqrt(mean_diameter(scene) / gravity) + kFalling * std::sqrt(9.81 / gravity);
+        settling =
+            kCalm * std::sqrt(mean_diameter(scene) / gravity) +
+            (rubs(commonest(scene, plan)) ? kFalling : kFallingWithoutFriction) * std::sqrt(9.81 / gravity);
     if (plan.start.relaxes) {
         // A bed that relaxes is at rest soon after it was stopped.
         steps = static_cast<double>(braking_steps(plan)) + settling / plan.clock.step;
@@ -157,6 +179,12 @@ double mean_contacts(const Scene& scene, const Plan& plan) {
     now.frequency = drive.frequency;
     now.amplitude = drive.amplitude;
     double sum = 0, since = 0;
+    // Grains that are listed fall while it grows, with few contacts.
+    if (drive.ramp > 0 && scene.start.method != Start::Method::grains) {
+        const double level = level_along_gravity(scene, drive.frequency, drive.amplitude);
+        since = std::min(end, drive.ramp / drive.frequency);
+        sum = since * contacts_while_growing(at_rest, level);
+    }
     for (std::size_t k = 0; k <= drive.stages.size(); ++k) {
         const double until = k < drive.stages.size() ? std::min(end, drive.stages[k].from) : end;
         sum += std::max(0.0, until - since) * contacts_in_stage(scene, at_rest, now);

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_frames = 16, least_frames = 4;
+constexpr int most_frames = 48, least_frames = 4;
 constexpr double patience = 1.5;  // s, after which no further frame is begun
 constexpr std::int64_t most_grains = 200'000;
 constexpr double solid_fraction = 0.5;  // of a bed that is shaken
@@ -157,6 +157,8 @@ std::optional<FilmSpeed> probe_film(const Scene& scene, const ThreadPlan& thread
     const HeldSignals signals;  // the folder of the film is to go first
     try {
         const Frame bed = stacked_bed(scene);
+        // The program's first film loads libraries and fonts. It is not counted: a small picture takes less.
+        use_of_film(scene, threads, bed, 1, signals);
         // What a film takes before its frames is in both, and so in neither's difference.
         const FilmUse setup = use_of_film(scene, threads, bed, 1, signals);
         const FilmUse film = use_of_film(scene, threads, bed, most_frames, signals);

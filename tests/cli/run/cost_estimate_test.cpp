@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/measure/columns.hpp"
 #include "engine/scene/text/reader.hpp"
 #include "render/cli/estimate/engine_cost.hpp"
 #include "render/cli/estimate/film_probe.hpp"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 using namespace test;
 
 Scene scene_with(const std::vector<std::string>& sets) {
-    return read_scene_text(small_scene_text, "fifty.toml", sets);
+    return read_scene_text(small_scene_text, "fifty.toml", sets, measurable_in);
 }
 
 CostEstimate cost_of(const Scene& scene, const ThreadPlan& threads, const MachineFigures& machine) {
@@ -54,7 +55,8 @@ TEST(CostEstimate, EngineAndFilmTakeTurnsOrDoNot) {
 
 // 4.5 contacts a grain, of which few are left where the bed is thrown up. Stages count by their time.
 TEST(CostEstimate, ABedAtRestHasItsContactsAllTheTime) {
-    const auto contacts = [](const std::vector<std::string>& sets) {
+    const auto contacts = [](std::vector<std::string> sets) {
+        sets.emplace_back("drive.ramp=0");
         const Scene scene = scene_with(sets);
         return mean_contacts(scene, make_plan(scene));
     };
@@ -67,9 +69,24 @@ TEST(CostEstimate, ABedAtRestHasItsContactsAllTheTime) {
     const std::vector<std::string> rests = {"drive.g_level=2",
                                             "drive.stage=[{from = \"0.05 s\", kind = \"rest\"}]"};
     EXPECT_NEAR(contacts(rests), 0.25 * two + 0.75 * 4.5, 1e-12);
-    const double thrown = cost_of(scene_with({"drive.g_level=3"}), in_turn, machine).engine_one;
+    const double thrown =
+        cost_of(scene_with({"drive.g_level=3", "drive.ramp=0"}), in_turn, machine).engine_one;
     const double lies = cost_of(scene_with({"drive.g_level=0.9"}), in_turn, machine).engine_one;
     EXPECT_GT(thrown / lies, 2);
+}
+
+// The amplitude grows over 0.15 s of the 0.2 s, by a smooth step, whose half is half of the way.
+TEST(CostEstimate, TheBedLiesUntilTheDriveHasGrown) {
+    const auto contacts = [](const std::string& level, const std::string& ramp) {
+        const Scene scene = scene_with({"drive.g_level=" + level, "drive.ramp=" + ramp});
+        return mean_contacts(scene, make_plan(scene));
+    };
+    EXPECT_DOUBLE_EQ(contacts("0.9", "3"), 4.5);
+    const double sudden = contacts("2", "0"), grown = contacts("2", "3");
+    const double lies = 0.5 * 0.15 / 0.2;
+    EXPECT_GT(grown, lies * 4.5 + (1 - lies) * sudden);
+    EXPECT_LT(grown, 0.75 * 4.5 + 0.25 * sudden);
+    EXPECT_LT(contacts("4", "3"), grown);
 }
 
 TEST(CostEstimate, WhatIsMeasuredCosts) {
