@@ -32,11 +32,13 @@ TEST(FieldKeys, OneLineIsEnough) {
     EXPECT_FALSE(read_text(wedge_text).output.fields.wanted());
 }
 
-// 110 grains at the start, and 200 big ones that come in the two seconds of the run; then those alone.
+// 110 grains at the start, and big ones that come, 100 a second: however long the run is. Then those alone.
 TEST(FieldKeys, TheMeanDiameterCountsGrainsThatCome) {
     std::string text = wedge_text + "[[feed]]\nspecies = \"big\"\nrate = 100\n";
-    EXPECT_DOUBLE_EQ(read_text(text, {"output.fields.grid=yz"}).output.fields.width,
-                     0.5 * (100 * 5e-3 + 210 * 10e-3) / 310);
+    const double width = read_text(text, {"output.fields.grid=yz"}).output.fields.width;
+    EXPECT_DOUBLE_EQ(width, 0.5 * (100 * 5e-3 + 110 * 10e-3) / 210);
+    EXPECT_EQ(read_text(text, {"output.fields.grid=yz", "run.duration=7"}).output.fields.width, width)
+        << "a run that is made longer has the grid of one that was so long from the beginning";
     const std::size_t small = text.find("[[species]]"), big = text.find("[[species]]", small + 1);
     text.erase(small, big - small);
     text.erase(text.find("count = 10\n"), 11);

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "engine/base/decimals.hpp"
-#include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/bound_key.hpp"
@@ -28,6 +28,21 @@ const char* beside_phase(const FieldOutput& fields) {
     return fields.phase ? "a 'phase' has one moment in each period" : nullptr;
 }
 
+// Mean over the grains at the start and those that the feeds give in a second. How many come in all depends
+// on the run's end, and a run that is made longer has the same grid as one that was so long from the
+// beginning.
+double usual_diameter(const Scene& scene) {
+    std::vector<double> grains;
+    for (const Species& species : scene.species) grains.push_back(static_cast<double>(species.count));
+    for (const Feed& feed : scene.feeds) grains[feed.species] += feed.rate;
+    double sum = 0, all = 0;
+    for (std::size_t s = 0; s < grains.size(); ++s) {
+        sum += grains[s] * scene.species[s].diameter.mean;
+        all += grains[s];
+    }
+    return sum / all;
+}
+
 void usual_cell(FieldOutput& fields, const Scene&) {
     fields.cell = (fields.grid == FieldOutput::Grid::xyz ? 2 : 1) * fields.width;
 }
@@ -41,10 +56,11 @@ const KeyTable<FieldOutput>& field_table() {
             "three dimensions."),
         choice("kernel", &F::kernel, field_kernel_words, initial(), "What a grain is spread with.")
             .useless_for(without_fields),
-        quantity("width", &F::width, Dimension::length, positive, note("half of the grains' mean diameter"),
+        quantity("width", &F::width, Dimension::length, positive,
+                 note("half of the mean diameter, feeds counted for 1 s"),
                  "Standard deviation of the kernel along one axis; of a grain's own, its radius at least.")
             .useless_for(without_fields)
-            .usually([](F& fields, const Scene& scene) { fields.width = 0.5 * mean_diameter(scene); }),
+            .usually([](F& fields, const Scene& scene) { fields.width = 0.5 * usual_diameter(scene); }),
         quantity("cell", &F::cell, Dimension::length, positive, note("`width`; twice that with xyz"),
                  "Largest side of a cell; twice `width` at most.")
             .useless_for(without_fields)
