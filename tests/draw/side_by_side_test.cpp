@@ -153,6 +153,19 @@ TEST(SideBySide, PlotsAreLargeEnoughToBeReadOrLeftOut) {
     EXPECT_GT(without, 0);
 }
 
+// Beside a port there is height to spare: words are not taken from the curves.
+TEST(SideBySide, CurvesBesideAPanelAreThreeQuartersAsHighAsThePlotIsWide) {
+    constexpr double upright = 0.75, lines = 5;  // lines of words above and below the curves
+    const Film film = film_of(1280, 720);
+    for (const PanelLayout::Place& place : layout_of(plotted_panels(), film).places) {
+        const Rectangle& plot = place.plots.at(0);
+        ASSERT_GE(plot.x, place.port.x + place.port.width);
+        const double asked = upright * plot.width + lines * panel_type(film).minor;
+        EXPECT_GE(plot.height, std::min<double>(asked, place.port.height - panel_type(film).gap) - 2);
+        EXPECT_LE(plot.height, place.port.height);
+    }
+}
+
 // A caption of time that all scenes have stands once below them, and each scene's own under its panel.
 TEST(SideBySide, CaptionsOfAllStandOnce) {
     std::vector<Panel> panels = panels_of({scene_with(0.06, 1), scene_with(0.06, 3)});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/draw/container/exit_fade.hpp"
+#include "render/draw/container/lab_marks.hpp"
 #include "render/draw/panels/side_by_side.hpp"
 #include "render/draw/words/captions.hpp"
 #include "render/draw/words/first_gutter.hpp"
@@ -91,6 +92,14 @@ TEST(WordsShown, EachKindStandsAlone) {
             EXPECT_NE(with.draw(flowing(), "as it is").rgba, nothing) << upright;
             EXPECT_GE(area(plan_layout(scene).port), all);
         }
+}
+
+// The marks beside the floor are explained among the arrows, and go with them.
+TEST(WordsShown, MarksBesideTheFloorGoWithTheArrows) {
+    Scene scene = wedge();
+    EXPECT_EQ(lab_marks(scene, scene.film.camera.azimuth).size(), 2u);
+    scene.film.word_kinds.arrows = false;
+    EXPECT_TRUE(lab_marks(scene, scene.film.camera.azimuth).empty());
 }
 
 TEST(WordsShown, AnEmptyTitleIsNone) {

@@ -161,7 +161,7 @@ TEST_F(PageFilmTest, AFilmThatWasCutOffIsNotTaken) {
     EXPECT_TRUE(film.bytes.empty());
     EXPECT_THAT(film.note, HasSubstr("6 of the 7 pictures"));
     std::filesystem::remove(here / "movie.mp4");
-    EXPECT_THAT(page_film(scene, here.path(), 6).note, HasSubstr("no longer in the run's folder"));
+    EXPECT_THAT(page_film(scene, here.path(), 6).note, HasSubstr("movie.mp4 is not in the run's folder"));
 }
 
 TEST_F(PageFilmTest, ThePosterIsAJpegOfAtMost960Pixels) {

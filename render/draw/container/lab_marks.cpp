@@ -22,7 +22,7 @@ Vec3 drawn_stroke(const Scene& scene) {
 }
 
 bool has_lab_marks(const Scene& scene) {
-    return scene.drive.present && scene.drive.largest_amplitude() > 0 &&
+    return scene.film.word_kinds.arrows && scene.drive.present && scene.drive.largest_amplitude() > 0 &&
            scene.container.shape != Container::Shape::none;
 }
 

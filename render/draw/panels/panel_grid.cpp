@@ -15,14 +15,16 @@ enum class PlotsAt { none, below, beside };
 struct PlotGrid {
     PlotsAt at = PlotsAt::none;
     int columns = 1, rows = 1, width = 0, height = 0;  // pixels that they take from the port
+    int taller = 0;  // pixels by which a plot may be higher than most_upright says
 };
 
 constexpr double most_upright = 0.75;  // height of a plot over its width
-// Of a plot, pixels. Words above and below its curves take five sizes of minor letters, and curves need as
-// many pixels whatever the letters' size is.
+// Words above and below the curves of a plot take so many sizes of minor letters.
+constexpr double words_high = 5;
+// Of a plot, pixels: curves need as many whatever the letters' size is.
 double least_high(double minor) {
-    constexpr double words = 5, usual = 7.5, curves = 48;
-    return std::max(usual * minor, words * minor + curves);
+    constexpr double usual = 7.5, curves = 48;
+    return std::max(usual * minor, words_high * minor + curves);
 }
 double least_wide(double minor) {
     constexpr double usual = 12;
@@ -40,6 +42,9 @@ PlotGrid plot_grid(const std::vector<Panel>& panels, const Film& film, int width
     PlotGrid grid{at, 1, count, 0, 0};
     if (at == PlotsAt::beside) {
         grid.width = static_cast<int>(std::max(least_wide(minor), usual_width * width));
+        // Height is free beside the port: there the curves alone are as upright as a plot may be, not the
+        // curves with their words.
+        grid.taller = static_cast<int>(words_high * minor);
         return grid.width <= most * width ? grid : PlotGrid();
     }
     grid.columns = std::clamp(static_cast<int>(width / (least_wide(minor))), 1, count);
@@ -52,7 +57,8 @@ std::vector<Rectangle> places_of(std::size_t count, const PlotGrid& grid, const 
     std::vector<Rectangle> places;
     if (grid.at == PlotsAt::none) return places;
     const int width = zone.width / grid.columns - gap,
-              height = std::min(zone.height / grid.rows - gap, static_cast<int>(most_upright * width));
+              height = std::min(zone.height / grid.rows - gap,
+                                static_cast<int>(most_upright * width) + grid.taller);
     const int y = grid.at == PlotsAt::below ? 0 : (zone.height - grid.rows * (height + gap)) / 2;
     for (int k = 0; k < static_cast<int>(count); ++k)
         places.push_back({zone.x + (k % grid.columns) * (width + gap),

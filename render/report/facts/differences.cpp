@@ -98,6 +98,7 @@ std::string differences_html(const std::vector<NamedScene>& scenes) {
         heads += fmt::format("<th scope=\"col\">{}</th>", html_text(scene.name));
     return html +
            fmt::format(
+               "<p>Plain numbers are in SI units, phases in turns, the camera's angles in degrees.</p>\n"
                "<div class=\"table\" tabindex=\"0\" role=\"region\" "
                "aria-label=\"Keys that differ\">\n<table>\n"
                "<thead><tr><th scope=\"col\">key</th>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n"

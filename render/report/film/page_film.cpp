@@ -112,7 +112,7 @@ PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std
     if (error || size == 0) {
         if (frames.value_or(0) > 0)
             film.note =
-                fmt::format("The film is not on this page, since {} is no longer in the run's folder.", name);
+                fmt::format("The film is not on this page, since {} is not in the run's folder.", name);
         return film;
     }
     film.file = name;
