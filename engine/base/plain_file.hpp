@@ -24,7 +24,7 @@ std::ifstream read_plain(const std::filesystem::path& path);
 int open_plain(const std::filesystem::path& path, int flags = 0);
 
 // A new, empty file in the place of what had the name. Of a link only the link goes. A device (/dev/full)
-// stays and is opened. Likewise.
+// stays and is opened. Returns a descriptor, or -1 with errno.
 int make_plain(const std::filesystem::path& path);
 
 // For libraries that open a file by its name: removes what has the name, unless it is a folder or a device.

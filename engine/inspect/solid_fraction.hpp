@@ -12,9 +12,9 @@ namespace grainreel {
 // t = height / r (a spherical segment; Bronshtein and Semendyayev, 3.3.4.6).
 double sphere_below(double radius, double height);
 
-// Of `count` slices of equal height from `low` up (m, in the container's frame): volume of the grains there
-// over the room inside the container. NaN where there is no room: below its floor, above its rim, in empty
-// space. Grains that are glued to walls do not count.
+// Divides the bed from `low` up (m, in the container's frame) into `count` slices of equal height. Returns
+// the volume of the grains there over the room inside the container. NaN where there is no room: below its
+// floor, above its rim, in empty space. Grains that are glued to walls do not count.
 std::vector<double> solid_fractions(const Snapshot& snapshot, double low, double height, std::size_t count);
 
 }  // namespace grainreel

@@ -26,7 +26,7 @@ struct SpringDashpot {
     struct Parameters {
         R stiffness;                    // N/m
         R damping;                      // 1/s, times the effective mass
-        R tangential_damping;           // 1/s, likewise; for the tangential law
+        R tangential_damping;           // 1/s, for the tangential law
         R by_root, tangential_by_root;  // kg^(1/2)/s, over the root of the effective mass: more of both
         R lowest;                       // N: 0, or so far below that nothing reaches it
 

@@ -14,7 +14,7 @@ namespace grainreel {
 namespace {
 
 constexpr double kTurnoverShare = 0.05;
-// Of the largest sum of energies: rounding adds up to 5e-13 in 26,000 steps of a free fall, and with them.
+// A share of the largest sum of energies. Rounding adds up to 5e-13 in 26,000 steps of a free fall.
 constexpr double kRounding = 1e-8;
 constexpr std::int64_t kStepsPerLook = 200;
 constexpr double kFasterMeanwhile = 2;  // a grain may be until the next look: hit by a heavy one

@@ -133,7 +133,7 @@ std::vector<fs::path> names_in(const fs::path& folder) {
     return names;
 }
 
-// Of a run's own files and those in its folders, each relative to the run.
+// The run's own files and those in its folders. Each path is relative to the run.
 std::vector<fs::path> files_of(const fs::path& run) {
     std::vector<fs::path> files;
     for (const fs::path& name : names_in(run)) {

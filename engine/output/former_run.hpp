@@ -18,7 +18,7 @@ namespace grainreel {
 
 class FormerRun {
   public:
-    // Of the run in a folder, of which nothing changes before begin(). Throws RunError.
+    // Takes the run in a folder. Nothing of it changes before begin(). Throws RunError.
     explicit FormerRun(std::filesystem::path run);
     ~FormerRun();
     FormerRun(const FormerRun&) = delete;
@@ -26,7 +26,7 @@ class FormerRun {
 
     // A growing file of which so many bytes stay.
     void cut(const std::string& name, std::uintmax_t bytes) { cuts_.push_back({name, bytes, {}}); }
-    // Of a NetCDF file, which says itself how many records it has.
+    // For a NetCDF file, which says itself how many records it has.
     void cut(const std::string& name, const KeptRecords& kept) {
         cuts_.push_back({name, kept.bytes, kept.records});
     }

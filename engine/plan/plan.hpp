@@ -62,7 +62,7 @@ struct PairPlan {
 
     double damping_rate(double mass) const;  // 1/s, of the normal dashpot of two with this effective mass
     double tangential_damping_rate(double mass) const;  // 1/s, likewise
-    // Of a free impact at that speed (m/s), of two with this effective mass (kg).
+    // The restitution of a free impact at that speed (m/s) between two bodies with this effective mass (kg).
     double restitution_of(double mass, double speed) const;
     bool operator==(const PairPlan&) const = default;
 };

@@ -77,14 +77,14 @@ StepChoice plan_step(const Scene& scene, const Plan& plan);
 
 // Lines for the user: values that are hardly meant, such as a density of 7.8 kg/m3.
 std::vector<std::string> likely_slips(const Scene& scene);
-// Likewise, of the contacts: too soft, too long, too stiff; too few steps in one.
+// Warnings of contacts: too soft, too long, too stiff, or too few steps in one.
 class Warnings;
 void warn_of_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings);
 void warn_of_few_steps(const Scene& scene, const Plan& plan, Warnings& warnings);
 // Likewise: what will run, but not as one may wish.
 std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
                                        const StepChoice& step);
-// Likewise: of what follows from the start file.
+// Warnings of what follows from the start file.
 std::vector<std::string> start_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed);
 
 }  // namespace grainreel

@@ -37,7 +37,7 @@ Simulation run_of_checkpoint(const std::filesystem::path& checkpoint, int thread
 Simulation replayed(const std::filesystem::path& run, const std::vector<KeptCheckpoint>& kept,
                     std::int64_t step, int threads, const ReplayWatcher& watcher);
 
-// On to a later step. Throws RunError likewise.
+// Goes on to a later step. Throws RunError.
 void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher);
 
 }  // namespace grainreel

@@ -12,7 +12,8 @@ namespace {
 
 enum class Sort : std::uint8_t { pair, wall, glued };
 
-// Of two bodies: ids of grains, or a grain's id and the number of a face, or of a glued grain.
+// Names two bodies: by the ids of two grains, or by a grain's id and the number of a face or of a glued
+// grain.
 struct Bodies {
     std::int32_t first, second;
     Sort sort;

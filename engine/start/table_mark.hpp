@@ -18,7 +18,7 @@ struct TableMark {
 
 TableMark mark_of_table(std::int64_t grains, std::string_view bytes);
 
-// Of a run's final.csv, by the run.json in its folder; none where that says none.
+// The mark of a run's final.csv, from the run.json in its folder. None where that file has none.
 std::optional<TableMark> mark_in_run_json(const std::filesystem::path& run_json);
 
 // A table of that many grains, which lies beside a run.json. Throws UserError when it is a final.csv that its

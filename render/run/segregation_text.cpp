@@ -11,7 +11,7 @@ namespace grainreel {
 
 namespace {
 
-// Of two indices that are 0 when segregated and 1 when mixed.
+// Both indices are 0 when segregated and 1 when mixed. They disagree when they are so far apart.
 constexpr double wide_apart = 0.25;
 
 }  // namespace

@@ -54,7 +54,7 @@ void Footprint::set_box(const Vec3& low, const Vec3& high) {
     }
 }
 
-// Of all cells that the kernel reaches from a point to another one.
+// Notes all cells that the kernel reaches on its way from one point to another.
 void Footprint::set_box(const Vec3& begin, const Vec3& end, double stretch, double end_stretch) {
     const Vec3 reach = Vec3::Constant(stretch * kernel_.cutoff()),
                end_reach = Vec3::Constant(end_stretch * kernel_.cutoff());

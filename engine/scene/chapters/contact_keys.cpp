@@ -211,7 +211,7 @@ void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, con
     contact_table().write(out, scene, chosen);
 }
 
-// Of grains of one species with glued ones of the other.
+// The contact of grains of one species with glued grains of the other.
 const PairPlan* glued_plan(const Scene& scene, const Plan& plan, std::size_t a, std::size_t b) {
     if (plan.glued.empty()) return nullptr;
     const std::size_t glued = scene.container.wall_grains->species;

@@ -32,7 +32,7 @@ enum class KeyKind {
     value_list,    // anything, several times
 };
 
-// Of a text: letters cost time on every picture, and a picture holds far fewer.
+// The most letters of a text. Letters cost time on every picture, and a picture holds far fewer.
 constexpr std::size_t kMostLetters = 1000;
 
 // What numbers may be, ends included unless `open`.

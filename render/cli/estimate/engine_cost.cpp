@@ -16,7 +16,8 @@ namespace {
 
 // All measured by processor time (docs/notes/performance.md). Contacts a grain of a bed at rest.
 constexpr double kAtRest = 4.5, kAtRestWithoutFriction = 5.8;
-// Of a bed that is shaken: what is left at any strength, and how fast the rest falls off with the strength.
+// In a shaken bed some contacts are left at any strength. The others become fewer at this rate with the
+// strength.
 constexpr double kThrown = 0.25, kFallsOff = 2.6;
 
 // Over a step of a grain of the lattice: a step of a grain without contacts, and what a contact of it adds.

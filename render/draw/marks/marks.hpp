@@ -35,7 +35,7 @@ class Marks {
     using SeenShare = std::function<double(std::size_t grain)>;
     // Adds them to what is to be painted after the grains. Frames come in the order of time.
     void draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
-    // Of the field's cells.
+    // How many of the field's cells lie beyond the ends of the colour bar.
     ClippedCount clipped() const { return field_ ? field_->clipped() : ClippedCount(); }
 
   private:

@@ -21,7 +21,7 @@ struct PlotGrid {
 constexpr double most_upright = 0.75;  // height of a plot over its width
 // Words above and below the curves of a plot take so many sizes of minor letters.
 constexpr double words_high = 5;
-// Of a plot, pixels: curves need as many whatever the letters' size is.
+// Pixels of a plot. Curves need as many whatever the size of the letters is.
 double least_high(double minor) {
     constexpr double usual = 7.5, curves = 48;
     return std::max(usual * minor, words_high * minor + curves);

@@ -45,7 +45,7 @@ class FilmOfRun {
     std::int64_t last_ = 0;
     std::set<std::int64_t> filmed_;        // steps, of the run's own film
     std::vector<double> steps_, periods_;  // of rows of measures.csv
-    std::vector<double> differences_;      // m, likewise
+    std::vector<double> differences_;      // m
 };
 
 }  // namespace grainreel

@@ -20,7 +20,7 @@ class Record : public FrameSource, public FrameArchive {
     virtual const Clock& clock() const = 0;
     // From which its other moments, and its forces, are brought back. By rising step.
     virtual std::vector<KeptCheckpoint> checkpoints() const = 0;
-    // Of those that are passed over since they are not of this run, or damaged: which, and why.
+    // Names the checkpoints that are passed over, and why: they are of another run, or damaged.
     virtual std::vector<std::string> checkpoint_news() const { return {}; }
     // Damage of the files beside the checkpoints, which makes answers poorer than the run was.
     virtual std::vector<std::string> faults() const { return {}; }

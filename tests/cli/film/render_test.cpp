@@ -240,7 +240,7 @@ TEST_F(RenderProgram, DrawsTheWholeFilmOnceMore) {
     EXPECT_THAT(kept.err, HasSubstr("--no-replay: nothing is brought back"));
 }
 
-// Of the same scene but for the seed: what is brought back from them is another run.
+// The scene is the same but for the seed, so that the checkpoints are of another run.
 TEST_F(RenderProgram, CheckpointsOfAnotherRunArePassedOver) {
     run("[[film.segment]]\nplayback = 0.5\n", {"--no-film"});
     ASSERT_EQ(

@@ -81,7 +81,7 @@ TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
     EXPECT_THAT(bed.news().at(0), HasSubstr("locked frames jump"));
 }
 
-// Of locked frames, displacements and means nothing is said to a film that shows none.
+// A film without locked frames, displacements and means is told nothing of them.
 TEST(BedPeriods, SpeakOnlyOfWhatTheFilmShows) {
     const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
     const auto news = [&](int periods, bool may_leave_out, const auto& change) {
