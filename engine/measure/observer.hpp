@@ -29,7 +29,7 @@
 #include "engine/state/drive_pose.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/contact_view.hpp"
-#include "engine/step/forces/wall_sums.hpp"
+#include "engine/step/geometry/wall_sums.hpp"
 #include "engine/step/traffic.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include "engine/measure/field.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/step/forces/wall_sums.hpp"
+#include "engine/step/geometry/wall_sums.hpp"
 
 namespace grainreel {
 

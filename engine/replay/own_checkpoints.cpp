@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
-#include "engine/output/run_json.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/replay/replay.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"

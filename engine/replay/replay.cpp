@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/replay/checkpoint_ring.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "engine/start/restart.hpp"
 
 namespace grainreel {

@@ -14,8 +14,8 @@
 #include "engine/measure/observers.hpp"
 #include "engine/run/feeder.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/run/surroundings.hpp"
 #include "engine/start/settle.hpp"
+#include "engine/start/surroundings.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "engine/step/step_loop.hpp"
 

@@ -223,7 +223,7 @@ struct Start {
     bool operator==(const Start&) const = default;
 };
 
-// How the step is made; see engine/step/forces/scheme.hpp.
+// How the step is made; see engine/step/motion/scheme.hpp.
 enum class Integrator { velocity_verlet, leapfrog, position_verlet, forest_ruth, gear };
 
 // What stiffness, step and corrections are by default; docs/reference/accuracy.md has what each costs.

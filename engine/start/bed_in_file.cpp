@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "engine/measure/energy/energy.hpp"
-#include "engine/run/surroundings.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/start_file.hpp"
+#include "engine/start/surroundings.hpp"
 #include "engine/start/weight_moments.hpp"
 #include "engine/step/step_loop.hpp"
 

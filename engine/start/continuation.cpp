@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "engine/scene/text/writer.hpp"
 
 namespace grainreel {
 

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "engine/base/random.hpp"
-#include "engine/plan/free_space.hpp"
 #include "engine/scene/diameters.hpp"
+#include "engine/scene/free_space.hpp"
 #include "engine/step/grid/glued_search.hpp"
 
 namespace grainreel {

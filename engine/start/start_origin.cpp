@@ -5,9 +5,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/run/surroundings.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "engine/start/restart.hpp"
+#include "engine/start/surroundings.hpp"
 
 namespace grainreel {
 

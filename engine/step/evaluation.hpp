@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "engine/state/wall_motion.hpp"
-#include "engine/step/forces/integrate.hpp"
-#include "engine/step/forces/scheme.hpp"
+#include "engine/step/motion/integrate.hpp"
+#include "engine/step/motion/scheme.hpp"
 
 namespace grainreel {
 

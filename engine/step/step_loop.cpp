@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "engine/base/flush_denormals.hpp"
-#include "engine/step/forces/integrate.hpp"
-#include "engine/step/grid/large_bed.hpp"
+#include "engine/step/lists/large_bed.hpp"
+#include "engine/step/motion/integrate.hpp"
 
 namespace grainreel {
 

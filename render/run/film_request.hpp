@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/output/run_json.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/scene/text/assignment.hpp"
-#include "render/gl/provider.hpp"
+#include "render/picture/gl/provider.hpp"
 
 namespace grainreel {
 

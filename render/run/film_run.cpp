@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/film/files/film_limits.hpp"
 #include "render/film/production/caption_holds.hpp"
+#include "render/film/sampling/film_limits.hpp"
 
 namespace grainreel {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/output/log.hpp"
-#include "engine/output/run_folder.hpp"
-#include "engine/output/run_json.hpp"
+#include "engine/files/log.hpp"
+#include "engine/files/run_folder.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/run/film_request.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/output/log.hpp"
+#include "engine/files/log.hpp"
 #include "render/run/progress.hpp"
 
 namespace grainreel {

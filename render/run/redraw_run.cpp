@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/film/files/film_limits.hpp"
+#include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/pacing.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/run/frames/choice.hpp"

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/fields_file.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/outflow_csv.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/output/contacts_file.hpp"
-#include "engine/output/fields_file.hpp"
-#include "engine/output/measures_csv.hpp"
-#include "engine/output/outflow_csv.hpp"
-#include "engine/output/trajectory.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"

@@ -6,10 +6,10 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
-#include "engine/output/former_run.hpp"
+#include "engine/files/former_run.hpp"
+#include "engine/scene/file/scene_file.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "engine/scene/text/comments.hpp"
-#include "engine/scene/text/scene_file.hpp"
-#include "engine/scene/text/writer.hpp"
 #include "engine/start/grain_table.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/run/moments/key_moments.hpp"

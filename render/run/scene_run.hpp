@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/output/folder_lock.hpp"
-#include "engine/output/run_json.hpp"
+#include "engine/files/folder_lock.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/replay/checkpoint_ring.hpp"
 #include "engine/run/simulation.hpp"
@@ -17,10 +17,10 @@
 #include "render/run/checkpoint_pace.hpp"
 #include "render/run/first_failure.hpp"
 #include "render/run/frames/frame_source.hpp"
+#include "render/run/frames/kept_moments.hpp"
 #include "render/run/frames/picture_parts.hpp"
 #include "render/run/moments/agenda.hpp"
 #include "render/run/moments/bed_periods.hpp"
-#include "render/run/moments/kept_moments.hpp"
 #include "render/run/pace.hpp"
 #include "render/run/resume/earlier_pictures.hpp"
 #include "render/run/resume/ready_files.hpp"

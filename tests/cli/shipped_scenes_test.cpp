@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

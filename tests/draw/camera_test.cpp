@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/scene/bed.hpp"
-#include "render/draw/camera/camera_path.hpp"
+#include "render/picture/camera/camera_path.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/film/grain_values.hpp"
-#include "render/draw/grains/colour_map.hpp"
-#include "render/draw/grains/colour_scale.hpp"
-#include "render/draw/grains/grain_colours.hpp"
-#include "render/draw/plots/ticks.hpp"
+#include "render/picture/grains/colour_map.hpp"
+#include "render/picture/grains/colour_scale.hpp"
+#include "render/picture/grains/grain_colours.hpp"
+#include "render/picture/plots/ticks.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "render/gl/objects.hpp"
+#include "render/picture/gl/objects.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/drive/drive_schedule.hpp"
-#include "render/draw/words/captions.hpp"
+#include "render/picture/words/captions.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

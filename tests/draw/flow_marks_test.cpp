@@ -1,9 +1,9 @@
 // The velocity field of arrows and streamlines, and the lines themselves.
-#include "render/draw/marks/flow_marks.hpp"
+#include "render/picture/marks/flow_marks.hpp"
 
 #include <gtest/gtest.h>
 
-#include "render/draw/marks/streamline.hpp"
+#include "render/picture/marks/streamline.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -1,11 +1,11 @@
 // What the camera has in the picture when it is not told: the container, its bed, or what the grains reach.
-#include "render/draw/camera/framing.hpp"
+#include "render/picture/camera/framing.hpp"
 
 #include <gtest/gtest.h>
 
 #include "engine/measure/columns.hpp"
 #include "engine/plan/reach.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "render/draw/picture/exposure.hpp"
-#include "render/draw/picture/palette.hpp"
-#include "render/draw/picture/renderer.hpp"
+#include "render/picture/base/palette.hpp"
+#include "render/picture/whole/exposure.hpp"
+#include "render/picture/whole/renderer.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -13,7 +13,7 @@
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/film/colours.hpp"
-#include "render/draw/panels/side_by_side.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

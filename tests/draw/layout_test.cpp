@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "render/draw/words/first_gutter.hpp"
-#include "render/draw/words/numbers_plan.hpp"
+#include "render/picture/words/first_gutter.hpp"
+#include "render/picture/words/numbers_plan.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include "render/spheres/light/sphere_layer.hpp"
+#include "render/picture/spheres/light/sphere_layer.hpp"
 
 namespace grainreel::test {
 

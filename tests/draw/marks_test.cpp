@@ -9,10 +9,10 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/bed.hpp"
-#include "render/draw/grains/shown_grains.hpp"
-#include "render/draw/marks/trails.hpp"
-#include "render/draw/plots/plot.hpp"
-#include "render/draw/words/overlay.hpp"
+#include "render/picture/grains/shown_grains.hpp"
+#include "render/picture/marks/trails.hpp"
+#include "render/picture/plots/plot.hpp"
+#include "render/picture/words/overlay.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -16,9 +16,9 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/film/colours.hpp"
-#include "render/draw/picture/palette.hpp"
-#include "render/draw/words/captions.hpp"
-#include "render/gl/objects.hpp"
+#include "render/picture/base/palette.hpp"
+#include "render/picture/gl/objects.hpp"
+#include "render/picture/words/captions.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -1,5 +1,5 @@
 // Forces on a body as arrows.
-#include "render/draw/marks/point_forces.hpp"
+#include "render/picture/marks/point_forces.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Profiles beside the grains.
-#include "render/draw/plots/profile_plot.hpp"
+#include "render/picture/plots/profile_plot.hpp"
 
 #include <gtest/gtest.h>
 
-#include "render/draw/words/cairo_surface.hpp"
+#include "render/picture/text/cairo_surface.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/state/glued_grains.hpp"
-#include "render/draw/grains/glued_spheres.hpp"
+#include "render/picture/grains/glued_spheres.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "render/draw/container/shade_row.hpp"
-#include "render/spheres/lay_over.hpp"
-#include "render/spheres/pixel.hpp"
+#include "render/picture/container/shade_row.hpp"
+#include "render/picture/spheres/lay_over.hpp"
+#include "render/picture/spheres/pixel.hpp"
 #include "tests/instruction_sets.hpp"
 
 namespace grainreel::test {

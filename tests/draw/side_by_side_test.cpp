@@ -1,14 +1,14 @@
 // Several scenes in one picture: scales, places, words that are said once.
-#include "render/draw/panels/side_by_side.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/plan/reach.hpp"
-#include "render/draw/camera/framing.hpp"
-#include "render/draw/plots/panel_plots.hpp"
-#include "render/draw/plots/plot.hpp"
+#include "render/picture/camera/framing.hpp"
+#include "render/picture/panels/panel_plots.hpp"
+#include "render/picture/plots/plot.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel {

@@ -9,10 +9,10 @@
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/draw/container/container_drawing.hpp"
-#include "render/draw/picture/canvas.hpp"
-#include "render/draw/picture/renderer.hpp"
-#include "render/draw/words/layout.hpp"
+#include "render/picture/base/canvas.hpp"
+#include "render/picture/container/container_drawing.hpp"
+#include "render/picture/whole/renderer.hpp"
+#include "render/picture/words/layout.hpp"
 
 namespace grainreel::test {
 

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/measure_table.hpp"
-#include "render/draw/panels/side_by_side.hpp"
-#include "render/draw/picture/palette.hpp"
-#include "render/draw/words/numbers_plan.hpp"
-#include "render/draw/words/writer.hpp"
+#include "render/picture/base/palette.hpp"
+#include "render/picture/panels/side_by_side.hpp"
+#include "render/picture/words/numbers_plan.hpp"
+#include "render/picture/words/writer.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

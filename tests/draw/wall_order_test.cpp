@@ -4,8 +4,8 @@
 #include <functional>
 #include <limits>
 
-#include "render/draw/grains/spheres.hpp"
-#include "render/draw/picture/palette.hpp"
+#include "render/picture/base/palette.hpp"
+#include "render/picture/grains/spheres.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

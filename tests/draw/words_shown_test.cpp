@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "render/draw/container/exit_fade.hpp"
-#include "render/draw/container/lab_marks.hpp"
-#include "render/draw/panels/side_by_side.hpp"
-#include "render/draw/words/captions.hpp"
-#include "render/draw/words/first_gutter.hpp"
-#include "render/draw/words/missing_letters.hpp"
-#include "render/draw/words/numbers_plan.hpp"
+#include "render/picture/container/exit_fade.hpp"
+#include "render/picture/container/lab_marks.hpp"
+#include "render/picture/panels/side_by_side.hpp"
+#include "render/picture/words/captions.hpp"
+#include "render/picture/words/first_gutter.hpp"
+#include "render/picture/words/missing_letters.hpp"
+#include "render/picture/words/numbers_plan.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

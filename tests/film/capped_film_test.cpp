@@ -1,4 +1,4 @@
-#include "render/film/files/capped_film.hpp"
+#include "render/film/codec/capped_film.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/text/data_size.hpp"
-#include "render/film/files/smaller_film.hpp"
+#include "render/film/codec/smaller_film.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 

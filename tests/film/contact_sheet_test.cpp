@@ -1,4 +1,4 @@
-#include "render/draw/panels/contact_sheet.hpp"
+#include "render/picture/panels/contact_sheet.hpp"
 
 #include <gmock/gmock.h>
 

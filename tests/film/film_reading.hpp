@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/draw/picture/picture.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel::test {
 

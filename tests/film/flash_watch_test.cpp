@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "render/draw/picture/palette.hpp"
+#include "render/picture/base/palette.hpp"
 
 namespace grainreel {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
-#include "engine/bench/peers_bed.hpp"
+#include "engine/lab/bench/peers_bed.hpp"
 #include "tests/peers/lammps_hooke-inl.hpp"
 
 using namespace grainreel;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "engine/bench/bench_run.hpp"
-#include "engine/bench/scene_cases.hpp"
-#include "engine/scene/text/reader.hpp"
-#include "engine/scene/text/writer.hpp"
+#include "engine/lab/bench/bench_run.hpp"
+#include "engine/lab/bench/scene_cases.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/scene/file/writer.hpp"
 
 namespace grainreel {
 namespace {

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "engine/chart/accuracy/single_contact.hpp"
-#include "engine/chart/limits/small_bed.hpp"
-#include "engine/chart/result_table.hpp"
+#include "engine/lab/chart/accuracy/single_contact.hpp"
+#include "engine/lab/chart/result_table.hpp"
+#include "engine/lab/chart/small_bed.hpp"
 
 namespace grainreel {
 namespace {

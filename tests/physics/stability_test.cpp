@@ -7,13 +7,13 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/chart/limits/scheme_growth.hpp"
-#include "engine/chart/limits/stability.hpp"
+#include "engine/lab/chart/limits/scheme_growth.hpp"
+#include "engine/lab/chart/limits/stability.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/chapters/words.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

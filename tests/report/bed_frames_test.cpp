@@ -9,7 +9,7 @@
 #include <memory>
 #include <random>
 
-#include "render/report/bed/bed_frames.hpp"
+#include "render/page/bed/bed_frames.hpp"
 
 namespace grainreel {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/report/facts/differences.hpp"
+#include "render/page/facts/differences.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/columns.hpp"
-#include "engine/scene/text/reader.hpp"
-#include "render/report/film/film_times.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "render/page/film/film_times.hpp"
 #include "render/run/film_times_table.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "render/report/embed/base64.hpp"
-#include "render/report/embed/html.hpp"
+#include "render/page/embed/base64.hpp"
+#include "render/page/embed/html.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,5 +1,5 @@
 // Fields as the page carries them, read back by the form that page_fields.hpp describes.
-#include "render/report/page_fields.hpp"
+#include "render/page/page_fields.hpp"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>
@@ -10,7 +10,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "engine/output/fields_file.hpp"
+#include "engine/files/fields_file.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/film_reader.hpp"
 #include "render/film/files/png.hpp"
-#include "render/report/film/page_film.hpp"
+#include "render/page/film/page_film.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {

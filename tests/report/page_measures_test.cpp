@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "render/report/facts/run_facts.hpp"
-#include "render/report/page_measures.hpp"
+#include "render/page/facts/run_facts.hpp"
+#include "render/page/page_measures.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {

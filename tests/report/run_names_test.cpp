@@ -1,11 +1,11 @@
 // What the runs of a page are called.
-#include "render/report/facts/run_names.hpp"
+#include "render/page/facts/run_names.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/scene/text/reader.hpp"
-#include "engine/scene/text/writer.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "engine/state/body.hpp"
-#include "render/draw/container/container_drawing.hpp"
-#include "render/report/bed/slabs.hpp"
+#include "render/page/bed/slabs.hpp"
+#include "render/picture/container/container_drawing.hpp"
 
 namespace grainreel {
 namespace {

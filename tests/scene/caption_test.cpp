@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/writer.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

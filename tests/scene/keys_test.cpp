@@ -10,14 +10,15 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/writer.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
 namespace {
 
 const std::string page = GRAINREEL_SOURCE "/docs/reference/scenes.md";
-const std::string begin_mark = "<!-- table of keys: generated from engine/scene/keys/keys.cpp, begin -->\n";
+const std::string begin_mark =
+    "<!-- table of keys: generated from engine/scene/file/scene_keys.cpp, begin -->\n";
 const std::string end_mark = "<!-- table of keys: end -->\n";
 
 std::string load(const std::string& path) {
@@ -40,7 +41,7 @@ TEST(Keys, DocsTellWhatTheReaderKnows) {
         return;
     }
     EXPECT_EQ(text.substr(start, end - start), key_table_markdown())
-        << "docs/reference/scenes.md is not what engine/scene/keys/keys.cpp says; write it anew with\n"
+        << "docs/reference/scenes.md is not what engine/scene/file/scene_keys.cpp says; write it anew with\n"
            "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=Keys.DocsTellWhatTheReaderKnows";
 }
 

@@ -9,9 +9,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "engine/scene/film/grain_values.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "engine/scene/text/writer.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

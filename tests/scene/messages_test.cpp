@@ -4,7 +4,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

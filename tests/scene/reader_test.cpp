@@ -1,4 +1,4 @@
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 
 #include <gtest/gtest.h>
 

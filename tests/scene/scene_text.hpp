@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/measure/columns.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 
 namespace grainreel {
 

@@ -1,4 +1,4 @@
-#include "engine/scene/text/writer.hpp"
+#include "engine/scene/file/writer.hpp"
 
 #include <gtest/gtest.h>
 

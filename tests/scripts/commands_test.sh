@@ -95,7 +95,7 @@ run "$tree moved/movie"
 contains "a tree that moved is configured anew" "cmake --preset release --fresh" "$did"
 
 # What the documentation tells to type is ./movie VERB.
-verbs=$(grep -oE 'verb\([a-z]+\)' "$repository/render/cli/verbs/verbs.cpp" | sed 's/verb(\(.*\))/\1/' | paste -sd '|')
+verbs=$(grep -oE 'verb\([a-z]+\)' "$repository/render/app/verbs/verbs.cpp" | sed 's/verb(\(.*\))/\1/' | paste -sd '|')
 contains "the table of verbs" "movie|resume|render" "$verbs"
 expect "one spelling of commands" "" \
     "$(grep -rnwE "grainreel ($verbs)" "$repository/README.md" "$repository/docs" --include=*.md)"

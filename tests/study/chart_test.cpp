@@ -7,11 +7,11 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/shell_word.hpp"
-#include "engine/chart/gnuplot.hpp"
-#include "render/report/embed/html.hpp"
-#include "render/study/results/drawing.hpp"
-#include "render/study/results/page.hpp"
-#include "render/study/results/table.hpp"
+#include "engine/lab/chart/gnuplot.hpp"
+#include "render/app/study/page.hpp"
+#include "render/app/study/results/drawing.hpp"
+#include "render/app/study/results/table.hpp"
+#include "render/page/embed/html.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "render/study/file/members.hpp"
+#include "render/app/study/file/members.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/reader.hpp"
-#include "engine/scene/text/writer.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "render/study/file/read_study.hpp"
+#include "render/app/study/file/read_study.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "engine/base/error.hpp"
-#include "render/study/file/members.hpp"
-#include "render/study/file/study_keys.hpp"
+#include "render/app/study/file/members.hpp"
+#include "render/app/study/file/study_keys.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {
@@ -104,7 +104,7 @@ TEST(StudyReader, AStudyVariesSomething) {
 TEST(StudyKeys, DocsTellWhatTheReaderKnows) {
     const std::string page = GRAINREEL_SOURCE "/docs/reference/studies.md";
     const std::string begin_mark =
-        "<!-- table of keys: generated from render/study/file/study_keys.cpp, begin -->\n";
+        "<!-- table of keys: generated from render/app/study/file/study_keys.cpp, begin -->\n";
     const std::string end_mark = "<!-- table of keys: end -->\n";
     std::string text = text_of(page);
     const auto begin = text.find(begin_mark), end = text.find(end_mark);
@@ -117,7 +117,8 @@ TEST(StudyKeys, DocsTellWhatTheReaderKnows) {
         return;
     }
     EXPECT_EQ(text.substr(start, end - start), table)
-        << "docs/reference/studies.md is not what render/study/file/study_keys.cpp says; write it anew with\n"
+        << "docs/reference/studies.md is not what render/app/study/file/study_keys.cpp says; write it anew "
+           "with\n"
            "  GRAINREEL_WRITE_DOCS=1 test_study --gtest_filter=StudyKeys.DocsTellWhatTheReaderKnows";
 }
 

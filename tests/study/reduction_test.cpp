@@ -1,5 +1,5 @@
 // Reductions against what their definitions give by hand.
-#include "render/study/results/reduction.hpp"
+#include "render/app/study/results/reduction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/study/file/read_study.hpp"
+#include "render/app/study/file/read_study.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

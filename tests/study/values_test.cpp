@@ -1,4 +1,4 @@
-#include "render/study/file/values.hpp"
+#include "render/app/study/file/values.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

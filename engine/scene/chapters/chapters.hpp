@@ -5,9 +5,9 @@
 #include <string>
 
 #include "engine/plan/plan.hpp"
+#include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/key_parts.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/text/document.hpp"
 #include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel {

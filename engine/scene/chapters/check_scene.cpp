@@ -10,7 +10,6 @@
 #include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
-#include "engine/plan/free_space.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/outlet_keys.hpp"
@@ -18,6 +17,7 @@
 #include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/drive/stage_keys.hpp"
 #include "engine/scene/film/measure_columns.hpp"
+#include "engine/scene/free_space.hpp"
 #include "engine/scene/keys/key_path.hpp"
 
 namespace grainreel {

@@ -1,4 +1,5 @@
 #include "engine/scene/chapters/contact_table.hpp"
+#include "engine/scene/chapters/words.hpp"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 
 #include "engine/base/decimals.hpp"
 #include "engine/base/utf8.hpp"
-#include "engine/plan/free_space.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/free_space.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {

@@ -7,8 +7,8 @@
 #include "engine/base/decimals.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/words.hpp"
+#include "engine/scene/drive/shorten.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/shorten.hpp"
 
 namespace grainreel {
 namespace {

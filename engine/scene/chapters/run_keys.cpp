@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "engine/scene/text/data_size.hpp"
 

@@ -1,16 +1,10 @@
 // The words that scenes use for choices, once for the reader, the writer and the list of keys.
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
+#include "engine/scene/keys/words.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
-
-template <class T>
-using Words = std::vector<std::pair<std::string, T>>;
 
 inline const Words<NormalLaw> normal_law_words{{"walton-braun", NormalLaw::walton_braun},
                                                {"spring-dashpot", NormalLaw::spring_dashpot},
@@ -45,19 +39,5 @@ inline const Words<FilmFormat> film_format_words{{"mp4", FilmFormat::mp4},   {"w
                                                  {"av1", FilmFormat::av1},   {"gif", FilmFormat::gif},
                                                  {"ffv1", FilmFormat::ffv1}, {"png", FilmFormat::png},
                                                  {"y4m", FilmFormat::y4m}};
-
-template <class T>
-const std::string& word_of(T value, const Words<T>& words) {
-    std::size_t k = 0;
-    while (words[k].second != value) ++k;
-    return words[k].first;
-}
-
-template <class T>
-std::vector<std::string> all_of(const Words<T>& words) {
-    std::vector<std::string> all;
-    for (const auto& word : words) all.push_back(word.first);
-    return all;
-}
 
 }  // namespace grainreel

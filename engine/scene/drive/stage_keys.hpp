@@ -1,9 +1,9 @@
 // The keys of [[drive.stage]].
 #pragma once
 
+#include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/key_parts.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/text/document.hpp"
 #include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel {

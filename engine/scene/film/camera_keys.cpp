@@ -3,6 +3,7 @@
 
 #include "engine/base/decimals.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "engine/base/decimals.hpp"
+#include "engine/scene/drive/shorten.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/shorten.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,8 +1,8 @@
 // Formats of the film's file and what goes with each.
 #pragma once
 
+#include "engine/scene/keys/document.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/text/document.hpp"
 
 namespace grainreel {
 

@@ -1,6 +1,7 @@
 // The keys of [film] itself: the picture and the file. What only shows more has chapters of its own
 // (film_keys.hpp).
 #include "engine/scene/film/film_keys.hpp"
+#include "engine/scene/chapters/words.hpp"
 
 #include <charconv>
 

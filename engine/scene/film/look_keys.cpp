@@ -1,4 +1,5 @@
 // The keys of style, light and cut: part of [film], and [film.cut].
+#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 

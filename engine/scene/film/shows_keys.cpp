@@ -8,12 +8,12 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/scene/drive/shorten.hpp"
 #include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/film/grain_values.hpp"
 #include "engine/scene/film/live_text.hpp"
 #include "engine/scene/film/named_grains.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/shorten.hpp"
 
 namespace grainreel {
 namespace {

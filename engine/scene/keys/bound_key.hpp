@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/chapters/words.hpp"
+#include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/key_parts.hpp"
 #include "engine/scene/keys/key_path.hpp"
-#include "engine/scene/text/document.hpp"
+#include "engine/scene/keys/words.hpp"
 #include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel::keys {

@@ -7,8 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
+#include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/key_path.hpp"
-#include "engine/scene/text/document.hpp"
 
 namespace grainreel {
 namespace {

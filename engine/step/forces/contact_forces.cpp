@@ -4,8 +4,8 @@
 #include <cstddef>
 
 #include "engine/step/forces/loads.hpp"
-#include "engine/step/grid/large_bed.hpp"
-#include "engine/step/lists/new_contacts.hpp"
+#include "engine/step/forces/new_contacts.hpp"
+#include "engine/step/lists/large_bed.hpp"
 
 namespace grainreel {
 

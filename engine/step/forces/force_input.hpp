@@ -3,7 +3,7 @@
 
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/grains.hpp"
-#include "engine/step/forces/walls.hpp"
+#include "engine/step/geometry/walls.hpp"
 #include "engine/step/lists/contact_rules.hpp"
 
 namespace grainreel {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "engine/step/forces/contact_geometry.hpp"
-#include "engine/step/forces/glued_geometry.hpp"
+#include "engine/step/geometry/contact_geometry.hpp"
+#include "engine/step/geometry/glued_geometry.hpp"
 
 namespace grainreel {
 

@@ -5,7 +5,7 @@
 
 #include "engine/laws/touch_chunk.hpp"
 #include "engine/state/grains.hpp"
-#include "engine/step/forces/walls.hpp"
+#include "engine/step/geometry/walls.hpp"
 
 namespace grainreel {
 

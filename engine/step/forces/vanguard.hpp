@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "engine/step/forces/integrate.hpp"
+#include "engine/step/motion/integrate.hpp"
 
 namespace grainreel {
 

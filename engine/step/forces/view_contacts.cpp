@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/step/forces/law_input.hpp"
-#include "engine/step/lists/new_contacts.hpp"
+#include "engine/step/forces/new_contacts.hpp"
 
 namespace grainreel {
 

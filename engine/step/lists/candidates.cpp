@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/nearest_image.hpp"
-#include "engine/step/grid/large_bed.hpp"
+#include "engine/step/lists/large_bed.hpp"
 #include "engine/step/lists/near_pairs.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "engine/laws/touch_chunk.hpp"
-#include "engine/step/forces/contact_geometry.hpp"
+#include "engine/step/geometry/contact_geometry.hpp"
 
 namespace grainreel {
 

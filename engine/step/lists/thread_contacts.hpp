@@ -10,11 +10,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/step/forces/loaded.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/contact_rules.hpp"
 #include "engine/step/lists/contact_table.hpp"
 #include "engine/step/lists/soon.hpp"
+#include "engine/step/motion/loaded.hpp"
 #include "engine/step/threads/halo.hpp"
 
 namespace grainreel {

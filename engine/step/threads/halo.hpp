@@ -18,7 +18,7 @@
 #include "engine/base/large_array.hpp"
 #include "engine/laws/touch_chunk.hpp"
 #include "engine/state/grains.hpp"
-#include "engine/step/forces/integrate.hpp"
+#include "engine/step/motion/integrate.hpp"
 
 namespace grainreel {
 

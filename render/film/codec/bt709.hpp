@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "render/draw/picture/picture.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 

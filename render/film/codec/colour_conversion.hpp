@@ -2,8 +2,8 @@
 // the same RGB in another order.
 #pragma once
 
-#include "render/draw/picture/picture.hpp"
 #include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "render/draw/picture/picture.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/colour_conversion.hpp"
 #include "render/film/codec/ffmpeg_handles.hpp"
-#include "render/film/files/film_writer.hpp"
+#include "render/film/codec/film_writer.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "render/draw/picture/palette.hpp"
+#include "render/picture/base/palette.hpp"
 
 namespace grainreel {
 namespace {

@@ -8,7 +8,7 @@
 #include <deque>
 #include <optional>
 
-#include "render/draw/picture/picture.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 

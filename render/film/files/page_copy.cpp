@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/film/files/film_limits.hpp"
+#include "render/film/sampling/film_limits.hpp"
 
 namespace grainreel {
 namespace {

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "engine/scene/scene.hpp"
-#include "render/draw/picture/picture.hpp"
 #include "render/film/codec/colour_conversion.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 

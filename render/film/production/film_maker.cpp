@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "render/film/files/picture_files.hpp"
 #include "render/film/production/bounded_queue.hpp"
 #include "render/film/production/caption_holds.hpp"
+#include "render/film/production/picture_files.hpp"
 
 namespace grainreel {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/draw/picture/picture.hpp"
-#include "render/gl/provider.hpp"
+#include "render/picture/base/picture.hpp"
+#include "render/picture/gl/provider.hpp"
 
 namespace grainreel {
 

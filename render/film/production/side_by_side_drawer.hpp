@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "render/draw/panels/side_by_side.hpp"
 #include "render/film/production/film_maker.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 
 namespace grainreel {
 

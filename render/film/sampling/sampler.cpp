@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
-#include "render/film/files/film_limits.hpp"
+#include "render/film/sampling/film_limits.hpp"
 
 namespace grainreel {
 namespace {

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/draw/camera/camera_path.hpp"
-#include "render/draw/panels/side_by_side.hpp"
-#include "render/film/files/picture_files.hpp"
+#include "render/film/production/picture_files.hpp"
 #include "render/film/production/side_by_side_drawer.hpp"
+#include "render/picture/camera/camera_path.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 #include "render/run/compare/comparison_words.hpp"
 #include "render/run/still.hpp"
 #include "render/run/together.hpp"

@@ -7,7 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "render/draw/panels/side_by_side.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 #include "render/run/compare/comparison_words.hpp"
 #include "render/run/compare/vary.hpp"
 

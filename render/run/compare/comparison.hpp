@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "render/draw/panels/panels.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/picture/panels/panels.hpp"
 #include "render/run/compare/member.hpp"
 #include "render/run/film_request.hpp"
 #include "render/run/thread_plan.hpp"

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "render/draw/panels/side_by_side.hpp"
-#include "render/draw/words/missing_letters.hpp"
 #include "render/film/sampling/pacing.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/picture/panels/side_by_side.hpp"
+#include "render/picture/words/missing_letters.hpp"
 #include "render/run/frames/choice.hpp"
 
 namespace grainreel {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/output/folder_lock.hpp"
-#include "engine/output/run_json.hpp"
+#include "engine/files/folder_lock.hpp"
+#include "engine/files/run_json.hpp"
 #include "render/run/first_failure.hpp"
 #include "render/run/frames/frame_source.hpp"
 #include "render/run/frames/revisited_run.hpp"

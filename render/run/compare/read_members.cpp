@@ -9,7 +9,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "render/run/compare/comparison.hpp"
 #include "render/run/compare/vary.hpp"
 

@@ -12,7 +12,7 @@
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/draw/words/captions.hpp"
+#include "render/picture/words/captions.hpp"
 
 namespace grainreel {
 

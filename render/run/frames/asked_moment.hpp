@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/inspect/snapshot.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "engine/replay/replay.hpp"
 #include "render/run/frames/record.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/output/measures_csv.hpp"
+#include "engine/files/measures_csv.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/run/film_times_table.hpp"
 #include "render/run/frames/recorded_scene.hpp"

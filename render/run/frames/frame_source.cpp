@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/output/trajectory.hpp"
+#include "engine/files/trajectory.hpp"
 
 namespace grainreel {
 

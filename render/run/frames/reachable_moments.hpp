@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/output/trajectory.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/replay/replayer.hpp"
 #include "render/run/frames/recorded_run.hpp"
 

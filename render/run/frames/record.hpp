@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/inspect/snapshot.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "engine/replay/checkpoint_ring.hpp"
 #include "render/run/frames/frame_source.hpp"
 

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/folder_lock.hpp"
+#include "engine/files/measures_csv.hpp"
 #include "engine/measure/bed/period_multiple.hpp"
 #include "engine/measure/wall_faces.hpp"
-#include "engine/output/folder_lock.hpp"
-#include "engine/output/measures_csv.hpp"
 #include "render/run/frames/choice.hpp"
 #include "render/run/frames/recorded_scene.hpp"
 #include "render/run/frames/same_run.hpp"

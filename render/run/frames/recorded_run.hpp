@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/output/contacts_file.hpp"
-#include "engine/output/trajectory.hpp"
 #include "engine/replay/own_checkpoints.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"

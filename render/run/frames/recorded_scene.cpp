@@ -8,8 +8,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "engine/scene/film/purposes.hpp"
-#include "engine/scene/text/reader.hpp"
 
 namespace grainreel {
 

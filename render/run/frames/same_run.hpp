@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/output/trajectory.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/run/frames/frame_source.hpp"
 

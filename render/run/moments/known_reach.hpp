@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "engine/output/trajectory.hpp"
+#include "engine/files/trajectory.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/output/measures_csv.hpp"
+#include "engine/files/measures_csv.hpp"
 
 namespace grainreel {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/inspect/forces.hpp"
+#include "engine/questions/forces.hpp"
 #include "engine/scene/film/grain_values.hpp"
 
 namespace grainreel {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/inspect/snapshot.hpp"
-#include "render/draw/marks/point_forces.hpp"
+#include "engine/questions/snapshot.hpp"
+#include "render/picture/marks/point_forces.hpp"
 
 namespace grainreel {
 

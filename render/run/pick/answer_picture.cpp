@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/draw/grains/shown_grains.hpp"
-#include "render/draw/picture/renderer.hpp"
-#include "render/film/files/picture_files.hpp"
 #include "render/film/files/png.hpp"
+#include "render/film/production/picture_files.hpp"
+#include "render/picture/grains/shown_grains.hpp"
+#include "render/picture/whole/renderer.hpp"
 #include "render/run/thread_plan.hpp"
 
 namespace grainreel {

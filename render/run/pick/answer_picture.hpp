@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/inspect/answer.hpp"
-#include "engine/inspect/snapshot.hpp"
-#include "render/draw/marks/point_forces.hpp"
-#include "render/gl/provider.hpp"
+#include "engine/questions/answer.hpp"
+#include "engine/questions/snapshot.hpp"
+#include "render/picture/gl/provider.hpp"
+#include "render/picture/marks/point_forces.hpp"
 
 namespace grainreel {
 

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/draw/camera/camera_path.hpp"
-#include "render/draw/camera/exaggeration.hpp"
-#include "render/draw/grains/shown_grains.hpp"
-#include "render/draw/words/layout.hpp"
+#include "render/picture/camera/camera_path.hpp"
+#include "render/picture/camera/exaggeration.hpp"
+#include "render/picture/grains/shown_grains.hpp"
+#include "render/picture/words/layout.hpp"
 
 namespace grainreel {
 namespace {

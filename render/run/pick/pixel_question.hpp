@@ -1,10 +1,10 @@
 // Which grain or wall is at a pixel of a film's picture.
 #pragma once
 
-#include "engine/inspect/answer.hpp"
-#include "engine/inspect/ray.hpp"
-#include "engine/inspect/snapshot.hpp"
-#include "render/draw/camera/view.hpp"
+#include "engine/questions/answer.hpp"
+#include "engine/questions/ray.hpp"
+#include "engine/questions/snapshot.hpp"
+#include "render/picture/base/view.hpp"
 
 namespace grainreel {
 

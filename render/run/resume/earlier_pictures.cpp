@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
-#include "engine/output/measures_csv.hpp"
+#include "engine/files/measures_csv.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "render/run/frames/same_run.hpp"
 #include "render/run/run_files.hpp"

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/files/trajectory.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/output/trajectory.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/run/frames/frame_source.hpp"

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/fields_file.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/measure/observers/walls/wall_forces.hpp"
-#include "engine/output/contacts_file.hpp"
-#include "engine/output/fields_file.hpp"
-#include "engine/output/measures_csv.hpp"
-#include "engine/output/trajectory.hpp"
 #include "engine/plan/rhythm.hpp"
 
 namespace grainreel {

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/output/contacts_file.hpp"
-#include "engine/output/fields_file.hpp"
-#include "engine/output/measures_csv.hpp"
-#include "engine/output/outflow_csv.hpp"
-#include "engine/output/trajectory.hpp"
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/fields_file.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/outflow_csv.hpp"
+#include "engine/files/trajectory.hpp"
 #include "render/run/moments/key_moments.hpp"
 #include "render/run/moments/outflow_record.hpp"
 #include "render/run/resume/kept_files.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/output/former_run.hpp"
+#include "engine/files/former_run.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"

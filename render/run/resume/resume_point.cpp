@@ -12,7 +12,7 @@
 #include "engine/replay/checkpoint_ring.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"
-#include "render/film/files/film_writer.hpp"
+#include "render/film/codec/film_writer.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/run/resume/kept_files.hpp"
 #include "render/run/run_files.hpp"

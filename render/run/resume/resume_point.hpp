@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "engine/output/run_json.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/scene.hpp"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/output/trajectory.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/start/grain_table.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"

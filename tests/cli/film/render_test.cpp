@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/output/trajectory.hpp"
+#include "engine/files/trajectory.hpp"
 #include "render/run/moments/known_reach.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"

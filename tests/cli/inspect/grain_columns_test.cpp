@@ -1,5 +1,5 @@
 // The quantities of a grain, each against what a formula or the film says of the same grain.
-#include "engine/inspect/columns/grain_columns.hpp"
+#include "engine/questions/columns/grain_columns.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/inspect/questions.hpp"
+#include "engine/questions/questions.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "engine/scene/film/grain_values.hpp"
-#include "engine/scene/text/reader.hpp"
-#include "render/draw/grains/quantities.hpp"
+#include "render/picture/grains/quantities.hpp"
 #include "render/run/moments/displacement.hpp"
 #include "render/run/pick/answer_forces.hpp"
 #include "render/run/pick/answer_picture.hpp"

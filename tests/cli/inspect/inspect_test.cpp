@@ -1,5 +1,5 @@
 // Questions to a moment of a run: expressions, tables, and the verb.
-#include "engine/inspect/questions.hpp"
+#include "engine/questions/questions.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/inspect/columns/grain_columns.hpp"
-#include "engine/inspect/expression.hpp"
-#include "engine/inspect/mean_answer.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/expression.hpp"
+#include "engine/questions/mean_answer.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <csignal>
 
-#include "engine/output/contacts_file.hpp"
-#include "engine/output/trajectory.hpp"
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/trajectory.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

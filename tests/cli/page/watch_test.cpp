@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "render/watch/listening.hpp"
-#include "render/watch/visitors.hpp"
+#include "render/page/live/listening.hpp"
+#include "render/page/live/visitors.hpp"
 #include "tests/cli/page/http.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

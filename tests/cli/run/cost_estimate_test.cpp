@@ -1,5 +1,5 @@
 // What `check` says of time: what it is made of, and what is kept of the machine's speed.
-#include "render/cli/estimate/cost_estimate.hpp"
+#include "render/app/estimate/cost_estimate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <cstdlib>
 
 #include "engine/measure/columns.hpp"
-#include "engine/scene/text/reader.hpp"
-#include "render/cli/estimate/engine_cost.hpp"
-#include "render/cli/estimate/film_probe.hpp"
-#include "render/cli/estimate/speed_cache.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "render/app/estimate/engine_cost.hpp"
+#include "render/app/estimate/film_probe.hpp"
+#include "render/app/estimate/speed_cache.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -10,8 +10,8 @@
 #include <random>
 
 #include "engine/base/error.hpp"
-#include "engine/output/contacts_file.hpp"
-#include "engine/output/trajectory.hpp"
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/trajectory.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/program.hpp"

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "engine/output/trajectory.hpp"
+#include "engine/files/trajectory.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // What a run was, kept and put back; and files as they lie in folders from elsewhere.
-#include "engine/output/former_run.hpp"
+#include "engine/files/former_run.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,8 +8,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text_file.hpp"
-#include "engine/output/run_names.hpp"
-#include "engine/output/trajectory.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/scene/text/comments.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"

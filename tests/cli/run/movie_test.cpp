@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "engine/files/trajectory.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/output/trajectory.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "engine/start/grain_table.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "tests/cli/film_length.hpp"

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/reader.hpp"
-#include "render/draw/words/captions.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "render/picture/words/captions.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

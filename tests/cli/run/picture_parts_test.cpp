@@ -9,8 +9,8 @@
 #include <functional>
 #include <numbers>
 
+#include "render/run/frames/kept_moments.hpp"
 #include "render/run/moments/agenda.hpp"
-#include "render/run/moments/kept_moments.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/team.hpp"
-#include "render/cli/report/progress_text.hpp"
+#include "render/app/report/progress_text.hpp"
 #include "render/run/pace.hpp"
 #include "render/run/thread_plan.hpp"
 

@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/output/measures_csv.hpp"
-#include "engine/output/trajectory.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/trajectory.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/output/run_names.hpp"
+#include "engine/files/run_names.hpp"
 #include "tests/cli/busy_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "engine/output/run_folder.hpp"
+#include "engine/files/run_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

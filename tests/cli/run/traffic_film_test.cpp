@@ -5,12 +5,12 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/output/trajectory.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
-#include "render/draw/picture/renderer.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "render/film/files/png.hpp"
+#include "render/picture/whole/renderer.hpp"
 #include "render/run/run_files.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "engine/output/trajectory.hpp"
+#include "engine/files/trajectory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "engine/base/error.hpp"
-#include "engine/output/contacts_file.hpp"
-#include "engine/output/netcdf/netcdf_header.hpp"
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/netcdf/netcdf_header.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

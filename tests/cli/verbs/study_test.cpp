@@ -11,8 +11,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/output/measures_csv.hpp"
-#include "render/study/results/reduction.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "render/app/study/results/reduction.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

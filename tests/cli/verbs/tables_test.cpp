@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "engine/output/log.hpp"
-#include "engine/output/measures_csv.hpp"
-#include "engine/output/run_json.hpp"
+#include "engine/files/log.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/start/grain_table.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // The table of verbs, and what --help makes of it.
-#include "render/cli/verbs/verbs.hpp"
+#include "render/app/verbs/verbs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

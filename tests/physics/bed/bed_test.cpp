@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/plan/free_space.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/scene/free_space.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/settle.hpp"

@@ -1,9 +1,9 @@
 // A granular gas that cools, and one that should not.
-#include "engine/chart/validation/cooling_gas.hpp"
+#include "engine/lab/chart/validation/cooling_gas.hpp"
 
 #include <gtest/gtest.h>
 
-#include "engine/chart/accuracy/nearly_elastic_gas.hpp"
+#include "engine/lab/chart/accuracy/nearly_elastic_gas.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

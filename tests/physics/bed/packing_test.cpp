@@ -1,5 +1,5 @@
 // Jammed packings: random close packing without friction, looser with.
-#include "engine/chart/validation/packing.hpp"
+#include "engine/lab/chart/validation/packing.hpp"
 
 #include <gtest/gtest.h>
 

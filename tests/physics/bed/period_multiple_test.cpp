@@ -8,7 +8,7 @@
 
 #include "engine/base/random.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/chart/validation/kharaz.hpp"
-#include "engine/chart/validation/rebound.hpp"
+#include "engine/lab/chart/validation/kharaz.hpp"
+#include "engine/lab/chart/validation/rebound.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -1,5 +1,5 @@
 // A silo's walls carry part of the weight.
-#include "engine/chart/validation/silo.hpp"
+#include "engine/lab/chart/validation/silo.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "engine/start/grain_table.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

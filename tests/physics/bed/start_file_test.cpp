@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "engine/scene/text/writer.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "tests/physics/bed/start_file.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/wall_faces.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

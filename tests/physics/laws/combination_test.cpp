@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/chapters/words.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 
 namespace grainreel {
 namespace {

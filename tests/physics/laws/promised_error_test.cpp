@@ -1,5 +1,5 @@
 // What `check` promises of the restitution, against impacts run as a user runs them.
-#include "engine/chart/accuracy/promised_error.hpp"
+#include "engine/lab/chart/accuracy/promised_error.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "engine/plan/damping.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
 
 namespace grainreel {
 namespace {

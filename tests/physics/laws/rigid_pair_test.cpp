@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/laws/law_kernel.hpp"
-#include "engine/step/forces/contact_geometry.hpp"
+#include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/lists/histories.hpp"
 #include "tests/physics/world.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "engine/bench/bench_case.hpp"
+#include "engine/lab/bench/bench_case.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/bench/bench_run.hpp"
+#include "engine/lab/bench/bench_run.hpp"
 
 namespace grainreel {
 namespace {

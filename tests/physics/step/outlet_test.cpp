@@ -9,10 +9,10 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy/energy_balance.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/run/surroundings.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/start/surroundings.hpp"
 #include "engine/state/outlet_faces.hpp"
-#include "engine/step/forces/plate_geometry.hpp"
+#include "engine/step/geometry/plate_geometry.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

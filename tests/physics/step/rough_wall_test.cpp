@@ -9,8 +9,8 @@
 #include "engine/measure/energy/energy_balance.hpp"
 #include "engine/measure/wall_faces.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/run/surroundings.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/start/surroundings.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 

@@ -5,9 +5,9 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/run/surroundings.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/text/reader.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/start/surroundings.hpp"
 #include "engine/state/tray_faces.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

@@ -1,0 +1,244 @@
+#include "engine/files/contacts_file.hpp"
+
+#include <netcdf.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// As the file has it.
+struct Row {
+    std::int32_t frame, first, second;
+    float normal;
+    std::array<float, 3> tangential, point;
+};
+static_assert(sizeof(Row) == 10 * sizeof(float));  // no gaps, whose bytes the checksum would count
+
+int checksum_of(const Row& row) {
+    return static_cast<int>(XXH32(&row, sizeof row, 0));
+}
+
+constexpr std::int32_t most_faces = 1000;  // of a container and its scene's walls
+
+// What no run writes, be the checksum right or missing.
+bool possible(const Row& row) {
+    return row.frame >= 0 && row.first >= 0 && row.second >= -most_faces && std::isfinite(row.normal) &&
+           row.normal >= 0;
+}
+
+std::array<float, 3> floats(const Vec3& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+}  // namespace
+
+struct ContactsWriter::Impl {
+    explicit Impl(NetcdfFile to) : file(std::move(to)) {}
+
+    // of(row): the numbers of one, Width of them.
+    template <class Value, std::size_t Width, class Of>
+    void put_column(int variable, const std::vector<Row>& of_rows, const Of& of) {
+        std::vector<Value> column;
+        for (const Row& row : of_rows) {
+            const std::array<Value, Width> numbers = of(row);
+            column.insert(column.end(), numbers.begin(), numbers.end());
+        }
+        std::vector<std::size_t> start{rows}, count{of_rows.size()};
+        if (Width > 1) start.push_back(0), count.push_back(Width);
+        file.put(variable, start, count, column.data());
+    }
+
+    NetcdfFile file;
+    std::size_t rows = 0;
+    int frame = -1, first = -1, second = -1, normal = -1, tangential = -1, point = -1, checksum = -1;
+};
+
+ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::string& title,
+                               const std::string& program_version, const FileFacts& facts)
+    : impl_(std::make_unique<Impl>(NetcdfFile::create(path, NetcdfFormat::cdf2))) {
+    NetcdfFile& file = impl_->file;
+    file.attribute(NC_GLOBAL, "title", title);
+    file.attribute(NC_GLOBAL, "program", "grainreel");
+    file.attribute(NC_GLOBAL, "programVersion", program_version);
+    for (const auto& [attribute, text] : facts.attributes) file.attribute(NC_GLOBAL, attribute, text);
+    const int row = file.dimension("row", NC_UNLIMITED);
+    const int spatial = file.dimension("spatial", 3);
+    const auto define = [&](const char* name, int type, const char* units, const char* about,
+                            const std::string& comment, bool vector = false) {
+        const int variable =
+            file.variable(name, type, vector ? std::vector{row, spatial} : std::vector{row}, units);
+        file.attribute(variable, "long_name", about);
+        if (!comment.empty()) file.attribute(variable, "comment", comment);
+        return variable;
+    };
+    impl_->frame = define("frame", NC_INT, "1", "frame of the trajectory in which they touch",
+                          "from 0, of trajectory.nc; in key_contacts.nc of key_moments.nc");
+    impl_->first = define("first", NC_INT, "1", "number of the grain that pushes", "the grain's `id`");
+    impl_->second = define("second", NC_INT, "1", "number of the grain or wall that is pushed",
+                           "the grain's `id`, or below 0 a wall: -1 - its place among the faces" +
+                               (facts.walls.empty() ? "" : "; " + facts.walls));
+    impl_->normal = define("normal", NC_FLOAT, "N", "normal force", "0 or more: it pushes apart");
+    impl_->tangential =
+        define("tangential", NC_FLOAT, "N", "tangential force on the second one", "x, y, z", true);
+    impl_->point = define("point", NC_FLOAT, "m", "point of contact", "x, y, z in the room", true);
+    impl_->checksum = define("checksum", NC_INT, "1", "XXH32 of the row's other numbers", "for grainreel");
+    file.end_definitions();
+    file.sync(0);
+}
+
+ContactsWriter::ContactsWriter(const std::filesystem::path& path, std::size_t frames) {
+    const std::size_t rows = ContactsReader(path).rows_of_first(frames);
+    impl_ = std::make_unique<Impl>(NetcdfFile::append(path, rows));
+    impl_->rows = rows;
+    const std::array<std::pair<int*, const char*>, 7> variables{{{&impl_->frame, "frame"},
+                                                                 {&impl_->first, "first"},
+                                                                 {&impl_->second, "second"},
+                                                                 {&impl_->normal, "normal"},
+                                                                 {&impl_->tangential, "tangential"},
+                                                                 {&impl_->point, "point"},
+                                                                 {&impl_->checksum, "checksum"}}};
+    for (const auto& [variable, name] : variables) *variable = impl_->file.find_variable(name);
+}
+
+ContactsWriter::~ContactsWriter() = default;
+
+KeptRecords ContactsWriter::kept_of(const std::filesystem::path& path, std::size_t frames) {
+    const ContactsReader reader(path);
+    if (frames > 0 && !reader.has_all(frames - 1))
+        throw UserError(
+            fmt::format("{}: was cut off; it lacks contacts of the first {} frames", path.string(), frames));
+    const NetcdfFile file = NetcdfFile::open(path);
+    for (const char* name : {"frame", "first", "second", "normal", "tangential", "point", "checksum"})
+        file.find_variable(name);
+    return NetcdfFile::kept_of(path, reader.rows_of_first(frames));
+}
+
+void ContactsWriter::write(std::int64_t frame, const std::vector<Simulation::ContactRecord>& contacts) {
+    if (contacts.empty()) return;
+    std::vector<Row> rows;
+    for (const Simulation::ContactRecord& c : contacts)
+        rows.push_back({static_cast<std::int32_t>(frame), c.first, c.second, static_cast<float>(c.normal),
+                        floats(c.tangential), floats(c.point)});
+    using Int = std::array<int, 1>;
+    Impl& to = *impl_;
+    to.put_column<int, 1>(to.frame, rows, [](const Row& r) { return Int{r.frame}; });
+    to.put_column<int, 1>(to.first, rows, [](const Row& r) { return Int{r.first}; });
+    to.put_column<int, 1>(to.second, rows, [](const Row& r) { return Int{r.second}; });
+    to.put_column<float, 1>(to.normal, rows, [](const Row& r) { return std::array<float, 1>{r.normal}; });
+    to.put_column<float, 3>(to.tangential, rows, [](const Row& r) { return r.tangential; });
+    to.put_column<float, 3>(to.point, rows, [](const Row& r) { return r.point; });
+    to.put_column<int, 1>(to.checksum, rows, [](const Row& r) { return Int{checksum_of(r)}; });
+    to.rows += rows.size();
+    to.file.sync(to.rows);
+}
+
+struct ContactsReader::Impl {
+    explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
+        checksums = file.has_variable("checksum");
+        const std::size_t counted = file.length("row"), on_disk = file.records_on_disk(counted);
+        const std::size_t rows = std::min(counted, on_disk);
+        cut_off = rows < counted;
+        uncounted = on_disk - rows;
+        frame_of.resize(rows);
+        if (rows > 0) file.get(file.find_variable("frame"), {0}, {rows}, frame_of.data());
+        const auto fall = std::is_sorted_until(frame_of.begin(), frame_of.end());
+        if (fall != frame_of.end())
+            damaged(static_cast<std::size_t>(fall - frame_of.begin()),
+                    "its frame is less than the one before");
+    }
+
+    [[noreturn]] void damaged(std::size_t row, const char* what) const {
+        throw UserError(
+            fmt::format("{}: row {} (the first is 0) is damaged: {}; copy the file again, or let "
+                        "film.colour.by be something else and film.force_chains false",
+                        source, row, what));
+    }
+
+    // Width numbers of each of `count` rows, put into place by set(row, numbers).
+    template <class Value, std::size_t Width, class Set>
+    void get_column(const char* name, std::size_t begin, std::vector<Row>& rows, const Set& set) const {
+        std::vector<std::size_t> start{begin}, count{rows.size()};
+        if (Width > 1) start.push_back(0), count.push_back(Width);
+        std::vector<std::array<Value, Width>> column(rows.size());
+        file.get(file.find_variable(name), start, count, column.front().data());
+        for (std::size_t i = 0; i < rows.size(); ++i) set(rows[i], column[i]);
+    }
+
+    std::vector<Row> read(std::size_t begin, std::size_t count) const {
+        std::vector<Row> rows(count);
+        get_column<int, 1>("frame", begin, rows, [](Row& r, const auto& v) { r.frame = v[0]; });
+        get_column<int, 1>("first", begin, rows, [](Row& r, const auto& v) { r.first = v[0]; });
+        get_column<int, 1>("second", begin, rows, [](Row& r, const auto& v) { r.second = v[0]; });
+        get_column<float, 1>("normal", begin, rows, [](Row& r, const auto& v) { r.normal = v[0]; });
+        get_column<float, 3>("tangential", begin, rows, [](Row& r, const auto& v) { r.tangential = v; });
+        get_column<float, 3>("point", begin, rows, [](Row& r, const auto& v) { r.point = v; });
+        std::vector<int> sums(count);
+        if (checksums) file.get(file.find_variable("checksum"), {begin}, {count}, sums.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            if (checksums && sums[i] != checksum_of(rows[i]))
+                damaged(begin + i, "its checksum is not that of its numbers");
+            if (!possible(rows[i])) damaged(begin + i, "it holds what no contact can have");
+        }
+        return rows;
+    }
+
+    std::string source;  // for messages
+    NetcdfFile file;
+    bool checksums = false;
+    std::vector<int> frame_of;  // of each row, rising
+    bool cut_off = false;
+    std::size_t uncounted = 0;
+};
+
+ContactsReader::ContactsReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+ContactsReader::~ContactsReader() = default;
+
+std::size_t ContactsReader::rows_of_first(std::size_t frames) const {
+    const std::vector<int>& all = impl_->frame_of;
+    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), static_cast<int>(frames)) -
+                                    all.begin());
+}
+
+bool ContactsReader::has_all(std::size_t frame) const {
+    const std::vector<int>& frames = impl_->frame_of;
+    return !impl_->cut_off || (!frames.empty() && static_cast<int>(frame) < frames.back());
+}
+
+bool ContactsReader::cut_off() const {
+    return impl_->cut_off;
+}
+
+std::size_t ContactsReader::uncounted() const {
+    return impl_->uncounted;
+}
+
+bool ContactsReader::has_checksums() const {
+    return impl_->checksums;
+}
+
+std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
+    if (!has_all(frame)) return {};
+    const std::vector<int>& frames = impl_->frame_of;
+    const auto [low, high] = std::equal_range(frames.begin(), frames.end(), static_cast<int>(frame));
+    // With one row more on each side: damage to a number of a frame may have moved a row to its neighbour.
+    const auto from = low - (low == frames.begin() ? 0 : 1), to = high + (high == frames.end() ? 0 : 1);
+    if (from == to) return {};
+    const std::vector<Row> rows =
+        impl_->read(static_cast<std::size_t>(from - frames.begin()), static_cast<std::size_t>(to - from));
+    std::vector<Touch> touches;
+    for (const Row& row : rows)
+        if (row.frame == static_cast<int>(frame)) touches.push_back({row.first, row.second, row.normal});
+    return touches;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,233 @@
+#include "engine/files/fields_file.hpp"
+
+#include <netcdf.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/checksum.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
+
+namespace grainreel {
+namespace {
+
+// A grid of so many cells still fits into one variable of CDF-2.
+constexpr std::size_t most_cells_of_cdf2 = ((std::size_t{1} << 32) - 4) / sizeof(double);
+
+std::size_t cells_of(const FieldSet& set, const FieldInfo& field) {
+    std::size_t cells = 1;
+    for (const std::string& name : field.axes)
+        for (const FieldAxis& axis : set.axes)
+            if (axis.name == name) cells *= axis.at.size();
+    return cells;
+}
+
+NetcdfFormat format_for(const std::vector<const FieldSet*>& sets) {
+    for (const FieldSet* const set : sets)
+        for (const FieldInfo& field : set->fields)
+            if (cells_of(*set, field) > most_cells_of_cdf2) return NetcdfFormat::cdf5;
+    return NetcdfFormat::cdf2;
+}
+
+struct Variable {
+    int id;
+    std::vector<std::size_t> shape;  // without the record
+};
+
+}  // namespace
+
+struct FieldsWriter::Impl {
+    explicit Impl(NetcdfFile to) : file(std::move(to)) {}
+
+    void find_fields(const FieldSet& set);
+    void define_times();
+    void define_checksum();
+    void define_axes(const FieldSet& set);
+    void define_fields(const FieldSet& set);
+
+    struct Axis {
+        int dimension, variable;
+        FieldAxis axis;
+    };
+    NetcdfFile file;
+    std::map<std::string, Axis> axes;          // by their names in the file
+    std::map<std::string, std::string> named;  // the axes of the set at hand: their names in the file
+    std::set<std::string> names;               // of fields in the file
+    int record = -1, time = -1, bounds = -1;
+    std::array<int, 2> checksum{-1, -1};
+    std::vector<std::vector<Variable>> fields;  // of each set
+    std::size_t records = 0;
+};
+
+void FieldsWriter::Impl::define_times() {
+    record = file.dimension("time", NC_UNLIMITED);
+    const int two = file.dimension("two", 2);
+    time = file.variable("time", NC_DOUBLE, {record}, "s");
+    file.attribute(time, "long_name", "time since the drive started");
+    file.attribute(time, "comment", "the middle of the record; every field is a mean over the record");
+    file.attribute(time, "axis", "T");
+    file.attribute(time, "bounds", "time_bounds");
+    bounds = file.variable("time_bounds", NC_DOUBLE, {record, two}, "s");
+    file.attribute(bounds, "long_name", "where the record begins and ends");
+}
+
+// Two variables of one number a record: VTK's reader would take one of two numbers for the grid to show.
+void FieldsWriter::Impl::define_checksum() {
+    for (const std::size_t word : {0, 1}) {
+        checksum[word] = file.variable(word == 0 ? "checksum_high" : "checksum_low", NC_INT, {record}, "1");
+        file.attribute(checksum[word], "long_name",
+                       "half of the XXH64 of the record's numbers, chained in the order of the file");
+    }
+}
+
+void FieldsWriter::Impl::define_axes(const FieldSet& set) {
+    named.clear();
+    for (const FieldAxis& axis : set.axes) {
+        std::string name = axis.name;
+        const auto differs = [&](const Axis& other) {
+            return other.axis.at != axis.at || other.axis.unit != axis.unit;
+        };
+        for (int k = 2; axes.count(name) > 0 && differs(axes.at(name)); ++k)
+            name = fmt::format("{}_{}", axis.name, k);
+        named[axis.name] = name;
+        if (axes.count(name) > 0) continue;
+        const int dimension = file.dimension(name, axis.at.size());
+        const int variable = file.variable(name, NC_DOUBLE, {dimension}, axis.unit);
+        file.attribute(variable, "long_name", axis.about);
+        // No axis attribute for x and y: ParaView would take them for longitude and latitude.
+        if (axis.name == "z") {
+            file.attribute(variable, "axis", "Z");
+            file.attribute(variable, "positive", "up");
+        }
+        axes[name] = {dimension, variable, axis};
+    }
+}
+
+void FieldsWriter::Impl::define_fields(const FieldSet& set) {
+    fields.emplace_back();
+    for (const FieldInfo& field : set.fields) {
+        std::vector<int> dimensions{record};
+        Variable variable{-1, {}};
+        for (const std::string& axis : field.axes) {
+            const Axis& found = axes.at(named.at(axis));
+            dimensions.push_back(found.dimension);
+            variable.shape.push_back(found.axis.at.size());
+        }
+        GRAINREEL_CHECK(names.insert(field.name).second && axes.count(field.name) == 0);
+        variable.id = file.variable(field.name, NC_DOUBLE, dimensions, field.unit);
+        file.attribute(variable.id, "long_name", field.label);
+        file.attribute(variable.id, "comment", field.about);
+        fields.back().push_back(variable);
+    }
+}
+
+// Of a file that is there already.
+void FieldsWriter::Impl::find_fields(const FieldSet& set) {
+    fields.emplace_back();
+    for (const FieldInfo& field : set.fields) {
+        Variable variable{file.find_variable(field.name), {}};
+        for (const std::string& name : field.axes)
+            for (const FieldAxis& axis : set.axes)
+                if (axis.name == name) variable.shape.push_back(axis.at.size());
+        fields.back().push_back(variable);
+    }
+}
+
+FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
+                           const std::string& title, const std::string& program_version,
+                           const FileFacts& facts)
+    : impl_(std::make_unique<Impl>(NetcdfFile::create(path, format_for(sets)))) {
+    NetcdfFile& file = impl_->file;
+    file.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
+    file.attribute(NC_GLOBAL, "title", title);
+    file.attribute(NC_GLOBAL, "source", "grainreel " + program_version);
+    file.attribute(NC_GLOBAL, "program", "grainreel");
+    file.attribute(NC_GLOBAL, "programVersion", program_version);
+    for (const auto& [attribute, text] : facts.attributes) file.attribute(NC_GLOBAL, attribute, text);
+    impl_->define_times();
+    for (const FieldSet* const set : sets) {
+        impl_->define_axes(*set);
+        impl_->define_fields(*set);
+    }
+    impl_->define_checksum();
+    file.end_definitions();
+    for (const auto& [name, axis] : impl_->axes)
+        file.put(axis.variable, {0}, {axis.axis.at.size()}, axis.axis.at.data());
+    file.sync(0);
+}
+
+std::size_t FieldsWriter::records_before(const std::filesystem::path& path, double time) {
+    const NetcdfFile file = NetcdfFile::open(path);
+    const std::size_t counted = file.length("time");
+    const std::size_t records = std::min(counted, file.records_on_disk(counted));
+    std::vector<double> bounds(2 * records);
+    if (records > 0) file.get(file.find_variable("time_bounds"), {0, 0}, {records, 2}, bounds.data());
+    std::size_t before = 0;
+    while (before < records && bounds[2 * before + 1] < time) ++before;
+    return before;
+}
+
+KeptRecords FieldsWriter::kept_before(const std::filesystem::path& path,
+                                      const std::vector<const FieldSet*>& sets, double time) {
+    const NetcdfFile file = NetcdfFile::open(path);
+    for (const FieldSet* const set : sets)
+        for (const FieldInfo& field : set->fields) file.find_variable(field.name);
+    for (const char* sum : {"checksum_high", "checksum_low"}) file.find_variable(sum);
+    return NetcdfFile::kept_of(path, records_before(path, time));
+}
+
+FieldsWriter::FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
+                           double time) {
+    const std::size_t records = records_before(path, time);
+    impl_ = std::make_unique<Impl>(NetcdfFile::append(path, records));
+    impl_->records = records;
+    impl_->time = impl_->file.find_variable("time");
+    impl_->bounds = impl_->file.find_variable("time_bounds");
+    impl_->checksum = {impl_->file.find_variable("checksum_high"), impl_->file.find_variable("checksum_low")};
+    for (const FieldSet* const set : sets) impl_->find_fields(*set);
+}
+
+FieldsWriter::~FieldsWriter() = default;
+
+void FieldsWriter::write(double begin, double end, const std::vector<FieldValues>& values) {
+    Impl& to = *impl_;
+    const std::size_t at = to.records;
+    Checksum sum;
+    const auto put = [&](int variable, std::vector<std::size_t> shape, const double* numbers) {
+        std::vector<std::size_t> start(shape.size() + 1, 0);
+        std::size_t count = 1;
+        for (const std::size_t length : shape) count *= length;
+        start[0] = at;
+        shape.insert(shape.begin(), 1);
+        to.file.put(variable, start, shape, numbers);
+        sum.add(numbers, count);
+    };
+    const double middle = 0.5 * (begin + end), span[2] = {begin, end};
+    put(to.time, {}, &middle);
+    put(to.bounds, {2}, span);
+    GRAINREEL_CHECK(values.size() == to.fields.size());
+    for (std::size_t set = 0; set < values.size(); ++set) {
+        GRAINREEL_CHECK(values[set].size() == to.fields[set].size());
+        for (std::size_t f = 0; f < values[set].size(); ++f) {
+            const Variable& variable = to.fields[set][f];
+            std::size_t cells = 1;
+            for (const std::size_t length : variable.shape) cells *= length;
+            GRAINREEL_CHECK(values[set][f].size() == cells);
+            put(variable.id, variable.shape, values[set][f].data());
+        }
+    }
+    for (const std::size_t word : {0, 1}) to.file.put(to.checksum[word], {at}, {1}, &sum.words()[word]);
+    to.file.sync(at + 1);
+    ++to.records;  // only now: one that failed does not count
+}
+
+std::int64_t FieldsWriter::records() const {
+    return static_cast<std::int64_t>(impl_->records);
+}
+
+}  // namespace grainreel

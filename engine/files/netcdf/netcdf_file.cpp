@@ -1,0 +1,252 @@
+#include "engine/files/netcdf/netcdf_file.hpp"
+
+#include <fcntl.h>
+#include <netcdf.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr std::size_t buffer_size = 1 << 20;  // bytes; the library's default of 8 KiB means many small writes
+
+// The classic format keeps the number of records in the bytes after the magic "CDF" and its version byte:
+// four of them, big-endian, or eight in CDF-5 (NetCDF classic format specification). After a write that
+// failed half-way the library's count includes the broken record; this puts the true one.
+void set_record_count(const std::filesystem::path& path, std::size_t records) {
+    const int file = open_plain(path, O_RDWR);
+    if (file < 0) return;
+    std::array<char, 4> magic{};
+    if (::pread(file, magic.data(), magic.size(), 0) == ssize_t{magic.size()}) {
+        const std::size_t width = magic[3] == 5 ? 8 : 4;
+        std::array<char, 8> count{};
+        for (std::size_t i = 0; i < width; ++i)
+            count[i] =
+                static_cast<char>((static_cast<std::uint64_t>(records) >> (8 * (width - 1 - i))) & 0xff);
+        [[maybe_unused]] const ssize_t ignored = ::pwrite(file, count.data(), width, magic.size());
+    }
+    ::close(file);
+}
+
+}  // namespace
+
+NetcdfFile NetcdfFile::create(const std::filesystem::path& path, NetcdfFormat format) {
+    make_way(path);
+    const int mode = NC_NOCLOBBER | (format == NetcdfFormat::cdf5 ? NC_64BIT_DATA : NC_64BIT_OFFSET);
+    int id = -1;
+    std::size_t buffer = buffer_size;
+    if (const int status = nc__create(path.c_str(), mode, 0, &buffer, &id); status != NC_NOERR) {
+        throw RunError(fmt::format("{}: cannot be written: {}", path.string(), nc_strerror(status)));
+    }
+    NetcdfFile file(path, id, true);
+    int old_mode = 0;
+    file.wrote(nc_set_fill(id, NC_NOFILL, &old_mode));
+    return file;
+}
+
+KeptRecords NetcdfFile::kept_of(const std::filesystem::path& path, std::size_t records) {
+    const NetcdfHeader header = read_netcdf_header(path);
+    std::error_code error;
+    const std::uintmax_t end = header.begin + header.record * records;
+    if ((records > 0 && end > std::filesystem::file_size(path, error)) || error)
+        throw UserError(
+            fmt::format("{}: was cut off; it lacks some of its first {} records", path.string(), records));
+    return {records, end};
+}
+
+void NetcdfFile::count_records(const std::filesystem::path& path, std::size_t records) {
+    set_record_count(path, records);
+}
+
+NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t records) {
+    const std::uintmax_t end = kept_of(path, records).bytes;
+    if (const std::string other = other_than_file(path, false); !other.empty())
+        throw RunError(fmt::format("{}: cannot be written: it is {}", path.string(), other));
+    std::error_code error;
+    // In this order: a program that is killed in between leaves records that are not counted, which a reader
+    // tells from a file that was cut off.
+    set_record_count(path, records);
+    std::filesystem::resize_file(path, end, error);
+    if (error) throw RunError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
+    int id = -1;
+    std::size_t buffer = buffer_size;
+    if (const int status = nc__open(path.c_str(), NC_WRITE, &buffer, &id); status != NC_NOERR)
+        throw RunError(fmt::format("{}: cannot be written: {}", path.string(), nc_strerror(status)));
+    NetcdfFile file(path, id, true);
+    file.records_ = records;
+    int old_mode = 0;
+    file.wrote(nc_set_fill(id, NC_NOFILL, &old_mode));
+    return file;
+}
+
+NetcdfFile NetcdfFile::open(const std::filesystem::path& path) {
+    const NetcdfHeader header = read_netcdf_header(path);
+    int id = -1;
+    if (const int status = nc_open(path.c_str(), NC_NOWRITE, &id); status != NC_NOERR) {
+        throw UserError(fmt::format("{}: cannot be read: {}", path.string(), nc_strerror(status)));
+    }
+    NetcdfFile file(path, id, false);
+    file.header_ = header;
+    return file;
+}
+
+NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      id_(std::exchange(other.id_, -1)),
+      writing_(other.writing_),
+      failed_(other.failed_),
+      records_(other.records_),
+      header_(other.header_) {}
+
+NetcdfFile::~NetcdfFile() {
+    close();
+}
+
+void NetcdfFile::close() noexcept {
+    if (id_ < 0) return;
+    const bool broken = nc_close(id_) != NC_NOERR || failed_;
+    if (writing_ && broken) set_record_count(path_, records_);
+}
+
+void NetcdfFile::wrote(int status) {
+    if (status == NC_NOERR) return;
+    failed_ = true;
+    throw RunError(fmt::format("{}: cannot be written: {}; the {} records before stay readable",
+                               path_.string(), nc_strerror(status), records_));
+}
+
+int NetcdfFile::dimension(const std::string& name, std::size_t length) {
+    int id = -1;
+    wrote(nc_def_dim(id_, name.c_str(), length, &id));
+    return id;
+}
+
+int NetcdfFile::variable(const std::string& name, int type, const std::vector<int>& dimensions,
+                         const std::string& units) {
+    int id = -1;
+    wrote(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &id));
+    if (!units.empty()) attribute(id, "units", units);
+    return id;
+}
+
+void NetcdfFile::attribute(int variable, const std::string& name, const std::string& text) {
+    wrote(nc_put_att_text(id_, variable, name.c_str(), text.size(), text.c_str()));
+}
+
+void NetcdfFile::end_definitions() {
+    wrote(nc_enddef(id_));
+}
+
+int NetcdfFile::find_variable(const std::string& name) const {
+    int id = -1;
+    if (nc_inq_varid(id_, name.c_str(), &id) != NC_NOERR) {
+        throw UserError(fmt::format("{}: has no variable `{}`", path_.string(), name));
+    }
+    return id;
+}
+
+bool NetcdfFile::has_variable(const std::string& name) const {
+    int id = -1;
+    return nc_inq_varid(id_, name.c_str(), &id) == NC_NOERR;
+}
+
+std::size_t NetcdfFile::length(const std::string& dimension) const {
+    int id = -1;
+    std::size_t length = 0;
+    if (nc_inq_dimid(id_, dimension.c_str(), &id) != NC_NOERR ||
+        nc_inq_dimlen(id_, id, &length) != NC_NOERR) {
+        throw UserError(fmt::format("{}: has no dimension `{}`", path_.string(), dimension));
+    }
+    return length;
+}
+
+std::string NetcdfFile::text_attribute(int variable, const std::string& name) const {
+    std::size_t length = 0;
+    if (nc_inq_attlen(id_, variable, name.c_str(), &length) != NC_NOERR) return {};
+    std::string text(length, '\0');
+    if (nc_get_att_text(id_, variable, name.c_str(), text.data()) != NC_NOERR) return {};
+    return text;
+}
+
+std::size_t NetcdfFile::records_on_disk(std::size_t counted) const {
+    constexpr auto patience = std::chrono::milliseconds(500), nap = std::chrono::milliseconds(10);
+    constexpr auto lately = std::chrono::seconds(10);
+    std::error_code error;
+    const auto written = std::filesystem::last_write_time(path_, error);
+    const bool goes_on = !error && std::filesystem::file_time_type::clock::now() - written < lately;
+    for (auto waited = nap; goes_on && whole_records() < counted && waited < patience; waited += nap)
+        std::this_thread::sleep_for(nap);
+    return whole_records();
+}
+
+std::size_t NetcdfFile::whole_records() const {
+    std::error_code error;
+    const std::uint64_t length = std::filesystem::file_size(path_, error);
+    if (header_.record == 0 || error) return 0;
+    return static_cast<std::size_t>(length > header_.begin ? (length - header_.begin) / header_.record : 0);
+}
+
+using Index = std::vector<std::size_t>;
+
+void NetcdfFile::put(int variable, const Index& start, const Index& count, const int* values) {
+    wrote(nc_put_vara_int(id_, variable, start.data(), count.data(), values));
+}
+void NetcdfFile::put(int variable, const Index& start, const Index& count, const float* values) {
+    wrote(nc_put_vara_float(id_, variable, start.data(), count.data(), values));
+}
+void NetcdfFile::put(int variable, const Index& start, const Index& count, const double* values) {
+    wrote(nc_put_vara_double(id_, variable, start.data(), count.data(), values));
+}
+void NetcdfFile::put(int variable, const Index& start, const Index& count, const char* values) {
+    wrote(nc_put_vara_text(id_, variable, start.data(), count.data(), values));
+}
+
+template <class Function, class Value>
+void NetcdfFile::get_by(Function read, int variable, const Index& start, const Index& count,
+                        Value* values) const {
+    int rank = 0;
+    int status = nc_inq_varndims(id_, variable, &rank);
+    // The library takes a number for each dimension that the file says the variable has.
+    if (status == NC_NOERR && static_cast<std::size_t>(rank) != count.size()) status = NC_EINVALCOORDS;
+    if (status == NC_NOERR) status = read(id_, variable, start.data(), count.data(), values);
+    if (status != NC_NOERR)
+        throw UserError(fmt::format("{}: cannot be read: {}", path_.string(), nc_strerror(status)));
+}
+
+void NetcdfFile::get(int variable, const Index& start, const Index& count, int* values) const {
+    get_by(nc_get_vara_int, variable, start, count, values);
+}
+void NetcdfFile::get(int variable, const Index& start, const Index& count, float* values) const {
+    get_by(nc_get_vara_float, variable, start, count, values);
+}
+void NetcdfFile::get(int variable, const Index& start, const Index& count, double* values) const {
+    get_by(nc_get_vara_double, variable, start, count, values);
+}
+
+void NetcdfFile::sync(std::size_t records) {
+    wrote(nc_sync(id_));
+    std::error_code error;
+    if (!std::filesystem::exists(path_, error))
+        throw RunError(fmt::format("{}: has been removed while the run wrote it", path_.string()));
+    records_ = records;
+}
+
+std::string netcdf_version() {
+    const std::string text = nc_inq_libvers();  // "4.9.0 of Jan 10 2023 ..."
+    return text.substr(0, text.find(' '));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,238 @@
+#include "engine/files/run_folder.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/run_json.hpp"
+#include "engine/files/run_names.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void cannot_make(const fs::path& path, const std::error_code& error) {
+    throw UserError(fmt::format("{}: the folder cannot be made: {}; choose another with --out", path.string(),
+                                error.message()));
+}
+
+// Something of that name is there, be it a link to nowhere.
+bool taken(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(fs::symlink_status(path, ignored));
+}
+
+bool is_empty_folder(const fs::path& path) {
+    std::error_code error;
+    return fs::is_directory(path, error) && fs::is_empty(path, error) && !error;
+}
+
+bool is_real_folder(const fs::directory_entry& entry) {
+    return entry.symlink_status().type() == fs::file_type::directory;
+}
+
+using IsOurs = std::function<bool(const fs::directory_entry&)>;
+
+bool is_ours_in_frames(const fs::directory_entry& entry) {
+    return !is_real_folder(entry) && is_frame(entry.path().filename());
+}
+
+bool is_ours_in_checkpoints(const fs::directory_entry& entry) {
+    return !is_real_folder(entry) && is_checkpoint_of_ring(entry.path().filename());
+}
+
+// The first by name of a folder's entries that no run has written; the folder when it cannot be read.
+std::optional<fs::path> first_foreign(const fs::path& folder, const IsOurs& ours) {
+    std::error_code error;
+    std::optional<fs::path> first;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+        if (!ours(entry) && (!first || entry.path() < *first)) first = entry.path();
+    return error ? folder : first;
+}
+
+// What in the folder of a run is not a run's. A comparison has runs in its own folders.
+std::optional<fs::path> foreign_file(const fs::path& run) {
+    const std::vector<std::string> panels = panels_in_run_json(run / "run.json");
+    const auto is_panel = [&](const fs::path& name) {
+        return std::find(panels.begin(), panels.end(), name.string()) != panels.end();
+    };
+    const auto is_ours = [&](const fs::directory_entry& entry) {
+        const fs::path name = entry.path().filename();
+        return is_real_folder(entry) ? is_folder_of_runs(name) || is_panel(name) : is_file_of_runs(name);
+    };
+    if (auto foreign = first_foreign(run, is_ours)) return foreign;
+    const fs::path frames = run / "frames";
+    if (is_real_folder(fs::directory_entry(frames)))
+        if (auto foreign = first_foreign(frames, is_ours_in_frames)) return foreign;
+    const fs::path checkpoints = run / "checkpoints";
+    if (is_real_folder(fs::directory_entry(checkpoints)))
+        if (auto foreign = first_foreign(checkpoints, is_ours_in_checkpoints)) return foreign;
+    for (const std::string& panel : panels)
+        if (panel.find('/') == std::string::npos && is_real_folder(fs::directory_entry(run / panel)))
+            if (auto foreign = foreign_file(run / panel)) return foreign;
+    return std::nullopt;
+}
+
+[[noreturn]] void refuse_in_use(const fs::path& path, const std::string& holder) {
+    throw UserError(fmt::format("--out {}: is in use by {}; wait until that ends, or choose another name",
+                                path.string(), holder));
+}
+
+void check_not_in_use(const fs::path& path) {
+    if (const auto holder = FolderLock::holder(path)) refuse_in_use(path, *holder);
+}
+
+void check_holds_run(const fs::path& path) {
+    if (!taken(path / "run.json")) {
+        throw UserError(fmt::format(
+            "--out {}: holds no run (no run.json), so --force leaves it alone; choose another name",
+            path.string()));
+    }
+}
+
+// What --force is to replace must be a run and nothing else, and no run may go on in there.
+void check_replaceable(const fs::path& path) {
+    for (const std::string& panel : panels_in_run_json(path / "run.json"))
+        if (panel.find('/') == std::string::npos) check_not_in_use(path / panel);
+    if (const auto foreign = foreign_file(path)) {
+        throw UserError(
+            fmt::format("--out {}: holds {}, which is no file of a run, so --force leaves the folder "
+                        "alone; move that file away or choose another name",
+                        path.string(), foreign->lexically_relative(path).string()));
+    }
+}
+
+// "a/b/" and "a/b/." mean "a/b".
+fs::path without_trailing_slash(const fs::path& path) {
+    fs::path plain = fs::absolute(path).lexically_normal();
+    if (!plain.has_filename()) plain = plain.parent_path();
+    return path.is_absolute() ? plain : plain.lexically_proximate(fs::current_path());
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const RunFolderRequest& request) : command_(request.command) {
+    if (request.goes_on) {
+        lock_ = request.goes_on;
+        goes_on_ = true;
+        return;
+    }
+    if (request.out) {
+        take(*request.out, request.force);
+        return;
+    }
+    fs::path path = request.base / request.name;
+    for (int number = 2; !make(path); ++number)
+        path = request.base / fmt::format("{}-{}", request.name, number);
+}
+
+void RunFolder::take(const fs::path& out, bool force) {
+    if (out.empty()) throw UserError("--out: the name is empty; name a folder, or leave out --out");
+    const fs::path path = without_trailing_slash(out);
+    if (is_empty_folder(path)) return adopt(path);
+    if (taken(path)) {
+        check_not_in_use(path);
+        if (!force) {
+            throw UserError(
+                fmt::format("--out {}: exists already; choose another name, or --force to replace "
+                            "it when the new run is complete",
+                            path.string()));
+        }
+        check_holds_run(path);
+        previous_lock_ = locked(path);
+        check_replaceable(path);
+        move_aside(path);
+    }
+    if (!make(path)) cannot_make(path, std::make_error_code(std::errc::file_exists));
+}
+
+void RunFolder::adopt(const fs::path& path) {
+    // The log that must not be there yet: of two runs that start together, one gets the folder.
+    const int log = ::open((path / "log.txt").c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (log < 0) {
+        throw UserError(fmt::format("--out {}: the folder cannot be used: {}; choose another name",
+                                    path.string(), std::generic_category().message(errno)));
+    }
+    ::close(log);
+    lock_ = locked(path);
+    adopted_ = true;
+}
+
+RunFolder::Lock RunFolder::locked(const fs::path& path) const {
+    std::optional<FolderLock> lock = FolderLock::take(path, command_);
+    if (!lock) refuse_in_use(path, FolderLock::holder(path).value_or("another process"));
+    return std::make_shared<FolderLock>(std::move(*lock));
+}
+
+bool RunFolder::make(const fs::path& path) {
+    std::error_code error;
+    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+    if (!error) {
+        // The test and the taking in one: of two runs that start together, one gets the name.
+        const bool made = fs::create_directory(path, error);
+        if (!made && (!error || error == std::errc::file_exists)) return false;
+    }
+    if (!error && ::access(path.c_str(), W_OK | X_OK) != 0) error = {errno, std::generic_category()};
+    if (error) {
+        put_back(path);
+        cannot_make(path, error);
+    }
+    lock_ = locked(path);
+    return true;
+}
+
+void RunFolder::move_aside(const fs::path& path) {
+    const std::string hidden = "." + path.filename().string() + ".old-";
+    int number = 1;
+    while (taken(path.parent_path() / (hidden + std::to_string(number)))) ++number;
+    const fs::path aside = path.parent_path() / (hidden + std::to_string(number));
+    std::error_code error;
+    fs::rename(path, aside, error);
+    if (error) {
+        throw UserError(fmt::format("--out {}: the old run cannot be moved aside: {}; choose another name",
+                                    path.string(), error.message()));
+    }
+    previous_ = aside;
+    previous_lock_->renamed(aside);
+}
+
+void RunFolder::put_back(const fs::path& path) {
+    if (previous_.empty()) return;
+    std::error_code error;
+    fs::rename(previous_, path, error);
+    if (!error) previous_lock_->renamed(path);
+    previous_lock_.reset();
+    previous_.clear();
+}
+
+void RunFolder::remove_previous() {
+    if (previous_.empty() || foreign_file(previous_)) return;  // somebody has put a file there meanwhile
+    std::error_code ignored;  // what cannot be removed stays, hidden, and harms nobody
+    fs::remove_all(previous_, ignored);
+    previous_.clear();
+}
+
+void RunFolder::discard() {
+    if (goes_on_ || !lock_->is_there()) return;
+    std::error_code ignored;
+    if (adopted_) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(path(), ignored))
+            fs::remove_all(entry.path(), ignored);
+        return;
+    }
+    fs::remove_all(path(), ignored);
+    put_back(path());
+}
+
+}  // namespace grainreel

@@ -1,0 +1,122 @@
+#include "engine/files/run_names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The .part are of files cut off while being written.
+constexpr std::array<std::string_view, 35> files_of_runs{".lock",
+                                                         "run.json",
+                                                         ".run.json.part",
+                                                         "scene.toml",
+                                                         ".scene.toml.part",
+                                                         "final.csv",
+                                                         ".final.csv.part",
+                                                         "checkpoint.grs",
+                                                         "checkpoint.grs.part",
+                                                         "movie.mp4",
+                                                         "movie.mp4.part",
+                                                         "movie_720.mp4",
+                                                         "movie_720.mp4.part",
+                                                         "movie.webm",
+                                                         "movie.webm.part",
+                                                         "movie.gif",
+                                                         "movie.mkv",
+                                                         "movie.y4m",
+                                                         "poster.png",
+                                                         "poster.png.part",
+                                                         "sheet.png",
+                                                         "sheet.png.part",
+                                                         "trajectory.nc",
+                                                         "contacts.nc",
+                                                         "measures.csv",
+                                                         "outflow.csv",
+                                                         "log.txt",
+                                                         "fields.nc",
+                                                         "film_moments.nc",
+                                                         "key_moments.nc",
+                                                         "key_contacts.nc",
+                                                         "film_times.csv",
+                                                         ".film_times.csv.part",
+                                                         "report.html",
+                                                         ".report.html.part"};
+
+// movie.work has what a film needs while it is made.
+constexpr std::array<std::string_view, 5> folders_of_runs{"frames", "movie.work", "checkpoints", kFormerRun,
+                                                          kFormerRunPart};
+
+constexpr std::array<std::string_view, 9> growing_files{
+    "trajectory.nc",   "contacts.nc",    "measures.csv",    "outflow.csv", "fields.nc",
+    "film_moments.nc", "key_moments.nc", "key_contacts.nc", "log.txt"};
+
+template <std::size_t Count>
+bool has(const std::array<std::string_view, Count>& names, const fs::path& name) {
+    return std::find(names.begin(), names.end(), name.string()) != names.end();
+}
+
+void check_plain(const fs::path& path, bool folder) {
+    const std::string other = other_than_file(path, false);
+    if (other == (folder ? "a folder" : "")) return;
+    if (folder && other.empty() && !fs::exists(path)) return;
+    throw UserError(fmt::format("{}: is {}, where a run has {} of its own; remove it", path.string(),
+                                other.empty() ? "a file" : other, folder ? "a folder" : "a file"));
+}
+
+void check_all_inside(const fs::path& folder) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        const bool deeper = entry.symlink_status(error).type() == fs::file_type::directory;
+        check_plain(entry.path(), deeper);
+        if (deeper) check_all_inside(entry.path());
+    }
+}
+
+}  // namespace
+
+bool is_file_of_runs(const fs::path& name) {
+    return has(files_of_runs, name);
+}
+
+bool is_folder_of_runs(const fs::path& name) {
+    return has(folders_of_runs, name);
+}
+
+bool is_frame(const fs::path& name) {
+    const std::string stem = name.stem().string();
+    return name.extension() == ".png" && stem.size() >= 6 &&
+           stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
+bool is_checkpoint_of_ring(const fs::path& name) {
+    const std::string text = name.string(), digits = text.substr(0, text.find('.'));
+    const std::string end = text.substr(digits.size());
+    return !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos &&
+           (end == ".grs" || end == ".grs.part");
+}
+
+bool grows(const fs::path& name) {
+    return has(growing_files, name);
+}
+
+void check_all_plain(const fs::path& run) {
+    for (const std::string_view name : files_of_runs) check_plain(run / name, false);
+    for (const std::string_view name : folders_of_runs) {
+        check_plain(run / name, true);
+        check_all_inside(run / name);
+    }
+}
+
+}  // namespace grainreel

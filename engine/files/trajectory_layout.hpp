@@ -1,0 +1,125 @@
+// The variables of trajectory.nc, named once for the one who writes and the one who reads.
+#pragma once
+
+#include <netcdf.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/files/checksum.hpp"
+
+namespace grainreel {
+
+struct TrajectoryVariable {
+    const char* name;
+    int type;               // of <netcdf.h>
+    const char* dimension;  // the last one, of a vector; null of a single number
+    const char* units;      // of UDUNITS; the convention's spelling where it has the variable
+    const char* about;      // long_name
+    const char* comment = "";
+};
+
+// Of every frame, in the order in which `frame_checksum` takes them.
+inline constexpr std::array frame_variables{
+    TrajectoryVariable{"time", NC_DOUBLE, nullptr, "second", "time since the drive started"},
+    TrajectoryVariable{"cycles", NC_DOUBLE, nullptr, "1", "periods of the drive since it started",
+                       "0 without a drive"},
+    TrajectoryVariable{"phase", NC_DOUBLE, nullptr, "1", "phase of the drive",
+                       "in turns, 0 to 1; the drive is at its sine's 0 at 0; 0 without a drive"},
+    TrajectoryVariable{"step", NC_DOUBLE, nullptr, "1", "number of the time step", "a whole number"},
+    TrajectoryVariable{"grains", NC_INT, nullptr, "1", "number of grains that are there",
+                       "they have the first places, or, where there is `present`, those where it is 1"},
+    TrajectoryVariable{
+        "wall_offset", NC_DOUBLE, "spatial", "m", "displacement of the walls from their place at rest",
+        "of the container as a whole where the drive moves it; 0 where it moves the floor alone"},
+    TrajectoryVariable{"wall_velocity", NC_DOUBLE, "spatial", "m s-1", "velocity of the walls"},
+    TrajectoryVariable{"floor_offset", NC_DOUBLE, "spatial", "m",
+                       "displacement of the floor from its place at rest",
+                       "that of the walls, where the drive moves the container"},
+    TrajectoryVariable{"floor_velocity", NC_DOUBLE, "spatial", "m s-1", "velocity of the floor"},
+    TrajectoryVariable{"cell_origin", NC_DOUBLE, "cell_spatial", "meter",
+                       "lowest corner of the container at rest"},
+    TrajectoryVariable{"cell_lengths", NC_DOUBLE, "cell_spatial", "meter", "period along each axis",
+                       "0 where nothing is periodic"},
+    TrajectoryVariable{"cell_angles", NC_DOUBLE, "cell_angular", "degree", "angles of the periodic cell"}};
+
+// Of every grain of a frame, in the order in which `grain_checksum` takes them.
+inline constexpr std::array grain_variables{
+    TrajectoryVariable{
+        "id", NC_INT, nullptr, "1", "number of the grain",
+        "from 0, the same in all frames and files of the run; -1 in a place that no grain has had"},
+    TrajectoryVariable{"type", NC_INT, nullptr, "1", "species of the grain",
+                       "from 1, in the order of the attributes; -1 in a place that no grain has had"},
+    TrajectoryVariable{
+        "radius", NC_DOUBLE, nullptr, "m", "radius of the grain",
+        "its mass is 4/3 pi radius^3 times the density of its type; 1e-9 in a place without a grain"},
+    TrajectoryVariable{"coordinates", NC_DOUBLE, "spatial", "meter", "place of the grain's centre",
+                       "in the room; the container's lowest corner in a place without a grain"},
+    TrajectoryVariable{"velocities", NC_FLOAT, "spatial", "m s-1", "velocity of the grain", "in the room"},
+    TrajectoryVariable{"spin", NC_FLOAT, "spatial", "rad s-1", "angular velocity of the grain"}};
+
+// Of every body beyond container and floor, in files that have some; in `frame_checksum` behind the others.
+inline constexpr std::array body_variables{
+    TrajectoryVariable{"body_place", NC_DOUBLE, "spatial", "m",
+                       "displacement of a plane of the scene from its place at rest"},
+    TrajectoryVariable{"body_rotation", NC_DOUBLE, "quaternion", "1", "how far a plane has turned",
+                       "x, y, z, w of a unit quaternion"},
+    TrajectoryVariable{"body_velocity", NC_DOUBLE, "spatial", "m s-1", "velocity of a plane"},
+    TrajectoryVariable{"body_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of a plane"}};
+
+// In files of runs that grains enter or leave: 1 where a place has a grain now; last in `grain_checksum`.
+inline constexpr TrajectoryVariable present_variable{
+    "present",
+    NC_INT,
+    nullptr,
+    "1",
+    "whether the place has a grain now",
+    "1: it has; 0: its grain has left, or, where `id` is -1, not come yet"};
+
+// Only when asked for.
+inline constexpr TrajectoryVariable orientation_variable{"orientation",
+                                                         NC_FLOAT,
+                                                         "quaternion",
+                                                         "1",
+                                                         "how far the grain has turned",
+                                                         "x, y, z, w of a unit quaternion"};
+
+// Files of earlier versions have none.
+inline constexpr TrajectoryVariable contact_number_variable{
+    "contact_number",       NC_INT, nullptr, "1", "contacts of the grain that carry force",
+    "with grains and walls"};
+
+// Names of axes, as the convention asks for them.
+struct TrajectoryLabel {
+    const char* name;
+    const char* about;
+};
+inline constexpr std::array label_variables{
+    TrajectoryLabel{"spatial", "names of the axes"},
+    TrajectoryLabel{"cell_spatial", "names of the edges of the periodic cell"},
+    TrajectoryLabel{"cell_angular", "names of the angles of the periodic cell"}};
+
+inline constexpr const char *frame_checksum = "frame_checksum", *grain_checksum = "grain_checksum";
+
+inline constexpr const char *frame_checksum_about = "XXH64 of the frame's own numbers",
+                            *grain_checksum_about = "XXH64 of the numbers of the frame's grains",
+                            *checksum_comment = "two words of 32 bits, the high one first; for grainreel";
+
+// What both sums of a frame begin with: which frame it is, of which file.
+inline Checksum begin_checksum(std::size_t frame, std::size_t places, const std::vector<std::string>& species,
+                               bool orientation) {
+    Checksum sum;
+    const std::array<std::uint64_t, 3> numbers{frame, places, orientation ? 1u : 0u};
+    const std::string names = fmt::format("{}", fmt::join(species, "\n"));
+    sum.add(numbers.data(), numbers.size());
+    sum.add(names.data(), names.size());
+    return sum;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,260 @@
+#include <netcdf.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/frame_faults.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
+#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory_layout.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr std::size_t most_planes = 1000;
+constexpr double most_steps = 9007199254740992;  // 2^53: beyond, doubles leave out whole numbers
+
+// Another program's file may follow the same convention; what counts is that nothing is missing.
+void check_complete(const NetcdfFile& file, const std::string& name) {
+    std::vector<std::string> missing;
+    const auto check = [&](const TrajectoryVariable& variable) {
+        if (!file.has_variable(variable.name)) missing.emplace_back(variable.name);
+    };
+    std::for_each(frame_variables.begin(), frame_variables.end(), check);
+    std::for_each(grain_variables.begin(), grain_variables.end(), check);
+    if (missing.empty() && !file.has_records())
+        throw UserError(
+            fmt::format("{}: its header is damaged (its frames are not counted); copy the file again", name));
+    if (missing.empty()) return;
+    if (missing.size() == frame_variables.size() + grain_variables.size())
+        throw UserError(
+            fmt::format("{}: has none of a trajectory's variables: it was cut off, or is another file; "
+                        "give the trajectory.nc of a run",
+                        name));
+    throw UserError(
+        fmt::format("{}: not a trajectory of grainreel: it lacks {}; give the trajectory.nc of a run", name,
+                    fmt::join(missing, ", ")));
+}
+
+// The library would read zeros beyond the end. One frame that is not whole is what a killed run leaves:
+// within the first block of the file the library writes a frame and its count in one go, the count first.
+void check_whole(std::size_t counted, std::size_t whole, const std::string& name) {
+    if (whole + 1 < counted)
+        throw UserError(fmt::format("{}: was cut off: of its {} frames {} are whole; copy it again", name,
+                                    counted, whole));
+}
+
+}  // namespace
+
+struct TrajectoryReader::Impl {
+    explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
+        check_complete(file, source);
+        const std::size_t counted = file.length("frame"), on_disk = file.records_on_disk(counted);
+        check_whole(counted, on_disk, source);
+        frames = std::min(counted, on_disk);
+        cut_off = frames < counted;
+        uncounted = on_disk - frames;
+        info.title = file.text_attribute(NC_GLOBAL, "title");
+        info.program_version = file.text_attribute(NC_GLOBAL, "programVersion");
+        info.capacity = file.length("atom");
+        info.orientation = file.has_variable(orientation_variable.name);
+        info.contact_numbers = file.has_variable(contact_number_variable.name);
+        info.traffic = file.has_variable(present_variable.name);
+        if (file.has_variable(body_variables.front().name)) read_planes();
+        std::istringstream names(file.text_attribute(file.find_variable("type"), "species"));
+        for (std::string name; std::getline(names, name);) info.species.push_back(name);
+        info.checksums = file.has_variable(frame_checksum) && file.has_variable(grain_checksum);
+        if (frames == 0) return;
+        file.get(file.find_variable("cell_origin"), {0, 0}, {1, 3}, info.cell_origin.data());
+        file.get(file.find_variable("cell_lengths"), {0, 0}, {1, 3}, info.periodic_length.data());
+    }
+
+    // How many they are says the dimension; names are for people.
+    void read_planes() {
+        const std::size_t planes = file.length("body");
+        if (planes > most_planes)
+            throw UserError(fmt::format("{}: says that it has {} walls beside the container's; copy it again",
+                                        source, planes));
+        std::istringstream names(file.text_attribute(file.find_variable("body_place"), "names"));
+        info.planes.resize(planes);
+        for (std::string& name : info.planes) std::getline(names, name);
+    }
+
+    [[noreturn]] void damaged(std::size_t frame, const std::string& what) const {
+        throw DamagedFrame(fmt::format(
+            "{}: frame {} (the first is 0) is damaged: {}; copy the file again, or run the scene again",
+            source, frame, what));
+    }
+
+    Checksum begin_sum(std::size_t frame) const {
+        return begin_checksum(frame, info.capacity, info.species, info.orientation);
+    }
+
+    void check_sum(const char* variable, std::size_t frame, const Checksum& sum) const {
+        if (!info.checksums) return;
+        std::array<int, 2> words{};
+        file.get(file.find_variable(variable), {frame, 0}, {1, 2}, words.data());
+        if (words != sum.words()) damaged(frame, "its checksum is not that of its numbers");
+    }
+
+    // As stored, and added to the sum. `places`: 0 for a variable of the frame.
+    template <class Value>
+    std::vector<Value> read(const TrajectoryVariable& variable, std::size_t frame, std::size_t places,
+                            std::size_t width, Checksum& sum) const {
+        std::vector<std::size_t> start{frame}, count{1};
+        if (places > 0) start.push_back(0), count.push_back(places);
+        if (variable.dimension != nullptr) start.push_back(0), count.push_back(width);
+        const int id = file.find_variable(variable.name);
+        std::vector<Value> values(std::max<std::size_t>(places, 1) * width);
+        file.get(id, start, count, values.data());
+        sum.add(values.data(), values.size());
+        return values;
+    }
+
+    struct Moment {
+        Frame frame;  // without its grains
+        std::size_t grains = 0;
+    };
+    Moment read_moment(std::size_t index) const;
+    void read_bodies(std::size_t index, Frame& frame, Checksum& sum) const;
+    std::vector<std::size_t> places_of(std::size_t index, std::size_t n) const;
+    void read_grains(std::size_t index, std::size_t n, Frame& frame) const;
+
+    std::string source;  // for messages
+    NetcdfFile file;
+    std::size_t frames = 0, uncounted = 0;
+    bool cut_off = false;
+    TrajectoryInfo info;
+};
+
+TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t index) const {
+    Checksum sum = begin_sum(index);
+    auto variable = frame_variables.begin();
+    const auto number = [&] { return read<double>(*variable++, index, 0, 1, sum).front(); };
+    const auto vector = [&] { return Vec3(read<double>(*variable++, index, 0, 3, sum).data()); };
+    Frame frame;
+    frame.time = number();
+    frame.cycles = number();
+    frame.phase = number();
+    const double step = number();
+    const int count = read<int>(*variable++, index, 0, 1, sum).front();
+    for (Vec3* pose : {&frame.container().place, &frame.container().velocity, &frame.floor().place,
+                       &frame.floor().velocity})
+        *pose = vector();
+    for (; variable != frame_variables.end(); ++variable) read<double>(*variable, index, 0, 3, sum);  // cell
+    read_bodies(index, frame, sum);
+    check_sum(frame_checksum, index, sum);
+    if (auto fault = moment_fault(frame)) damaged(index, *fault);
+    if (!(std::abs(step) <= most_steps)) damaged(index, fmt::format("its step is {:.3g}", step));
+    if (count < 0 || static_cast<std::size_t>(count) > info.capacity)
+        damaged(index, fmt::format("it says that it has {} grains, in a file with places for {}", count,
+                                   info.capacity));
+    frame.step = std::llround(step);
+    return {std::move(frame), static_cast<std::size_t>(count)};
+}
+
+// Files of earlier versions have none.
+void TrajectoryReader::Impl::read_bodies(std::size_t index, Frame& frame, Checksum& sum) const {
+    const std::size_t planes = info.planes.size();
+    if (planes == 0) return;
+    auto variable = body_variables.begin();
+    const auto next = [&](std::size_t width) { return read<double>(*variable++, index, planes, width, sum); };
+    const std::vector<double> place = next(3), rotation = next(4), velocity = next(3), spin = next(3);
+    for (std::size_t b = 0; b < planes; ++b)
+        frame.bodies.push_back(
+            {Vec3(&place[3 * b]), Quaternion(&rotation[4 * b]), Vec3(&velocity[3 * b]), Vec3(&spin[3 * b])});
+}
+
+using Places = std::vector<std::size_t>;
+
+// Those at these places of what is x, y, z, x, y, z ...
+template <class Value>
+std::vector<Vec3> vectors(const std::vector<Value>& flat, const Places& places) {
+    std::vector<Vec3> values;
+    for (const std::size_t i : places) values.emplace_back(flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]);
+    return values;
+}
+
+template <class Value>
+std::vector<Value> those_at(const std::vector<Value>& values, const Places& places) {
+    std::vector<Value> those;
+    for (const std::size_t i : places) those.push_back(values[i]);
+    return those;
+}
+
+// Of the n grains that are there. Without traffic these have the first places.
+Places TrajectoryReader::Impl::places_of(std::size_t index, std::size_t n) const {
+    Places places(n);
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    if (!info.traffic) return places;
+    places.clear();
+    Checksum apart = begin_sum(index);
+    const std::vector<int> present = read<int>(present_variable, index, info.capacity, 1, apart);
+    for (std::size_t i = 0; i < present.size(); ++i)
+        if (present[i] != 0) places.push_back(i);
+    if (places.size() != n)
+        damaged(index, fmt::format("it says that it has {} grains, but {} are present", n, places.size()));
+    return places;
+}
+
+void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, Frame& frame) const {
+    Checksum sum = begin_sum(index);
+    auto variable = grain_variables.begin();
+    const std::size_t places = info.capacity;
+    const Places here = places_of(index, n);
+    frame.id = those_at(read<int>(*variable++, index, places, 1, sum), here);
+    frame.species = those_at(read<int>(*variable++, index, places, 1, sum), here);
+    frame.radius = those_at(read<double>(*variable++, index, places, 1, sum), here);
+    frame.position = vectors(read<double>(*variable++, index, places, 3, sum), here);
+    frame.velocity = vectors(read<float>(*variable++, index, places, 3, sum), here);
+    frame.spin = vectors(read<float>(*variable++, index, places, 3, sum), here);
+    if (info.orientation) {
+        const std::vector<float> flat = read<float>(orientation_variable, index, places, 4, sum);
+        for (const std::size_t i : here)  // w x y z
+            frame.orientation.emplace_back(flat[4 * i + 3], flat[4 * i], flat[4 * i + 1], flat[4 * i + 2]);
+    }
+    if (info.contact_numbers)
+        frame.contact_number = those_at(read<int>(contact_number_variable, index, places, 1, sum), here);
+    if (info.traffic) read<int>(present_variable, index, places, 1, sum);
+    check_sum(grain_checksum, index, sum);
+    for (std::int32_t& type : frame.species) type = type < 1 ? -1 : type - 1;
+    if (auto fault = grains_fault(frame, info.species.size())) damaged(index, *fault);
+}
+
+TrajectoryReader::TrajectoryReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+TrajectoryReader::~TrajectoryReader() = default;
+
+std::size_t TrajectoryReader::frames() const {
+    return impl_->frames;
+}
+bool TrajectoryReader::cut_off() const {
+    return impl_->cut_off;
+}
+std::size_t TrajectoryReader::uncounted() const {
+    return impl_->uncounted;
+}
+const TrajectoryInfo& TrajectoryReader::info() const {
+    return impl_->info;
+}
+
+Frame TrajectoryReader::read(std::size_t index) const {
+    GRAINREEL_CHECK(index < impl_->frames);
+    Impl::Moment moment = impl_->read_moment(index);
+    impl_->read_grains(index, moment.grains, moment.frame);
+    return std::move(moment.frame);
+}
+
+Frame TrajectoryReader::read_moment(std::size_t index) const {
+    GRAINREEL_CHECK(index < impl_->frames);
+    return impl_->read_moment(index).frame;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,342 @@
+#include <netcdf.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
+#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory_layout.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// CDF-2 allows 4 GiB minus 4 bytes a variable and record; coordinates are the largest.
+NetcdfFormat format_for(std::size_t capacity) {
+    return capacity * 3 * sizeof(double) < (std::size_t{1} << 32) - 4 ? NetcdfFormat::cdf2
+                                                                      : NetcdfFormat::cdf5;
+}
+
+}  // namespace
+
+struct TrajectoryWriter::Impl {
+    Impl(const std::filesystem::path& path, const TrajectoryInfo& trajectory, NetcdfFile to)
+        : name(path.string()),
+          info(trajectory),
+          places(std::max<std::size_t>(trajectory.capacity, 1)),
+          file(std::move(to)) {}
+
+    void define();
+    void find_variables();
+    void read_kept(const std::filesystem::path& path);
+    void define_dimensions();
+    void define_bodies();
+    void define_variable(const TrajectoryVariable& variable, const char* of);
+    void write_labels();
+    Checksum begin_sum() const { return begin_checksum(frames, places, info.species, info.orientation); }
+    void write_pose(const Frame& frame);
+    void write_bodies(const Frame& frame, Checksum& sum);
+    void write_grains(const Frame& frame);
+    void write_sum(const char* variable, const Checksum& sum);
+    void keep(const Frame& frame);
+    void add_place(const Frame& frame, std::size_t i);
+
+    std::string name;
+    TrajectoryInfo info;
+    std::size_t places;  // for grains
+    NetcdfFile file;
+    std::size_t frames = 0;
+    Frame kept;                // with traffic: all grains that there were so far
+    std::vector<int> present;  // of these: whether they are there now
+    std::map<std::string, int, std::less<>> dimensions, variables;  // by name
+};
+
+void TrajectoryWriter::Impl::define() {
+    file.attribute(NC_GLOBAL, "title", info.title);
+    file.attribute(NC_GLOBAL, "application", "grainreel");
+    file.attribute(NC_GLOBAL, "program", "grainreel");
+    file.attribute(NC_GLOBAL, "programVersion", info.program_version);
+    file.attribute(NC_GLOBAL, "Conventions", "AMBER");
+    file.attribute(NC_GLOBAL, "ConventionVersion", "1.0");
+    file.attribute(
+        NC_GLOBAL, "deviations",
+        std::string("SI units, see the units of each variable; time and coordinates are double; a place "
+                    "without a grain has id -1, a radius of 1e-9 and the container's lowest corner") +
+            (info.traffic ? "; the place of a grain that has gone keeps its id, and `present` is 0" : ""));
+    for (const auto& [attribute, text] : info.facts.attributes) file.attribute(NC_GLOBAL, attribute, text);
+    define_dimensions();
+    const int cell_angular = dimensions["cell_angular"];
+    variables["spatial"] = file.variable("spatial", NC_CHAR, {dimensions["spatial"]});
+    variables["cell_spatial"] = file.variable("cell_spatial", NC_CHAR, {dimensions["cell_spatial"]});
+    variables["cell_angular"] = file.variable("cell_angular", NC_CHAR, {cell_angular, dimensions["label"]});
+    for (const TrajectoryLabel& label : label_variables)
+        file.attribute(variables[label.name], "long_name", label.about);
+    for (const TrajectoryVariable& variable : frame_variables) define_variable(variable, nullptr);
+    if (!info.planes.empty()) define_bodies();
+    for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, "atom");
+    if (info.orientation) define_variable(orientation_variable, "atom");
+    if (info.contact_numbers) define_variable(contact_number_variable, "atom");
+    if (info.traffic) define_variable(present_variable, "atom");
+    file.attribute(variables["type"], "species", fmt::format("{}", fmt::join(info.species, "\n")));
+    if (!info.facts.densities.empty())
+        file.attribute(variables["type"], "density",
+                       fmt::format("{} kg m-3", fmt::join(info.facts.densities, " ")));
+    for (const auto& [sum, about] :
+         {std::pair{frame_checksum, frame_checksum_about}, {grain_checksum, grain_checksum_about}}) {
+        variables[sum] = file.variable(sum, NC_INT, {dimensions["frame"], dimensions["checksum"]}, "1");
+        file.attribute(variables[sum], "long_name", about);
+        file.attribute(variables[sum], "comment", checksum_comment);
+    }
+    file.end_definitions();
+}
+
+void TrajectoryWriter::Impl::define_dimensions() {
+    dimensions["frame"] = file.dimension("frame", NC_UNLIMITED);
+    dimensions["atom"] = file.dimension("atom", places);
+    for (const char* three : {"spatial", "cell_spatial", "cell_angular"})
+        dimensions[three] = file.dimension(three, 3);
+    dimensions["label"] = file.dimension("label", 5);
+    dimensions["checksum"] = file.dimension("checksum", 2);
+    if (info.orientation || !info.planes.empty()) dimensions["quaternion"] = file.dimension("quaternion", 4);
+    if (!info.planes.empty()) dimensions["body"] = file.dimension("body", info.planes.size());
+}
+
+void TrajectoryWriter::Impl::define_bodies() {
+    for (const TrajectoryVariable& variable : body_variables) define_variable(variable, "body");
+    file.attribute(variables["body_place"], "names", fmt::format("{}", fmt::join(info.planes, "\n")));
+}
+
+// Of a file that is there already.
+void TrajectoryWriter::Impl::find_variables() {
+    const auto find = [&](const char* variable) { variables[variable] = file.find_variable(variable); };
+    for (const TrajectoryVariable& variable : frame_variables) find(variable.name);
+    for (const TrajectoryVariable& variable : grain_variables) find(variable.name);
+    if (!info.planes.empty())
+        for (const TrajectoryVariable& variable : body_variables) find(variable.name);
+    if (info.orientation) find(orientation_variable.name);
+    if (info.contact_numbers) find(contact_number_variable.name);
+    if (info.traffic) find(present_variable.name);
+    find(frame_checksum);
+    find(grain_checksum);
+}
+
+// Which grains there have been: the frames of the file tell it.
+void TrajectoryWriter::Impl::read_kept(const std::filesystem::path& path) {
+    const TrajectoryReader before(path);
+    for (std::size_t k = 0; k < frames; ++k) keep(before.read(k));
+}
+
+// of: "atom" or "body"; null for one of the frame itself.
+void TrajectoryWriter::Impl::define_variable(const TrajectoryVariable& variable, const char* of) {
+    std::vector<int> shape{dimensions["frame"]};
+    if (of != nullptr) shape.push_back(dimensions[of]);
+    if (variable.dimension != nullptr) shape.push_back(dimensions[variable.dimension]);
+    variables[variable.name] = file.variable(variable.name, variable.type, shape, variable.units);
+    file.attribute(variables[variable.name], "long_name", variable.about);
+    if (*variable.comment != 0) file.attribute(variables[variable.name], "comment", variable.comment);
+}
+
+void TrajectoryWriter::Impl::write_labels() {
+    file.put(variables["spatial"], {0}, {3}, "xyz");
+    file.put(variables["cell_spatial"], {0}, {3}, "abc");
+    file.put(variables["cell_angular"], {0, 0}, {3, 5}, "alphabeta gamma");
+    file.sync(0);
+}
+
+void TrajectoryWriter::Impl::write_pose(const Frame& frame) {
+    Checksum sum = begin_sum();
+    auto variable = frame_variables.begin();
+    const auto put = [&](const auto* values, std::size_t count) {
+        std::vector<std::size_t> start{frames}, size{1};
+        if (variable->dimension != nullptr) start.push_back(0), size.push_back(count);
+        file.put(variables[variable->name], start, size, values);
+        sum.add(values, count);
+        ++variable;
+    };
+    const double step = static_cast<double>(frame.step);
+    const int count = static_cast<int>(frame.size());
+    for (const double* number : {&frame.time, &frame.cycles, &frame.phase, &step}) put(number, 1);
+    put(&count, 1);
+    const Vec3 angles(90, 90, 90);
+    for (const Vec3& vector : {frame.container().place, frame.container().velocity, frame.floor().place,
+                               frame.floor().velocity, info.cell_origin, info.periodic_length, angles})
+        put(vector.data(), 3);
+    GRAINREEL_CHECK(variable == frame_variables.end());
+    if (!info.planes.empty()) write_bodies(frame, sum);
+    write_sum(frame_checksum, sum);
+}
+
+void TrajectoryWriter::Impl::write_bodies(const Frame& frame, Checksum& sum) {
+    const std::size_t count = info.planes.size();
+    const TrajectoryVariable* variable = body_variables.data();
+    const auto put = [&](std::size_t width, const auto& of) {
+        std::vector<double> rows;
+        for (std::size_t b = kFirstPlaneBody; b < frame.bodies.size(); ++b) {
+            const auto& numbers = of(frame.bodies[b]);
+            rows.insert(rows.end(), numbers.data(), numbers.data() + width);
+        }
+        file.put(variables[variable->name], {frames, 0, 0}, {1, count, width}, rows.data());
+        sum.add(rows.data(), rows.size());
+        ++variable;
+    };
+    put(
+        3, [](const BodyPose& pose) -> const auto& { return pose.place; });
+    put(
+        4, [](const BodyPose& pose) -> const auto& { return pose.rotation.coeffs(); });
+    put(
+        3, [](const BodyPose& pose) -> const auto& { return pose.velocity; });
+    put(
+        3, [](const BodyPose& pose) -> const auto& { return pose.spin; });
+}
+
+// of(grain, component) gives the values of those for which there(grain) holds; the others have those of
+// `absent`.
+template <class Value, class There, class Of>
+std::vector<Value> rows_of(std::size_t places, const std::vector<Value>& absent, std::size_t grains,
+                           const There& there, const Of& of) {
+    std::vector<Value> rows;
+    rows.reserve(places * absent.size());
+    for (std::size_t i = 0; i < places; ++i)
+        for (std::size_t k = 0; k < absent.size(); ++k)
+            rows.push_back(i < grains && there(i) ? static_cast<Value>(of(i, static_cast<int>(k)))
+                                                  : absent[k]);
+    return rows;
+}
+
+void TrajectoryWriter::Impl::write_grains(const Frame& f) {
+    Checksum sum = begin_sum();
+    const TrajectoryVariable* variable = grain_variables.data();
+    const auto is_here = [&](std::size_t i) { return !info.traffic || present[i] != 0; };
+    const auto has_been = [](std::size_t) { return true; };
+    const auto put = [&](const auto& absent, const auto& there, const auto& of) {
+        const auto rows = rows_of(places, absent, f.size(), there, of);
+        std::vector<std::size_t> start{frames, 0}, size{1, places};
+        if (absent.size() > 1) start.push_back(0), size.push_back(absent.size());
+        file.put(variables[variable->name], start, size, rows.data());
+        sum.add(rows.data(), rows.size());
+        ++variable;
+    };
+    using Ints = std::vector<int>;
+    using Floats = std::vector<float>;
+    using Doubles = std::vector<double>;
+    const Vec3& corner = info.cell_origin;
+    put(Ints{-1}, has_been, [&](std::size_t i, int) { return f.id[i]; });
+    put(Ints{-1}, has_been, [&](std::size_t i, int) { return f.species[i] + 1; });
+    put(Doubles{kAbsentRadius}, is_here, [&](std::size_t i, int) { return f.radius[i]; });
+    put(Doubles(corner.begin(), corner.end()), is_here,
+        [&](std::size_t i, int k) { return f.position[i][k]; });
+    put(Floats{0, 0, 0}, is_here, [&](std::size_t i, int k) { return f.velocity[i][k]; });
+    put(Floats{0, 0, 0}, is_here, [&](std::size_t i, int k) { return f.spin[i][k]; });
+    GRAINREEL_CHECK(variable == grain_variables.data() + grain_variables.size());
+    variable = &orientation_variable;
+    if (info.orientation)
+        put(Floats{0, 0, 0, 1}, is_here, [&](std::size_t i, int k) { return f.orientation[i].coeffs()[k]; });
+    variable = &contact_number_variable;
+    if (info.contact_numbers) put(Ints{0}, is_here, [&](std::size_t i, int) { return f.contact_number[i]; });
+    variable = &present_variable;
+    if (info.traffic) put(Ints{0}, has_been, [&](std::size_t i, int) { return present[i]; });
+    write_sum(grain_checksum, sum);
+}
+
+// Who is new stands behind all that there were, for ids only rise.
+void TrajectoryWriter::Impl::keep(const Frame& frame) {
+    present.assign(kept.size(), 0);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        while (at < kept.size() && kept.id[at] < frame.id[i]) ++at;
+        if (at == kept.size()) add_place(frame, i);
+        GRAINREEL_CHECK(kept.id[at] == frame.id[i]);
+        kept.position[at] = frame.position[i];
+        kept.velocity[at] = frame.velocity[i];
+        kept.spin[at] = frame.spin[i];
+        if (info.orientation) kept.orientation[at] = frame.orientation[i];
+        if (info.contact_numbers) kept.contact_number[at] = frame.contact_number[i];
+        present[at] = 1;
+    }
+}
+
+void TrajectoryWriter::Impl::add_place(const Frame& frame, std::size_t i) {
+    if (kept.size() == places)
+        throw RunError(
+            fmt::format("{}: more grains came than the {} that the file has places for; give "
+                        "TrajectoryInfo a larger capacity",
+                        name, places));
+    kept.id.push_back(frame.id[i]);
+    kept.species.push_back(frame.species[i]);
+    kept.radius.push_back(frame.radius[i]);
+    kept.position.emplace_back(), kept.velocity.emplace_back(), kept.spin.emplace_back();
+    if (info.orientation) kept.orientation.emplace_back();
+    if (info.contact_numbers) kept.contact_number.push_back(0);
+    present.push_back(1);
+}
+
+void TrajectoryWriter::Impl::write_sum(const char* variable, const Checksum& sum) {
+    file.put(variables[variable], {frames, 0}, {1, 2}, sum.words().data());
+}
+
+TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info)
+    : impl_(std::make_unique<Impl>(path, info, NetcdfFile::create(path, format_for(info.capacity)))) {
+    impl_->define();
+    impl_->write_labels();
+}
+
+TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info,
+                                   std::size_t frames)
+    : impl_(std::make_unique<Impl>(path, info, NetcdfFile::append(path, frames))) {
+    impl_->info.contact_numbers = impl_->file.has_variable(contact_number_variable.name);
+    impl_->find_variables();
+    impl_->frames = frames;
+    if (info.traffic) impl_->read_kept(path);
+}
+
+TrajectoryWriter::~TrajectoryWriter() = default;
+
+bool TrajectoryWriter::goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path) {
+    const TrajectoryInfo there = TrajectoryReader(path).info();
+    if (there.species != info.species || there.planes != info.planes || there.traffic != info.traffic ||
+        there.orientation != info.orientation || !there.checksums)
+        throw UserError(
+            fmt::format("{}: is of another scene, or of another version of grainreel", path.string()));
+    return there.capacity == std::max<std::size_t>(info.capacity, 1);
+}
+
+KeptRecords TrajectoryWriter::kept_of(const std::filesystem::path& path, std::size_t frames) {
+    const TrajectoryReader reader(path);
+    for (std::size_t k = 0; reader.info().traffic && k < frames; ++k) reader.read(k);
+    return NetcdfFile::kept_of(path, frames);
+}
+
+void TrajectoryWriter::write_again(const std::filesystem::path& path, std::size_t frames,
+                                   const std::filesystem::path& to, TrajectoryInfo info) {
+    const TrajectoryReader reader(path);
+    info.contact_numbers = reader.info().contact_numbers;
+    TrajectoryWriter writer(to, info);
+    for (std::size_t k = 0; k < frames; ++k) writer.write(reader.read(k));
+}
+
+void TrajectoryWriter::write(const Frame& frame) {
+    GRAINREEL_CHECK(!impl_->info.orientation || frame.orientation.size() == frame.size());
+    GRAINREEL_CHECK(!impl_->info.contact_numbers || frame.contact_number.size() == frame.size());
+    GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.planes.size());
+    if (frame.size() > impl_->info.capacity) {
+        throw RunError(
+            fmt::format("{}: a frame of {} grains in a file with places for {}; give TrajectoryInfo a "
+                        "larger capacity",
+                        impl_->name, frame.size(), impl_->info.capacity));
+    }
+    if (impl_->info.traffic) impl_->keep(frame);
+    impl_->write_pose(frame);
+    impl_->write_grains(impl_->info.traffic ? impl_->kept : frame);
+    impl_->file.sync(impl_->frames + 1);
+    ++impl_->frames;  // only now: one that failed does not count
+}
+
+std::int64_t TrajectoryWriter::frames() const {
+    return static_cast<std::int64_t>(impl_->frames);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,89 @@
+#include "engine/lab/chart/accuracy/planned_impact.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/scene/file/reader.hpp"
+
+namespace grainreel {
+namespace {
+
+std::string species_text(const char* name, double radius, double density) {
+    return fmt::format("[[species]]\nname = \"{}\"\ndiameter = {:.17g}\ndensity = {:.17g}\n", name,
+                       2 * radius, density);
+}
+
+std::string scene_text(const ImpactScene& impact) {
+    const double second = impact.size_ratio * bench_radius;
+    const double apart = 1.1 * (bench_radius + (impact.wall ? 0 : second));
+    return "gravity = 0\n" + species_text("a", bench_radius, bench_density) +
+           species_text("b", second, impact.density_ratio * bench_density) +
+           fmt::format("[contact]\nrestitution = {:.17g}\nfriction = {:.17g}\n", impact.restitution,
+                       impact.friction) +
+           "[container]\nshape = \"none\"\n" +
+           fmt::format("[[grain]]\nspecies = \"a\"\nposition = [0, 0, 0]\nvelocity = [{:.17g}, 0, 0]\n",
+                       impact.speed) +
+           (impact.wall ? fmt::format("[[wall]]\npoint = [{:.17g}, 0, 0]\nnormal = [-1, 0, 0]\n", apart)
+                        : "") +
+           fmt::format("[[grain]]\nspecies = \"b\"\nposition = [{:.17g}, 0, 0]\n",
+                       impact.wall ? -4 * second : apart) +
+           "[run]\nduration = 1\n";
+}
+
+Vec3 momentum_of(const Bench& bench) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < bench.grains.size(); ++i)
+        sum += bench.grains.mass(i) * bench.grains.motion[i].velocity;
+    return sum;
+}
+
+Vec3 angular_momentum_of(const Bench& bench) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < bench.grains.size(); ++i) {
+        sum += bench.grains.mass(i) * bench.grains.place[i].position.cross(bench.grains.motion[i].velocity);
+        sum += bench.grains.inertia(i) * bench.grains.motion[i].spin;
+    }
+    return sum;
+}
+
+}  // namespace
+
+Plan plan_of(const ImpactScene& impact) {
+    return make_plan(read_scene_text(scene_text(impact), "impact.toml"));
+}
+
+double usual_step() {
+    ImpactScene impact;
+    impact.friction = 0.5;
+    const Plan plan = plan_of(impact);
+    return plan.clock.step * std::sqrt(plan.between(0, 0).loading_stiffness / bench_stiffness);
+}
+
+Impact make_impact(const ImpactScene& impact, const Plan& plan, double step, double angle, double phase) {
+    Bench bench(plan, 0.2 * bench_radius);
+    bench.plan.clock.step = step;
+    const Vec3 velocity = impact.speed * Vec3(std::cos(angle), std::sin(angle), 0);
+    bench.add(-phase * step * velocity, velocity);
+    if (impact.wall) {
+        bench.add_plane(Vec3(bench_radius, 0, 0), Vec3(-1, 0, 0));
+    } else {
+        const double radius = impact.size_ratio * bench_radius;
+        bench.add(Vec3(bench_radius + radius, 0, 0), Vec3::Zero(),
+                  {radius, impact.density_ratio * bench_density, 1});
+    }
+    bench.start();
+    Impact result;
+    result.energy_before = bench.kinetic();
+    const Vec3 momentum = momentum_of(bench), angular = angular_momentum_of(bench);
+    const double time = impact.wall ? plan.wall[0].contact_time : plan.between(0, 1).contact_time;
+    bench.run(static_cast<std::int64_t>(std::ceil(2 * time / step)) + 5);
+    result.energy = bench.kinetic();
+    for (std::int32_t id = 0; id < static_cast<std::int32_t>(bench.grains.size()); ++id) {
+        result.velocity[id] = bench.velocity(id);
+        result.spin[id] = bench.spin(id);
+    }
+    result.momentum_change = (momentum_of(bench) - momentum).norm() / momentum.norm();
+    result.angular_change = (angular_momentum_of(bench) - angular).norm() / (momentum.norm() * bench_radius);
+    return result;
+}
+
+}  // namespace grainreel

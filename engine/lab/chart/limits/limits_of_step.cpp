@@ -1,0 +1,209 @@
+// The longest step: elastic grains at rest in contact, disturbed a little. Over the limit the disturbance
+// grows without end. Verlet's is 2 / omega of the fastest mode (Allen & Tildesley); a dense bed's is well
+// below a pair's (O'Sullivan & Bray 2004, Eng. Comput. 21, 278).
+#include <memory>
+
+#include "engine/base/random.hpp"
+#include "engine/lab/chart/accuracy/planned_impact.hpp"
+#include "engine/lab/chart/bench.hpp"
+#include "engine/lab/chart/limits/experiment.hpp"
+#include "engine/lab/chart/limits/scheme_growth.hpp"
+#include "engine/scene/chapters/words.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double overlap = 1e-3 * bench_radius;
+
+// s: sqrt(m / K), the unit of all steps here.
+double unit() {
+    return std::sqrt(bench_mass() / bench_stiffness);
+}
+
+PairPlan spring(double restitution, double friction, double tangential_ratio) {
+    PairPlan pair = latching_pair(bench_stiffness, restitution, friction);
+    if (friction > 0) pair.model.tangential = TangentialLaw::linear_spring;
+    pair.tangential_stiffness = tangential_ratio * bench_stiffness;
+    return pair;
+}
+
+struct Disturbance {
+    Vec3 along;  // which velocities are disturbed
+    int steps;   // within which it grows ten-thousandfold, or does not
+};
+
+// Of the amplitude a step, 1 for none: while the energy grows from ten-thousandfold on, or over all steps.
+double growth_of(Bench& bench, const Disturbance& disturbance) {
+    Random random(1, Stream::centres);
+    const double speed = 1e-9 * overlap / unit();
+    for (Motion& motion : bench.grains.motion)
+        for (int axis = 0; axis < 3; ++axis)
+            motion.velocity[axis] = disturbance.along[axis] * random.between(-speed, speed);
+    const double begin = bench.kinetic();
+    double from = begin, now = begin;
+    std::int64_t since = 0;
+    while (bench.step < disturbance.steps && now < 1e12 * begin) {
+        bench.run(1);
+        now = bench.kinetic();
+        if (from == begin && now > 1e4 * begin) from = now, since = bench.step;
+    }
+    if (now < 1e8 * begin) return std::max(1.0, std::pow(now / begin, 0.5 / disturbance.steps));
+    return std::pow(now / from, 0.5 / static_cast<double>(bench.step - since));
+}
+
+// The limit over sqrt(m / K), and the growth about there with the step over that of theory.
+template <class Build>
+Finding find_limit(const Build& build, const Disturbance& disturbance, double theory,
+                   Integrator integrator = Integrator::velocity_verlet) {
+    constexpr double coarse = 0.05;
+    // Below the limit Verlet's amplitude swings; it does not grow as much as this.
+    const double unstable = std::pow(1e4, 1.0 / disturbance.steps);
+    const auto growth = [&](double share) { return growth_of(*build(share * theory * unit()), disturbance); };
+    Finding finding;
+    finding.theory = theory;
+    finding.usual = usual_step() / unit();
+    double stable = unknown;
+    for (double share = 0.5; share < 1.3; share += coarse) {
+        const double grown = growth(share);
+        finding.curve.push_back(
+            {share, grown, std::max(1.0, growth_a_step(integrator, share * stability_limit(integrator)))});
+        if (grown >= unstable && std::isnan(stable)) stable = share - coarse;
+    }
+    if (std::isnan(stable)) return finding;
+    finding.measured = theory * last_that_holds(stable, stable + coarse, 8,
+                                                [&](double share) { return growth(share) < unstable; });
+    return finding;
+}
+
+const Disturbance along_z{{0, 0, 1}, 2000};
+
+// Grains one above the other between two plates, all pressed together by the same force.
+std::unique_ptr<Bench> column(int count, double plate_stiffness, double step, Integrator integrator) {
+    auto whole = std::make_unique<Bench>(spring(1, 0, 0), step, integrator);
+    Bench& bench = *whole;
+    bench.plan.wall[0].loading_stiffness = bench.plan.wall[0].unloading_stiffness = plate_stiffness;
+    const double at_plate = overlap * bench_stiffness / plate_stiffness;
+    double z = bench_radius - at_plate;
+    bench.add_floor();
+    for (int k = 0; k < count; ++k) {
+        bench.add(Vec3(0, 0, z));
+        z += 2 * bench_radius - overlap;
+    }
+    bench.add_plane(Vec3(0, 0, z - bench_radius + overlap - at_plate), Vec3(0, 0, -1));
+    bench.start();
+    return whole;
+}
+
+// Two grains between soft plates: omega^2 = (2 K + K_plate) / m.
+Experiment pair_limit(Integrator integrator) {
+    constexpr double plate = 0.01;  // over K
+    return {"step: pair by " + word_of(integrator, integrator_words), "step / sqrt(m/K)", Failure::loud,
+            "health check; the plan's step; check warns above the stable limit", [=](bool) {
+                return find_limit(
+                    [&](double step) { return column(2, plate * bench_stiffness, step, integrator); },
+                    along_z, stability_limit(integrator) / std::sqrt(2 + plate), integrator);
+            }};
+}
+
+// omega = 2 sqrt(K/m) cos(pi / (2 (n + 1))) between plates as stiff as the grains.
+Finding chain_limit(bool) {
+    constexpr int count = 20;
+    const double theory = 1 / std::cos(std::numbers::pi / (2 * (count + 1)));
+    return find_limit(
+        [](double step) { return column(count, bench_stiffness, step, Integrator::velocity_verlet); },
+        along_z, theory);
+}
+
+// A latched contact swings on K2 about a force below its peak: omega^2 = 2 K2 / m for the pair.
+Finding unloading_limit(bool) {
+    constexpr double e = 0.5, plate = 0.01;
+    const auto build = [](double step) {
+        auto whole = column(2, plate * bench_stiffness, step, Integrator::velocity_verlet);
+        Bench& bench = *whole;
+        bench.plan.grain = {spring(e, 0, 0)};
+        bench.start();  // the contact has seen `overlap`
+        const double back = 0.5 * e * e * overlap, less = 0.5 * overlap / plate;  // to half the force
+        const std::size_t low = bench.at(0), high = bench.at(1);
+        bench.grains.place[high].position.z() += back;
+        for (Face& face : bench.around.faces) face.point.z() -= face.normal.z() * less;
+        bench.around.faces[1].point.z() += back;
+        bench.grains.load[low] = bench.grains.load[high] = {};
+        return whole;
+    };
+    return find_limit(build, along_z, 2 / std::sqrt(2 / (e * e) + plate));
+}
+
+// A ball on a floor: slip s, s'' = -3.5 K0/m s.
+Finding sideways_limit(bool) {
+    constexpr double ratio = 0.8;
+    const auto build = [](double step) {
+        auto whole = std::make_unique<Bench>(spring(1, 1e6, ratio), step);
+        Bench& bench = *whole;
+        bench.around.gravity = {0, 0, -bench_stiffness * overlap / bench_mass()};
+        bench.add_floor();
+        bench.add(Vec3(0, 0, bench_radius - overlap));
+        bench.start();
+        return whole;
+    };
+    return find_limit(build, {{1, 0, 0}, 2000}, 2 / std::sqrt(3.5 * ratio));
+}
+
+// A face-centred cubic block, twelve contacts a grain inside, pressed by its six walls and brought to rest.
+std::unique_ptr<Bench> block(int planes, const PairPlan& pair, double step) {
+    auto whole = std::make_unique<Bench>(pair, step);
+    Bench& bench = *whole;
+    const double half_edge = (2 * bench_radius - overlap) / std::sqrt(2.0);
+    const double middle = 0.5 * (planes - 1), reach = middle * half_edge + bench_radius - 2 * overlap;
+    for (int x = 0; x < planes; ++x)
+        for (int y = 0; y < planes; ++y)
+            for (int z = 0; z < planes; ++z)
+                if ((x + y + z) % 2 == 0) bench.add(half_edge * (Vec3(x, y, z) - Vec3::Constant(middle)));
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0})
+            bench.add_plane(side * reach * Vec3::Unit(axis), -side * Vec3::Unit(axis));
+    return whole;
+}
+
+Grains block_at_rest(int planes) {
+    const auto bench = block(planes, spring(1, 0, 0), 0.1 * unit());
+    bench->start();
+    bench->loop->run(0, 10000, bench->plan.clock.step, 0.2 / unit());
+    for (Motion& motion : bench->grains.motion) motion.velocity.setZero();
+    return bench->grains;
+}
+
+Finding bed_limit(bool quick, const PairPlan& pair, double theory) {
+    const int planes = quick ? 7 : 11;
+    const Grains at_rest = block_at_rest(planes);
+    const auto build = [&](double step) {
+        auto bench = block(planes, pair, step);
+        bench->grains = at_rest;
+        bench->start();
+        return bench;
+    };
+    Finding finding = find_limit(build, {{1, 1, 1}, 1000}, theory);
+    for (CurvePoint& point : finding.curve) point.theory = unknown;  // of many modes
+    return finding;
+}
+
+}  // namespace
+
+std::vector<Experiment> step_experiments() {
+    const std::string guard = "health check; the plan's step; check warns above the stable limit";
+    const std::string step = "step / sqrt(m/K)";
+    std::vector<Experiment> all;
+    for (const auto& word : integrator_words) all.push_back(pair_limit(word.second));
+    all.push_back({"step: pair that unloads (e = 0.5)", step, Failure::loud, guard, unloading_limit});
+    all.push_back({"step: tangential spring (K0 = 0.8 K)", step, Failure::loud, guard, sideways_limit});
+    all.push_back({"step: chain of 20", step, Failure::loud, guard, chain_limit});
+    // Central springs in a face-centred cubic crystal: omega^2 = 8 K / m at the most.
+    all.push_back({"step: dense bed (smooth)", step, Failure::loud, guard,
+                   [](bool quick) { return bed_limit(quick, spring(1, 0, 0), 2 / std::sqrt(8.0)); }});
+    // Gerschgorin's bound with spins: 40 K0 / m; nothing says that it is reached.
+    all.push_back({"step: dense bed (K0 = 0.8 K)", step, Failure::loud, guard, [](bool quick) {
+                       return bed_limit(quick, spring(1, 1e6, 0.8), 2 / std::sqrt(40 * 0.8));
+                   }});
+    return all;
+}
+
+}  // namespace grainreel

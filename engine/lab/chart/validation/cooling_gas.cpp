@@ -1,0 +1,64 @@
+#include "engine/lab/chart/validation/cooling_gas.hpp"
+
+#include <cmath>
+
+#include "engine/lab/chart/gas.hpp"
+
+namespace grainreel {
+namespace {
+
+using std::numbers::pi;
+
+PairPlan smooth_pair(const CoolingGas& gas, double restitution) {
+    PairPlan pair = latching_pair(gas.stiffness, restitution, 0, gas.precision);
+    pair.model.normal = NormalForce::walton_braun_corrected;
+    return pair;
+}
+
+// 14 steps a contact, elastic walls.
+Plan plan_of(const CoolingGas& gas) {
+    Plan plan;
+    plan.grain = {smooth_pair(gas, gas.restitution)};
+    plan.wall = {smooth_pair(gas, 1)};
+    plan.clock.step = pi / 2 * (1 + gas.restitution) * std::sqrt(bench_mass() / 2 / gas.stiffness) / 14;
+    return plan;
+}
+
+// s: 1/tau = w0 (1 - e^2) / 6 with Enskog's collision rate w = 4 sqrt(pi) n d^2 g sqrt(T/m), of which each
+// takes (1 - e^2) T; g after Carnahan & Starling.
+double haff_time(const CoolingGas& setting, const Gas& gas) {
+    const double solid = setting.solid_fraction, e = setting.restitution;
+    const double g = (1 - solid / 2) / std::pow(1 - solid, 3);
+    // Two centres a diameter apart have less room than one: the mean of (1 - d|u_x|/L)(1 - d|u_y|/L)(..).
+    const double diameter = 2 * bench_radius, free = gas.cube.free();
+    const double near_walls = 1 - 1.5 * diameter / free;
+    const double number_density = gas.cube.count() / std::pow(free, 3);
+    const double rate = 4 * std::sqrt(pi) * number_density * diameter * diameter * g * near_walls *
+                        std::sqrt(gas.temperature());
+    return 6 / (rate * (1 - e * e));
+}
+
+}  // namespace
+
+std::vector<double> cool(const CoolingGas& setting, const std::vector<double>& times) {
+    GasInCube cube;
+    cube.side = setting.side;
+    cube.solid_fraction = setting.solid_fraction;
+    cube.seed = setting.seed;
+    Gas gas(plan_of(setting), cube);
+    constexpr double mixed = 0.1;  // s, from the lattice to a gas
+    gas.run_to(mixed);
+    const double start = gas.temperature(), tau = haff_time(setting, gas);
+    std::vector<double> temperatures;
+    for (const double time : times) {
+        gas.run_to(mixed + time * tau);
+        temperatures.push_back(gas.temperature() / start);
+    }
+    return temperatures;
+}
+
+double haff(double time) {
+    return 1 / ((1 + time) * (1 + time));
+}
+
+}  // namespace grainreel

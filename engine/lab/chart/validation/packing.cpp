@@ -1,0 +1,213 @@
+#include "engine/lab/chart/validation/packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/random.hpp"
+#include "engine/lab/chart/bench.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double diameter = 0.004, density = 2500, stiffness = 1e4;  // m, kg/m3, N/m
+
+double natural_frequency() {  // 1/s
+    return std::sqrt(stiffness / (density * sphere_volume(diameter / 2)));
+}
+
+// All grains, centres at random, between walls at +- edge/2 in y and z.
+struct Crowd {
+    const JammedPacking& setting;
+    Bench bench;
+    double edge = 0;
+
+    explicit Crowd(const JammedPacking& packing)
+        : setting(packing),
+          bench(latching_pair(stiffness, 1, packing.friction, packing.precision), 0.1 / natural_frequency()) {
+        bench.plan.wall = {latching_pair(stiffness, 1, 0, packing.precision)};
+        edge = std::cbrt(setting.grains * sphere_volume(diameter / 2) / setting.solid_fraction);
+        const double room = edge / 2 - diameter / 2;
+        Random centres(setting.seed, Stream::centres);
+        for (int k = 0; k < setting.grains; ++k) {
+            const double x = centres.between(-edge / 2, edge / 2), y = centres.between(-room, room);
+            bench.add(Vec3(x, y, centres.between(-room, room)), Vec3::Zero(), {diameter / 2, density});
+        }
+        for (const Vec3& normal : {Vec3::UnitY().eval(), Vec3::UnitZ().eval()}) {
+            bench.add_plane(-edge / 2 * normal, normal);
+            bench.add_plane(edge / 2 * normal, -normal);
+        }
+        bench.around.period = edge;
+        bench.around.skin = 0.3 * diameter;
+        bench.start();
+    }
+    // Shrinking leaves all lists valid, so contacts keep their histories.
+    void shrink(double factor) {
+        for (std::size_t i = 0; i < bench.grains.size(); ++i)
+            bench.grains.set_radius(i, factor * bench.grains.place[i].radius, density);
+    }
+    Vec3 inner() const {  // m: half the sizes of the measured part
+        const double half = edge / 2 - setting.margin * diameter;
+        return {edge / 2, half, half};
+    }
+};
+
+bool lies_in(const Vec3& point, const Vec3& inner) {
+    return std::abs(point.y()) < inner.y() && std::abs(point.z()) < inner.z();
+}
+
+double unbalanced(const Crowd& crowd) {
+    double forces = 0, contacts = 0, squares = 0;
+    crowd.bench.loop->visit_contacts(crowd.bench.step, [&](const ContactView& c) {
+        forces += c.normal_force;
+        contacts += c.normal_force > 0;
+    });
+    for (const Load& load : crowd.bench.grains.load) squares += load.force.squaredNorm();
+    const double grains = static_cast<double>(crowd.bench.grains.size());
+    return contacts > 0 ? std::sqrt(squares / grains) / (forces / contacts) : 0;
+}
+
+// Until the forces balance. drag: over the natural frequency.
+void rest(Crowd& crowd, double drag, double balance, int most_steps) {
+    constexpr int steps_per_look = 500;
+    for (int done = 0; done < most_steps; done += steps_per_look) {
+        crowd.bench.run(steps_per_look, drag * natural_frequency());
+        if (unbalanced(crowd) < balance) return;
+    }
+}
+
+struct Touching {
+    std::int32_t first, second;  // second below 0: a wall
+};
+
+// Grains that nothing holds: with fewer contacts than it takes, when those of other rattlers do not count.
+std::vector<bool> rattlers(const std::vector<Touching>& contacts, std::size_t grains, int needed) {
+    std::vector<bool> loose(grains, false);
+    for (bool found = true; found;) {
+        std::vector<int> count(grains, 0);
+        for (const Touching& c : contacts) {
+            if (loose[c.first] || (c.second >= 0 && loose[c.second])) continue;
+            ++count[c.first];
+            if (c.second >= 0) ++count[c.second];
+        }
+        found = false;
+        for (std::size_t i = 0; i < grains; ++i) {
+            if (loose[i] || count[i] >= needed) continue;
+            loose[i] = found = true;
+        }
+    }
+    return loose;
+}
+
+PackingState state_of(const Crowd& crowd) {
+    const Grains& grains = crowd.bench.grains;
+    const Vec3 inner = crowd.inner();
+    const double volume = 8 * inner.prod();
+    PackingState state;
+    std::vector<Touching> contacts;
+    crowd.bench.loop->visit_contacts(crowd.bench.step, [&](const ContactView& c) {
+        if (c.normal_force <= 0) return;
+        contacts.push_back({c.first, c.second});
+        if (c.second < 0 || !lies_in(c.point, inner)) return;
+        const double apart = grains.place[c.first].radius + grains.place[c.second].radius - c.overlap;
+        state.pressure += c.normal_force * apart / (3 * volume) * diameter / stiffness;
+    });
+    // Without friction it takes a contact more than dimensions to hold a grain; with friction two.
+    const std::vector<bool> loose = rattlers(contacts, grains.size(), crowd.setting.friction > 0 ? 2 : 4);
+    double inside = 0, held = 0, ends = 0;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const Place& p = grains.place[i];
+        state.solid_fraction += volume_within(p.position, p.radius, -inner, inner) / volume;
+        if (!lies_in(p.position, inner)) continue;
+        inside += 1;
+        held += !loose[i];
+    }
+    for (const Touching& c : contacts) {
+        if (c.second < 0 || loose[c.first] || loose[c.second]) continue;
+        for (const std::int32_t i : {c.first, c.second}) ends += lies_in(grains.place[i].position, inner);
+    }
+    state.contacts = ends / held;
+    state.rattlers = 1 - held / inside;
+    state.unbalanced = unbalanced(crowd);
+    return state;
+}
+
+}  // namespace
+
+std::vector<PackingState> decompress(const JammedPacking& packing, int states) {
+    Crowd crowd(packing);
+    rest(crowd, 1, 0.02, 10000);  // the quench
+    rest(crowd, 0.05, 1e-3, 40000);
+    std::vector<PackingState> all = {state_of(crowd)};
+    double excess = 0.02;  // of the solid fraction above jamming, unknown at first
+    while (static_cast<int>(all.size()) < states) {
+        const double now = all.back().solid_fraction;
+        crowd.shrink(std::cbrt(1 - packing.share * excess / now));
+        rest(crowd, 0.05, 1e-3, 40000);
+        const PackingState before = all.back(), after = state_of(crowd);
+        if (after.unbalanced > 0.01 || after.rattlers > 0.5 || after.pressure >= before.pressure) break;
+        all.push_back(after);
+        excess = (before.solid_fraction - after.solid_fraction) * after.pressure /
+                 (before.pressure - after.pressure);
+    }
+    return all;
+}
+
+namespace {
+
+// y = at_zero + slope x, least squares.
+struct Line {
+    double at_zero = 0, slope = 0;
+};
+Line line_through(const std::vector<double>& x, const std::vector<double>& y) {
+    const double n = static_cast<double>(x.size());
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        sx += x[k], sy += y[k];
+        sxx += x[k] * x[k], sxy += x[k] * y[k];
+    }
+    const double determinant = n * sxx - sx * sx;
+    return {(sy * sxx - sx * sxy) / determinant, (n * sxy - sx * sy) / determinant};
+}
+
+}  // namespace
+
+JammingPoint jamming_point(const std::vector<PackingState>& states) {
+    constexpr double law_holds_below = 0.003;  // p d / K
+    std::vector<double> pressure, root, solid, contacts;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        const PackingState& s = states[k];
+        if (s.pressure > law_holds_below && k + 3 < states.size()) continue;
+        pressure.push_back(s.pressure), root.push_back(std::sqrt(s.pressure));
+        solid.push_back(s.solid_fraction), contacts.push_back(s.contacts);
+    }
+    const Line of_solid = line_through(pressure, solid), of_contacts = line_through(root, contacts);
+    return {of_solid.at_zero, of_contacts.at_zero, of_contacts.slope / std::sqrt(of_solid.slope)};
+}
+
+double volume_within(const Vec3& centre, double radius, const Vec3& low, const Vec3& high) {
+    const auto beyond = [&](int axis) {
+        return centre[axis] + radius <= low[axis] || centre[axis] - radius >= high[axis];
+    };
+    const auto inside = [&](int axis) {
+        return centre[axis] - radius >= low[axis] && centre[axis] + radius <= high[axis];
+    };
+    if (beyond(1) || beyond(2)) return 0;
+    if (inside(1) && inside(2)) return sphere_volume(radius);
+    // Slices across y, each the part of a disc between two levels of z.
+    constexpr int slices = 400;
+    const double first = std::max(low.y() - centre.y(), -radius);
+    const double last = std::min(high.y() - centre.y(), radius), width = (last - first) / slices;
+    double volume = 0;
+    for (int k = 0; k < slices; ++k) {
+        const double y = first + (k + 0.5) * width, disc = std::sqrt(radius * radius - y * y);
+        const auto below = [disc](double z) {
+            const double cut = std::clamp(z, -disc, disc);
+            return cut * std::sqrt(std::max(0.0, disc * disc - cut * cut)) +
+                   disc * disc * std::asin(std::clamp(cut / disc, -1.0, 1.0));
+        };
+        volume += (below(high.z() - centre.z()) - below(low.z() - centre.z())) * width;
+    }
+    return volume;
+}
+
+}  // namespace grainreel

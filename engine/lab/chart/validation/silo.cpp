@@ -1,0 +1,160 @@
+#include "engine/lab/chart/validation/silo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/random.hpp"
+#include "engine/lab/chart/bench.hpp"
+#include "engine/measure/energy/energy.hpp"
+
+namespace grainreel {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double diameter = 0.004, radius = diameter / 2, density = bench_density;  // m, m, kg/m3
+constexpr double gravity = 9.81, stiffness = 2e3;                                   // m/s2, N/m
+constexpr double loose = 0.5, expected = 0.58;                                      // solid fractions
+constexpr double sinking = 0.05, way = 0.5 * diameter;                              // over sqrt(g d); m
+
+double mass() {
+    return density * sphere_volume(radius);
+}
+
+double step_length() {
+    return 0.1 * std::sqrt(mass() / stiffness);
+}
+
+struct Cylinder {
+    double bore;  // m
+
+    explicit Cylinder(const SiloColumn& column) : bore(column.bore * diameter) {}
+    double area() const { return pi / 4 * bore * bore; }
+    int grains(double height) const {
+        return static_cast<int>(expected * area() * height / sphere_volume(radius));
+    }
+    // Floor first, then the wall.
+    void surround(Bench& bench) const {
+        bench.add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1));
+        Face wall;
+        wall.kind = Face::Kind::cylinder;
+        wall.radius = bore / 2;
+        bench.around.faces.push_back(wall);
+        bench.around.skin = 0.3 * diameter;
+    }
+};
+
+// A loose crowd: random centres, pushed apart without friction or gravity under a lid.
+Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
+    Bench bench(latching_pair(stiffness, 1), step_length());
+    cylinder.surround(bench);
+    const double height = grains * sphere_volume(radius) / (loose * cylinder.area());
+    bench.add_plane(Vec3(0, 0, height), Vec3(0, 0, -1));
+    Random random(seed, Stream::centres);
+    for (int k = 0; k < grains; ++k) {
+        const double out = (cylinder.bore / 2 - radius) * std::sqrt(random.uniform());
+        const double angle = random.between(0, 2 * pi), z = random.between(radius, height - radius);
+        bench.add(Vec3(out * std::cos(angle), out * std::sin(angle), z), Vec3::Zero(), {radius, density});
+    }
+    bench.start();
+    const double drag = 0.5 * std::sqrt(stiffness / mass());
+    for (int look = 0; look < 100; ++look) {
+        bench.run(200, drag);
+        if (summarise_contacts(*bench.loop, bench.step).largest_overlap < 1e-3) break;
+    }
+    return bench.grains;
+}
+
+// Until the mean kinetic energy of a grain is below 1e-6 m g d. Steps before 0 are for this: the floor stands
+// still until then.
+void settle(Bench& bench) {
+    constexpr double drag = 20;  // 1/s
+    constexpr std::int64_t steps_per_look = 1000, most = 100 * steps_per_look;
+    const double rest = 1e-6 * mass() * gravity * diameter * static_cast<double>(bench.grains.size());
+    for (bench.step = -most; bench.step < 0;) {
+        bench.run(steps_per_look, drag);
+        if (kinetic_energy(bench.grains).translation < rest) break;
+    }
+    bench.step = 0;  // the lists count the jump as free flight, and are made again
+}
+
+// Sums over the contacts with floor and wall, and what grains and wall make of the vertical stress.
+struct Sums {
+    double floor = 0;   // N, down
+    double wall = 0;    // N, normal
+    double lift = 0;    // N, up, on the grains
+    double moment = 0;  // N m: of weights and lifts about the floor, the vertical stress summed over height
+    double height = 0;  // m
+    double samples = 0;
+
+    void add(const Bench& bench) {
+        const double level = bench.around.faces[0].displacement(bench.around.motion.at(bench.step)).z();
+        double z = 0;
+        for (const Place& p : bench.grains.place) z += p.position.z() - level;
+        moment += mass() * gravity * z;
+        bench.loop->visit_contacts(bench.step, [&](const ContactView& c) {
+            if (c.second == -1) floor += c.normal_force;
+            if (c.second != -2) return;
+            wall += c.normal_force;
+            lift -= c.tangential.z();
+            moment += c.tangential.z() * (c.point.z() - level);
+        });
+        height += 2 * z / static_cast<double>(bench.grains.size());
+        samples += 1;
+    }
+};
+
+}  // namespace
+
+SiloLoad load_of(const SiloColumn& column) {
+    const Cylinder cylinder(column);
+    const int grains = cylinder.grains(column.aspect * cylinder.bore);
+    Bench bench(latching_pair(stiffness, 0.7, column.friction, column.precision), step_length());
+    bench.plan.wall = {latching_pair(stiffness, 0.7, column.wall_friction, column.precision)};
+    cylinder.surround(bench);
+    bench.grains = crowd(cylinder, grains, column.seed);
+    for (Motion& m : bench.grains.motion) m.velocity.setZero();
+    const double speed = sinking * std::sqrt(gravity * diameter);
+    bench.around.faces[0].body.velocity = Vec3(0, 0, -speed);
+    bench.around.motion = WallMotion(Drive(), bench.plan.clock);
+    bench.around.gravity = Vec3(0, 0, -gravity);
+    bench.start();
+    settle(bench);
+    Sums resting, sums;
+    resting.add(bench);
+    const auto steps = static_cast<std::int64_t>(way / speed / bench.plan.clock.step);
+    while (bench.step < steps) {
+        bench.run(50);
+        if (bench.step > steps / 2) sums.add(bench);
+    }
+    const double weight = grains * mass() * gravity, height = sums.height / sums.samples;
+    SiloLoad load;
+    load.solid_fraction = grains * sphere_volume(radius) / (cylinder.area() * height);
+    load.filling = height / cylinder.bore;
+    load.apparent = load.filling * sums.floor / sums.samples / weight;
+    load.resting = load.filling * resting.floor / weight;
+    load.stress_ratio = sums.wall / (pi * cylinder.bore) / (sums.moment / cylinder.area());
+    load.mobilised = sums.lift / (column.wall_friction * sums.wall);
+    return load;
+}
+
+double janssen(double filling, double friction_times_ratio) {
+    return (1 - std::exp(-4 * friction_times_ratio * filling)) / (4 * friction_times_ratio);
+}
+
+JanssenFit fit_janssen(const std::vector<SiloLoad>& loads) {
+    const auto rms = [&](double product) {
+        double sum = 0;
+        for (const SiloLoad& l : loads) sum += std::pow(l.apparent - janssen(l.filling, product), 2);
+        return std::sqrt(sum / static_cast<double>(loads.size()));
+    };
+    double low = 1e-3, high = 3;  // golden section; the rms has one minimum
+    const double share = (std::sqrt(5.0) - 1) / 2;
+    while (high - low > 1e-7) {
+        const double a = high - share * (high - low), b = low + share * (high - low);
+        (rms(a) < rms(b) ? high : low) = rms(a) < rms(b) ? b : a;
+    }
+    return {low, rms(low) * 4 * low};
+}
+
+}  // namespace grainreel

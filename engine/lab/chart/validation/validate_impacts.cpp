@@ -1,0 +1,130 @@
+// Oblique impacts against Kharaz et al. (2001) and Foerster et al. (1994).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/text_file.hpp"
+#include "engine/lab/chart/result_table.hpp"
+#include "engine/lab/chart/validation/kharaz.hpp"
+#include "engine/lab/chart/validation/rebound.hpp"
+#include "engine/lab/chart/validation/validation.hpp"
+
+namespace grainreel {
+namespace {
+
+using std::numbers::pi;
+
+struct NamedLaw {
+    std::string name;
+    ImpactLaw law;
+};
+
+// Alumina on glass. Tangential over normal stiffness is 4 G*/E* (Mindlin) with E = 380 and 70 GPa, nu = 0.23
+// and 0.25 (Chung & Ooi 2011).
+std::vector<NamedLaw> alumina_laws() {
+    const double ratio = 0.86, e = kharaz::restitution, mu = kharaz::friction;
+    return {{"incremental slip", {NormalForce::walton_braun, TangentialLaw::incremental_slip, e, mu, ratio}},
+            {"Hertz-Mindlin", {NormalForce::hertz, TangentialLaw::mindlin, e, mu, ratio}}};
+}
+
+enum class Quantity { tangential_restitution, spin, rebound };
+
+double measured(const Rebound& after, double degrees, Quantity quantity) {
+    switch (quantity) {
+        case Quantity::tangential_restitution:
+            return after.tangential / std::sin(degrees * pi / 180);
+        case Quantity::spin:
+            return after.spin * kharaz::speed / kharaz::radius;
+        case Quantity::rebound:
+            break;
+    }
+    return std::atan2(after.tangential, after.normal) * 180 / pi;
+}
+
+struct Compared {
+    std::string name;
+    Quantity quantity;
+    const std::vector<kharaz::Point>& published;
+};
+std::vector<Compared> compared() {
+    return {{"tangential restitution", Quantity::tangential_restitution, kharaz::tangential_restitution},
+            {"spin rad/s", Quantity::spin, kharaz::spin},
+            {"rebound deg", Quantity::rebound, kharaz::rebound}};
+}
+
+// Ours at many angles, and at the published ones.
+void alumina(const ChartRequest& request) {
+    std::string lines = "law,degrees,tangential_restitution,spin_rad_s,rebound_deg\n";
+    std::string points = "quantity,degrees,published,incremental_slip,difference,hertz_mindlin,difference\n";
+    for (const NamedLaw& named : alumina_laws()) {
+        for (int degrees = 1; degrees < 90; degrees += request.quick ? 4 : 1) {
+            const Rebound after = rebound(named.law, degrees, Target::plane);
+            lines += fmt::format("{},{}", named.name, degrees);
+            for (const Compared& c : compared())
+                lines += fmt::format(",{:.5g}", measured(after, degrees, c.quantity));
+            lines += "\n";
+        }
+    }
+    for (const Compared& c : compared()) {
+        for (const kharaz::Point& p : c.published) {
+            points += fmt::format("{},{},{}", c.name, p.degrees, p.value);
+            for (const NamedLaw& named : alumina_laws()) {
+                const Rebound after = rebound(named.law, p.degrees, Target::plane);
+                const double is = measured(after, p.degrees, c.quantity);
+                points += fmt::format(",{:.4g},{:+.2g}", is, is - p.value);
+            }
+            points += "\n";
+        }
+    }
+    replace_file(request.folder / "alumina.csv", lines);
+    replace_file(request.folder / "alumina_points.csv", points);
+}
+
+struct Material {
+    std::string name;
+    double e, mu, beta0;
+};
+
+// Slips are over the normal speed before. Theirs: the larger of sliding and sticking.
+std::string binary_rows(const Material& m, const NamedLaw& named, double step) {
+    std::string rows;
+    const double sliding = 3.5 * (1 + m.e) * m.mu;
+    for (double share = step; share < 3.05; share += step) {
+        const double before = share * sliding, angle = std::atan(before);
+        const Rebound after = rebound(named.law, angle * 180 / pi, Target::equal_sphere);
+        const double is = (after.tangential - after.spin) / std::cos(angle);
+        const double published = std::max(before - sliding, -m.beta0 * before);
+        rows += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{:+.4f}\n", m.name, named.name, before, is, published,
+                            is - published);
+    }
+    return rows;
+}
+
+void binary(const ChartRequest& request) {
+    std::string table = "material,law,slip_before,slip_after,published,difference\n";
+    for (const Material& m : {Material{"glass", 0.97, 0.092, 0.44}, Material{"acetate", 0.87, 0.25, 0.43}}) {
+        const double ratio = ratio_that_turns(m.e, m.beta0);
+        for (const NamedLaw& named :
+             {NamedLaw{"incremental slip",
+                       {NormalForce::walton_braun, TangentialLaw::incremental_slip, m.e, m.mu, ratio}},
+              NamedLaw{"linear spring",
+                       {NormalForce::walton_braun, TangentialLaw::linear_spring, m.e, m.mu, ratio}}})
+            table += binary_rows(m, named, request.quick ? 0.5 : 0.1);
+    }
+    replace_file(request.folder / "binary.csv", table);
+}
+
+bool run(const ChartRequest& request, ChartWork& work) {
+    if (!work.next("oblique impacts of alumina on glass")) return false;
+    alumina(request);
+    if (!work.next("binary impacts of glass and acetate")) return false;
+    binary(request);
+    return true;
+}
+
+}  // namespace
+
+const ValidationPart impact_part = {[](bool) { return std::size_t{2}; }, run};
+
+}  // namespace grainreel

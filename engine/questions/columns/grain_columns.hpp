@@ -1,0 +1,74 @@
+// What can be asked of a grain: the names that expressions, histograms and tables use.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/questions/expression.hpp"
+#include "engine/questions/snapshot.hpp"
+#include "engine/scene/film/film_shows.hpp"
+#include "engine/scene/text/units.hpp"
+
+namespace grainreel {
+
+// Of which grains of a frame: their places in it.
+using GrainList = std::vector<std::size_t>;
+
+struct GrainColumn {
+    std::string name;
+    Dimension dimension;
+    std::string about;
+    // SI, one for each grain of the list; NaN when it is not known.
+    std::vector<double> (*of)(const Snapshot& snapshot, const GrainList& grains);
+    Needs needs = Needs::nothing;
+    bool is_species = false;
+    bool costly = false;                 // looks for neighbours, or for the surface of the bed
+    std::optional<GrainValue> colour{};  // the film's colouring that shows the same
+    std::string also{};                  // another name of it, that of the colouring
+};
+
+// All of them.
+const std::vector<GrainColumn>& grain_columns();
+// A group each.
+std::vector<GrainColumn> motion_columns();
+std::vector<GrainColumn> bed_columns();
+std::vector<GrainColumn> contact_columns();
+
+// m: grains whose surfaces are closer are neighbours, as the observer `unlike_neighbours` has it.
+double gap_of_neighbours(const Scene& scene);
+
+// The number of the column with this name. Throws UserError where there is none, or the snapshot lacks it.
+int column_called(const Snapshot& snapshot, const std::string& name);
+// Of the column with this number: of these grains, or of all grains of the frame.
+std::vector<double> values_of(const Snapshot& snapshot, int column, const GrainList& grains);
+std::vector<double> values_of(const Snapshot& snapshot, int column);
+
+// What a text that may be an expression takes, by the names in it; none twice.
+std::vector<Needs> needs_of(std::string_view text);
+
+// The columns, and the names of the scene's species.
+class GrainVocabulary final : public Vocabulary {
+  public:
+    explicit GrainVocabulary(const Snapshot& snapshot) : snapshot_(snapshot) {}
+    // Throws UserError for a column that needs what the snapshot lacks.
+    std::optional<Word> find(std::string_view name) const override;
+    std::vector<std::string> names() const override;
+
+  private:
+    const Snapshot& snapshot_;
+};
+
+// The grains for which a condition holds. Throws UserError for what is no condition.
+GrainList grains_where(const Snapshot& snapshot, const Expression& condition);
+GrainList grains_where(const Snapshot& snapshot, std::string_view text);
+
+// A column whose value follows from one grain alone.
+template <double (*value)(const Snapshot&, std::size_t)>
+std::vector<double> of_each(const Snapshot& snapshot, const GrainList& grains) {
+    std::vector<double> values;
+    for (const std::size_t grain : grains) values.push_back(value(snapshot, grain));
+    return values;
+}
+
+}  // namespace grainreel

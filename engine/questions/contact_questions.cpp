@@ -1,0 +1,232 @@
+// Questions to the contacts of a moment that was brought back.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/wall_faces.hpp"
+#include "engine/questions/forces.hpp"
+#include "engine/questions/questions.hpp"
+#include "engine/state/container_faces.hpp"
+
+namespace grainreel {
+namespace {
+
+using Forces = std::vector<const ContactForce*>;
+
+AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
+    Vec3 force(0, 0, 0), moment(0, 0, 0);
+    double normal = 0;
+    for (const ContactForce* one : on_wall) {
+        force += one->on_second();
+        moment += (one->point - s.frame.container().place).cross(one->on_second());
+        normal += one->normal_force;
+    }
+    double weight = 0;
+    for (std::size_t i = 0; i < s.frame.size(); ++i) weight += s.mass(i) * s.scene.gravity.norm();
+    const Vec3 down = s.scene.gravity.norm() > 0 ? s.scene.gravity.normalized() : Vec3(0, 0, -1);
+    AnswerCell share;
+    if (weight > 0) share = force.dot(down) / weight;
+    return {"wall",
+            "What the grains do to it",
+            {{"contacts", Dimension::number, "that push"},
+             {"force_x", Dimension::force, ""},
+             {"force_y", Dimension::force, ""},
+             {"force_z", Dimension::force, ""},
+             {"normal_force", Dimension::force, "sum of all normal forces"},
+             {"moment_x", Dimension::moment, "about the container's origin"},
+             {"moment_y", Dimension::moment, ""},
+             {"moment_z", Dimension::moment, ""},
+             {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"},
+             {"force", Dimension::force, "magnitude of the force; with --average the mean of magnitudes"}},
+            {{static_cast<std::int64_t>(on_wall.size()), force.x(), force.y(), force.z(), normal, moment.x(),
+              moment.y(), moment.z(), share, force.norm()}},
+            true};
+}
+
+// In bins as high as a mean grain is wide.
+AnswerTable height_table(const Snapshot& s, const std::string& wall, const Forces& on_wall) {
+    AnswerTable table{"by_height",
+                      "Its normal force by height above the floor",
+                      {{"from", Dimension::length, "", AnswerColumn::kKey},
+                       {"to", Dimension::length, "", AnswerColumn::kKey},
+                       {"contacts", Dimension::number, ""},
+                       {"normal_force", Dimension::force, "sum"},
+                       {"pressure", Dimension::pressure, "of a wall that stands"}},
+                      {},
+                      true};
+    const double width = s.bin();
+    std::map<std::int64_t, std::pair<std::int64_t, double>> bins;
+    for (const ContactForce* one : on_wall) {
+        auto& [count, force] =
+            bins[std::llround(std::floor((one->point - s.frame.floor().place).z() / width))];
+        ++count;
+        force += one->normal_force;
+    }
+    for (const auto& [bin, sums] : bins) {
+        const double low = static_cast<double>(bin) * width, high = static_cast<double>(bin + 1) * width;
+        const double area = area_between(s.scene.container, wall, low, high);
+        AnswerCell pressure;
+        if (area > 0) pressure = sums.second / area;
+        table.rows.push_back({low, high, sums.first, sums.second, pressure});
+    }
+    return table;
+}
+
+AnswerTable touching_table(const Snapshot& s, Forces on_wall, std::size_t most) {
+    std::sort(on_wall.begin(), on_wall.end(), [](const auto* a, const auto* b) {
+        return a->normal_force != b->normal_force ? a->normal_force > b->normal_force : a->first < b->first;
+    });
+    AnswerTable table{"touching",
+                      on_wall.size() > most
+                          ? fmt::format("The {} of {} grains that press most", most, on_wall.size())
+                          : "The grains that touch it",
+                      {{"id", Dimension::number, ""},
+                       {"species", Dimension::number, ""},
+                       {"height", Dimension::length, "of the contact above the floor"},
+                       {"overlap", Dimension::length, ""},
+                       {"normal_force", Dimension::force, ""},
+                       {"tangential_force", Dimension::force, "magnitude"},
+                       {"slides", Dimension::number, ""}},
+                      {}};
+    on_wall.resize(std::min(on_wall.size(), most));
+    for (const ContactForce* one : on_wall)
+        table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first),
+                              (one->point - s.frame.floor().place).z(), one->overlap, one->normal_force,
+                              one->tangential.norm(), one->slides() ? "yes" : "no"});
+    return table;
+}
+
+AnswerTable species_table(const Snapshot& s, const Forces& on_wall) {
+    AnswerTable table{"species",
+                      "Contacts by species",
+                      {{"species", Dimension::number, "", AnswerColumn::kKey},
+                       {"contacts", Dimension::number, ""},
+                       {"normal_force", Dimension::force, "sum"}},
+                      {},
+                      true};
+    for (std::size_t k = 0; k < s.scene.species.size(); ++k) {
+        std::int64_t count = 0;
+        double force = 0;
+        for (const ContactForce* one : on_wall) {
+            const auto place = s.place_of(one->first);
+            if (!place || static_cast<std::size_t>(s.frame.species[*place]) != k) continue;
+            ++count;
+            force += one->normal_force;
+        }
+        table.rows.push_back({s.scene.species[k].name, count, force});
+    }
+    return table;
+}
+
+}  // namespace
+
+std::int32_t wall_number(const Snapshot& s, std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    std::vector<std::string> names;
+    for (const Face& face : faces_of(s.scene)) names.push_back(face.name);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        std::string known = names[k];
+        std::replace(known.begin(), known.end(), '_', ' ');
+        if (known == name) return -1 - static_cast<std::int32_t>(k);
+    }
+    throw UserError(names.empty() ? "the scene has no walls"
+                                  : fmt::format("'{}' is no wall of this scene; it has {}", name,
+                                                fmt::join(names, ", ")));
+}
+
+double overlap_limit(const Scene& scene) {
+    return 2 * scene.run.overlap;
+}
+
+std::string overlap_limit_words(const Snapshot& s) {
+    return fmt::format("run.overlap allows {:.4g} of the smaller radius", overlap_limit(s.scene));
+}
+
+std::vector<const ContactForce*> pushes_on_wall(const Snapshot& s, std::int32_t wall) {
+    std::vector<const ContactForce*> on_wall;
+    for (const ContactForce& one : s.forces->contacts)
+        if (one.second == wall && one.pushes()) on_wall.push_back(&one);
+    return on_wall;
+}
+
+Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most) {
+    const std::int32_t wall = wall_number(s, name);
+    const Forces on_wall = pushes_on_wall(s, wall);
+    Answer answer{{sum_table(s, on_wall)}, {}};
+    if (on_wall.empty()) {
+        answer.notes.emplace_back("no grain touches it");
+        return answer;
+    }
+    answer.tables.push_back(species_table(s, on_wall));
+    answer.tables.push_back(height_table(s, name_of_body(s, wall), on_wall));
+    if (most > 0) answer.tables.push_back(touching_table(s, on_wall, most));
+    return answer;
+}
+
+namespace {
+
+// How many touch, how far they overlap, and what is allowed.
+AnswerTable touching_pairs_table(const Snapshot& s) {
+    const std::vector<ContactForce>& all = s.forces->contacts;
+    double most = 0, sum = 0;
+    std::int64_t pushing = 0;
+    for (const ContactForce& one : all) {
+        const double share = one.overlap / one.smaller_radius;
+        most = std::max(most, share), sum += share;
+        pushing += one.normal_force > 0;
+    }
+    AnswerCell largest, mean;
+    if (!all.empty()) largest = most, mean = sum / static_cast<double>(all.size());
+    return {"touching",
+            "All that touch, grains at walls too (shares are of the smaller radius)",
+            {{"touching", Dimension::number, "pairs, and grains at walls"},
+             {"contacts", Dimension::number, "those of them that push, as in all other answers"},
+             {"largest_share", Dimension::number,
+              "overlap over the smaller radius, as largest_overlap of measures.csv", AnswerColumn::kThere},
+             {"mean_share", Dimension::number, "of all that touch", "touching"},
+             {"limit_share", Dimension::number, "what run.overlap allows; that is over the diameter",
+              AnswerColumn::kThere}},
+            {{static_cast<std::int64_t>(all.size()), pushing, largest, mean, overlap_limit(s.scene)}},
+            true};
+}
+
+}  // namespace
+
+Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
+    Forces all;
+    for (const ContactForce& one : s.forces->contacts) all.push_back(&one);
+    std::sort(all.begin(), all.end(), [](const auto* a, const auto* b) {
+        if (a->overlap != b->overlap) return a->overlap > b->overlap;
+        return a->first != b->first ? a->first < b->first : a->second < b->second;
+    });
+    AnswerTable table{
+        "overlaps",
+        fmt::format("The largest overlaps ({})", overlap_limit_words(s)),
+        {{"first", Dimension::number, "id"},
+         {"species", Dimension::number, "of the first"},
+         {"second", Dimension::number, "id; empty of a wall"},
+         {"what", Dimension::number, "species or wall of the second"},
+         {"overlap", Dimension::length, ""},
+         {"overlap_share", Dimension::number, "of the smaller radius, as largest_overlap of measures.csv"},
+         {"normal_force", Dimension::force, ""},
+         {"height", Dimension::length, "of the contact above the floor"}},
+        {}};
+    table.most_of = "overlap";
+    all.resize(std::min(all.size(), most));
+    for (const ContactForce* one : all) {
+        AnswerCell second;
+        if (one->second >= 0) second = static_cast<std::int64_t>(one->second);
+        table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first), second,
+                              name_of_body(s, one->second), one->overlap, one->overlap / one->smaller_radius,
+                              one->normal_force, (one->point - s.frame.floor().place).z()});
+    }
+    Answer answer{{touching_pairs_table(s)}, {}};
+    if (most > 0) answer.tables.push_back(std::move(table));
+    if (s.forces->contacts.empty()) answer.notes.emplace_back("nothing touches");
+    return answer;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "engine/measure/columns.hpp"
+#include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/forces.hpp"
+#include "engine/questions/questions.hpp"
+#include "engine/questions/statistics.hpp"
+#include "engine/state/container_faces.hpp"
+
+namespace grainreel {
+namespace {
+
+AnswerTable moment_table(const Snapshot& s) {
+    AnswerTable table{
+        "moment",
+        "The moment",
+        {{"time", Dimension::time, "since the drive started"},
+         {"step", Dimension::number, ""},
+         {"cycles", Dimension::number, "periods of the drive"},
+         {"floor", Dimension::length, "the floor's height against its place at rest"},
+         {"grains", Dimension::number, ""},
+         {"contacts", Dimension::number, "that push, at walls too; empty where the run kept none"},
+         {"touching", Dimension::number, "without a force too; empty of a kept moment"}},
+        {}};
+    AnswerCell contacts, touching;
+    if (s.contacts) contacts = static_cast<std::int64_t>(s.frame.touches.size());
+    if (s.forces) touching = static_cast<std::int64_t>(s.forces->contacts.size());
+    table.rows.push_back({s.frame.time, s.frame.step, s.frame.cycles, s.frame.floor().place.z(),
+                          static_cast<std::int64_t>(s.frame.size()), contacts, touching});
+    return table;
+}
+
+AnswerTable species_table(const Snapshot& s) {
+    AnswerTable table{"species",
+                      "By species (kinetic energy with that of rotation: kinetic_J and rotational_J below)",
+                      {{"species", Dimension::number, "", AnswerColumn::kKey},
+                       {"grains", Dimension::number, ""},
+                       {"mass", Dimension::mass, "of all"},
+                       {"mean_height", Dimension::length, "above the floor", "grains"},
+                       {"lowest", Dimension::length, "", AnswerColumn::kThere},
+                       {"highest", Dimension::length, "", AnswerColumn::kThere},
+                       {"mean_rise", Dimension::length, "since the run's first moment", "grains"},
+                       {"mean_speed", Dimension::speed, "", "grains"},
+                       {"kinetic_energy", Dimension::energy, "of all"}},
+                      {},
+                      true};
+    const GrainVocabulary words(s);
+    const auto column = [&](const char* name) { return values_of(s, words.find(name)->column); };
+    const std::vector<double> height = column("height"), rise = column("rise"), speed = column("speed"),
+                              mass = column("mass"), energy = column("kinetic_energy");
+    for (std::size_t k = 0; k < s.scene.species.size(); ++k) {
+        const auto of_species = [&](const std::vector<double>& all) {
+            std::vector<double> own;
+            for (std::size_t i = 0; i < all.size(); ++i)
+                if (static_cast<std::size_t>(s.frame.species[i]) == k) own.push_back(all[i]);
+            return own;
+        };
+        const auto sum = [](const Statistics& of) { return of.mean * double(of.count); };
+        const Statistics heights = statistics_of(of_species(height));
+        table.rows.push_back({s.scene.species[k].name, static_cast<std::int64_t>(heights.count),
+                              sum(statistics_of(of_species(mass))), heights.mean, heights.least, heights.most,
+                              statistics_of(of_species(rise)).mean, statistics_of(of_species(speed)).mean,
+                              sum(statistics_of(of_species(energy)))});
+    }
+    return table;
+}
+
+// The highest grain that has another one within a tenth of its radius: the highest of all may be in flight.
+std::optional<std::size_t> tip_of_bed(const Snapshot& s) {
+    std::vector<std::size_t> order(s.frame.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return s.height(a) > s.height(b); });
+    for (const std::size_t i : order)
+        for (const std::size_t k : order) {
+            const double gap =
+                (s.frame.position[i] - s.frame.position[k]).norm() - s.frame.radius[i] - s.frame.radius[k];
+            if (i != k && gap < 0.1 * s.frame.radius[i]) return i;
+        }
+    return std::nullopt;
+}
+
+AnswerTable extremes_table(const Snapshot& s) {
+    AnswerTable table{"extremes",
+                      "Who stands out (tip of the bed: the highest grain that has another one beside it)",
+                      {{"what", Dimension::number, ""},
+                       {"id", Dimension::number, ""},
+                       {"species", Dimension::number, ""},
+                       {"height", Dimension::length, ""},
+                       {"speed", Dimension::speed, ""}},
+                      {}};
+    const GrainVocabulary words(s);
+    const auto add = [&](const char* what, const char* column, bool most) {
+        const Statistics of = statistics_of(values_of(s, words.find(column)->column));
+        if (of.count == 0) return;
+        const std::size_t i = most ? of.where_most : of.where_least;
+        table.rows.push_back({what, static_cast<std::int64_t>(s.frame.id[i]), name_of_body(s, s.frame.id[i]),
+                              s.height(i), s.frame.velocity[i].norm()});
+    };
+    add("highest", "height", true);
+    if (const auto tip = tip_of_bed(s))
+        table.rows.push_back({"tip of the bed", static_cast<std::int64_t>(s.frame.id[*tip]),
+                              name_of_body(s, s.frame.id[*tip]), s.height(*tip),
+                              s.frame.velocity[*tip].norm()});
+    add("lowest", "height", false);
+    add("fastest", "speed", true);
+    add("fastest spin", "spin", true);
+    add("moved most", "moved", true);
+    if (s.contacts) add("pressed most", "contact_force", true);
+    return table;
+}
+
+// What contacts.nc has of a wall: not in which direction friction pushes.
+std::vector<AnswerCell> kept_wall_row(const Snapshot& s, std::int32_t wall) {
+    std::int64_t count = 0;
+    double normal = 0;
+    for (const Touch& touch : s.frame.touches)
+        if (touch.second == wall) ++count, normal += touch.force;
+    return {name_of_body(s, wall), count, {}, {}, {}, normal};
+}
+
+// Forces of a moment that was brought back; else what the run kept; else the names alone.
+AnswerTable walls_table(const Snapshot& s) {
+    AnswerTable table{"walls",
+                      "Walls, and the force of the grains on them",
+                      {{"wall", Dimension::number, "as --wall has it", AnswerColumn::kKey},
+                       {"contacts", Dimension::number, "that push"},
+                       {"force_x", Dimension::force, ""},
+                       {"force_y", Dimension::force, ""},
+                       {"force_z", Dimension::force, ""},
+                       {"normal_force", Dimension::force, "sum"}},
+                      {},
+                      true};
+    const std::size_t count = faces_of(s.scene).size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto wall = static_cast<std::int32_t>(-1 - static_cast<std::int64_t>(k));
+        if (!s.forces) {
+            table.rows.push_back(s.contacts
+                                     ? kept_wall_row(s, wall)
+                                     : std::vector<AnswerCell>{name_of_body(s, wall), {}, {}, {}, {}, {}});
+            continue;
+        }
+        Vec3 force(0, 0, 0);
+        double normal = 0;
+        const std::vector<const ContactForce*> pushes = pushes_on_wall(s, wall);
+        for (const ContactForce* one : pushes) force += one->on_second(), normal += one->normal_force;
+        table.rows.push_back({name_of_body(s, wall), static_cast<std::int64_t>(pushes.size()), force.x(),
+                              force.y(), force.z(), normal});
+    }
+    return table;
+}
+
+// The first clause of what the documentation says of a column, without what leads to other places in it.
+std::string in_short(std::string about) {
+    about.erase(std::min(about.size(), about.find(';')));
+    if (const std::size_t link = about.find(" (see ["); link != std::string::npos) about.erase(link);
+    std::erase(about, '`');
+    return about;
+}
+
+// What the run's observers made of it: energies, segregation, how the bed stands. What has no value is left
+// out.
+AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
+    AnswerTable table{"measured",
+                      fmt::format("Measured at {:.6g} s", row.time),
+                      {{"quantity", Dimension::number, "a column of measures.csv", AnswerColumn::kKey},
+                       {"value", Dimension::number, "in the column's unit, or SI", AnswerColumn::kThere},
+                       {"about", Dimension::number, "", AnswerColumn::kKey},
+                       {"more", Dimension::number, "", AnswerColumn::kKey}},
+                      {},
+                      true};
+    table.mean_title = "Measured";
+    // Where the centres are is in the table of the species, when the row comes is its title.
+    const auto said_already = [](const std::string& name) {
+        return name == "step" || name == "time_s" || name == "cycles" || name.starts_with("phase") ||
+               name.find("centre_") != std::string::npos;
+    };
+    std::map<std::string, std::string> labels, abouts;
+    for (const ObserverEntry& entry : all_observers())
+        for (const ColumnGroup& group : entry.columns(s.scene))
+            for (const MeasureColumn& column : group.columns) {
+                labels[column.name] = column.label;
+                abouts[column.name] = in_short(group.about);
+            }
+    for (std::size_t k = 0; k < row.columns.size(); ++k) {
+        const std::string& name = row.columns[k];
+        if (said_already(name) || !std::isfinite(row.values[k])) continue;
+        if (name == "largest_overlap") abouts[name] += "; " + overlap_limit_words(s);
+        table.rows.push_back({name, row.values[k], labels[name], abouts[name]});
+    }
+    return table;
+}
+
+// m above the floor, of the container's rim; infinite without one.
+bool outside(const Snapshot& s, std::size_t i) {
+    const Container& c = s.scene.container;
+    if (c.shape == Container::Shape::none) return false;
+    const double r = s.frame.radius[i];
+    const Vec3 at = s.frame.position[i] - s.frame.container().place;
+    if (s.height(i) < -r) return true;
+    if (c.shape == Container::Shape::cylinder) return std::hypot(at.x(), at.y()) > c.half_width + r;
+    return std::abs(at.y()) > c.half_width + r;
+}
+
+}  // namespace
+
+Answer overview_of(const Snapshot& s) {
+    Answer answer{{moment_table(s), species_table(s), extremes_table(s)}, {}};
+    if (AnswerTable walls = walls_table(s); !walls.rows.empty()) answer.tables.push_back(std::move(walls));
+    if (s.measured) answer.tables.push_back(measured_table(s, *s.measured));
+    std::size_t out = 0, odd = 0;
+    for (std::size_t i = 0; i < s.frame.size(); ++i) {
+        out += outside(s, i);
+        odd += !s.frame.position[i].allFinite() || !s.frame.velocity[i].allFinite();
+    }
+    if (out > 0) answer.notes.push_back(fmt::format("{} grains are outside the container", out));
+    if (odd > 0)
+        answer.notes.push_back(fmt::format("{} grains have a place or a velocity that is no number", odd));
+    if (!s.contacts)
+        answer.notes.emplace_back(
+            "contacts of a kept moment are not known; --grain, --wall and --largest-overlap bring it back");
+    else if (!s.forces)
+        answer.notes.emplace_back(
+            "contacts are those that the run kept, which have no directions; --wall brings the moment back "
+            "with "
+            "them");
+    return answer;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,55 @@
+// Questions to a snapshot. Each answers with tables; numbers are SI. All throw UserError for what cannot be
+// asked, in words that lack the option's name.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "engine/questions/answer.hpp"
+#include "engine/questions/snapshot.hpp"
+
+namespace grainreel {
+
+// The moment, the species (count, mean height, height in flight, speeds), extremes, and what is odd: grains
+// outside the container, numbers that are none.
+Answer overview_of(const Snapshot& snapshot);
+
+// All columns of one grain; its contacts, where they are known. Of a moment that was brought back also how
+// they push, their sum against its weight and its acceleration, and its neighbours.
+Answer grain_answer(const Snapshot& snapshot, std::int64_t id);
+
+// Of a moment that was brought back. The wall is named as in contacts, "left slant" or "left_slant": its sums
+// of force and moment, the force by height, and the grains that touch it, at most `most` of them.
+Answer wall_answer(const Snapshot& snapshot, const std::string& name, std::size_t most);
+
+// Likewise: how many touch, how far they overlap and what the plan allows; the `most` contacts that overlap
+// most.
+Answer largest_overlap_answer(const Snapshot& snapshot, std::size_t most);
+
+// Grains for which `condition` holds: how many of each species, statistics of their columns, and a list of at
+// most `most` of them.
+Answer where_answer(const Snapshot& snapshot, const std::string& condition, std::size_t most);
+
+// Grains that a plane such as "y=0" or "z = 2 cm" cuts: their circles in it, by species and in a list of at
+// most `most`.
+Answer slice_answer(const Snapshot& snapshot, const std::string& plane, std::size_t most);
+
+// By bins of a column ("height", "x", "y", "z", or "r" about the container's axis) as wide as the mean
+// diameter: grains and solid volume by species, mean speed and mean upward velocity; along height and z in a
+// container also its solid fraction (solid_fraction.hpp).
+Answer profile_answer(const Snapshot& snapshot, const std::string& along);
+
+// Of a column: counts in `bins` equal bins from its smallest value to its largest, by species.
+Answer histogram_answer(const Snapshot& snapshot, const std::string& column, std::size_t bins);
+
+// Radial distribution g(r) of centres up to four mean diameters: partners found over those that a uniform bed
+// of as many grains would have in the box about all grains. A centre counts at r where it is at least that
+// far from the surface of the box, so that no partner of its own lies outside (border correction: Ripley,
+// Statistical Inference for Spatial Processes, 1988).
+Answer pair_distribution_answer(const Snapshot& snapshot);
+
+// The grains that moved most between two moments of a run, in the container's frame: at most `most` of them,
+// and statistics by species.
+Answer compare_answer(const Snapshot& before, const Snapshot& after, std::size_t most);
+
+}  // namespace grainreel

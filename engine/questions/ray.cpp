@@ -1,0 +1,90 @@
+#include "engine/questions/ray.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/state/container_faces.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+// A part of a ray; empty when from > to.
+struct Stretch {
+    double from = 0, to = endless;
+
+    void keep(double low, double high) {
+        from = std::max(from, low);
+        to = std::min(to, high);
+    }
+    bool empty() const { return !(from <= to); }
+};
+
+// Where |at(t) - centre| <= radius. The distance of the ray's line from the centre comes first, so that
+// grains far from the origin lose no digits.
+void keep_sphere(const Ray& ray, const Vec3& centre, double radius, Stretch& stretch) {
+    const Vec3 from = ray.origin - centre;
+    const double a = ray.direction.squaredNorm(), half = from.dot(ray.direction);
+    const Vec3 nearest = from - half / a * ray.direction;
+    const double rest = radius * radius - nearest.squaredNorm();
+    if (rest < 0) return stretch.keep(endless, -endless);
+    const double middle = -half / a, reach = std::sqrt(rest / a);
+    stretch.keep(middle - reach, middle + reach);
+}
+
+// Where value + slope t >= 0.
+void keep_where_positive(double value, double slope, Stretch& stretch) {
+    if (slope > 0) return stretch.keep(-value / slope, endless);
+    if (slope < 0) return stretch.keep(-endless, -value / slope);
+    if (value < 0) stretch.keep(endless, -endless);
+}
+
+void keep_cylinder(const Ray& ray, const Face& face, const Vec3& offset, Stretch& stretch) {
+    Ray flat = ray;
+    Vec3 axis = face.point + offset;
+    flat.origin.z() = flat.direction.z() = axis.z() = 0;
+    if (flat.direction.squaredNorm() > 0) return keep_sphere(flat, axis, face.radius, stretch);
+    if ((flat.origin - axis).norm() > face.radius) stretch.keep(endless, -endless);
+}
+
+}  // namespace
+
+std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std::vector<KeptHalf>& kept) {
+    std::vector<GrainOnRay> found;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        Stretch stretch;
+        keep_sphere(ray, frame.position[i], frame.radius[i], stretch);
+        if (stretch.empty()) continue;
+        for (const KeptHalf& half : kept)
+            keep_where_positive(half.normal.dot(ray.origin) - half.distance, half.normal.dot(ray.direction),
+                                stretch);
+        if (!stretch.empty()) found.push_back({i, stretch.from, stretch.to});
+    }
+    std::sort(found.begin(), found.end(),
+              [](const GrainOnRay& a, const GrainOnRay& b) { return a.from < b.from; });
+    return found;
+}
+
+std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const Frame& frame) {
+    if (scene.container.shape == Container::Shape::none) return std::nullopt;
+    Stretch inside;
+    std::string last;
+    for (const Face& face : container_faces(scene.container, scene.drive)) {
+        const Vec3 offset = frame.body(static_cast<std::size_t>(face.body.number)).place;
+        const double before = inside.to;
+        if (face.kind == Face::Kind::cylinder)
+            keep_cylinder(ray, face, offset, inside);
+        else
+            keep_where_positive(face.normal.dot(ray.origin - face.point - offset),
+                                face.normal.dot(ray.direction), inside);
+        if (inside.to < before) last = face.name;
+    }
+    if (inside.empty() || inside.to == endless) return std::nullopt;
+    const double rim = scene.container.height + frame.container().place.z();
+    if (ray.at(inside.to).z() > rim) return std::nullopt;
+    return WallOnRay{last, inside.to};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,240 @@
+#include "engine/step/motion/integrate.hpp"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/step/motion/integrate.cpp"
+#include "engine/vector/targets.hpp"
+//
+#include "engine/vector/record-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+constexpr std::uint64_t kAllTogether = (1 << kTogether) - 1;
+
+// The numbers of the grains: position and radius; motion; force and torque. Grain i's place starts at
+// place + 4 i, the others at 8 i.
+struct Numbers {
+    double *place, *motion, *load;
+    float* rounded;
+    const Loaded* loaded;
+    const std::uint64_t otherwise;
+    bool large;
+    Numbers(Grains& g, const KickInput& in)
+        : place(reinterpret_cast<double*>(g.place.data())),
+          motion(reinterpret_cast<double*>(g.motion.data())),
+          load(reinterpret_cast<double*>(g.load.data())),
+          rounded(g.rounded.empty() ? nullptr : reinterpret_cast<float*>(g.rounded.data())),
+          loaded(in.loaded && in.loaded->few() ? in.loaded : nullptr),
+          otherwise(in.unloaded ? 0 : ~std::uint64_t{0}),
+          large(g.size() >= kLargeBed) {}
+
+    // Bit k says whether grain i + k may have a load.
+    HWY_INLINE std::uint64_t loads_from(std::ptrdiff_t i) const {
+        return loaded ? loaded->from(static_cast<std::int32_t>(i)) : otherwise;
+    }
+
+    // Fetches kTogether grains that lie some way ahead of grain i. `loads` are the bits of loads_from(i). In
+    // a large bed everything is fetched. In a small bed contacts have brought it into the cache already,
+    // except the motion where contacts read its rounded copy.
+    HWY_INLINE void fetch_ahead(std::ptrdiff_t i, std::uint64_t loads) const {
+        constexpr std::ptrdiff_t ahead = 32;
+        if (!large && !rounded) return;
+        const std::ptrdiff_t later = i + ahead;
+        for (std::ptrdiff_t k = later; k < later + kTogether; ++k) __builtin_prefetch(motion + 8 * k, 1);
+        if (!large) return;
+        for (std::ptrdiff_t k = later; k < later + kTogether; k += 2) __builtin_prefetch(place + 4 * k, 1);
+        if (rounded)
+            for (std::ptrdiff_t k = later; k < later + kTogether; k += 2)
+                __builtin_prefetch(rounded + 8 * k, 1);
+        if ((loads >> ahead & kAllTogether) == 0) return;
+        for (std::ptrdiff_t k = later; k < later + kTogether; ++k) __builtin_prefetch(load + 8 * k, 1);
+    }
+};
+
+// The part of motion and load that a pass works on: velocity and force. With friction, spin and torque
+// follow.
+template <bool rubs>
+struct MotionRecord {
+    static constexpr int size = rubs ? 8 : 4;
+    static HWY_INLINE Record<size> of(const Record<4>& first, const Record<4>& second) {
+        if constexpr (rubs)
+            return both(first, second);
+        else
+            return first;
+    }
+    // (x, x, x, fourth), twice. With fourth = 0 a kick leaves mass and inertia as they are.
+    static HWY_INLINE Record<size> of(double x, double fourth = 0) {
+        const Record<4> four = record_of(Vec3(x, x, x), fourth);
+        return of(four, four);
+    }
+    // Velocity, spin and radius: the record that mixed precision reads.
+    static HWY_INLINE Record<8> with_radius(const Record<size>& motion, double radius) {
+        if constexpr (rubs)
+            return with_last(motion, radius);
+        else
+            return both(motion, with_last(record_of(0.0), radius));
+    }
+    // Each half filled with its own fourth number.
+    static HWY_INLINE Record<size> fourths(const double* from) {
+        return of(record_of(from[3]), record_of(from[7]));
+    }
+};
+
+// A pass over the grains that ends a step, begins one, or both; `closes`: with a drift between the two. That
+// drift and the next one are two sums, so that a run in pieces has the bits of the run in one.
+template <bool ends, bool begins, bool closes, bool rubs, bool drags>
+HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    using Whole = MotionRecord<rubs>;
+    constexpr int size = Whole::size;
+    const Numbers at(grains, in);
+    const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
+    const Record<4> closing = record_of(Vec3(in.closing_drift, in.closing_drift, in.closing_drift));
+    const Record<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
+    const Record<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
+    const Vec3 no_minus_zero = in.gravity + Vec3::Zero();  // the same bits as with a load of zero
+    const Record<size> gravity = Whole::of(record_of(no_minus_zero), zero);
+    const Record<size> frame = Whole::of(record_of(in.frame), zero);
+    Record<4> fastest = zero;
+    const auto go_on = [&](std::ptrdiff_t i, auto has_load) HWY_ATTR {
+        double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
+        Record<size> now = record_at<size>(motion), gains = gravity;
+        if (has_load.value) gains = multiply_add(record_at<size>(load), Whole::fourths(motion), gravity);
+        if (ends) now = multiply_add(last, gains, now);
+        if (ends && drags) now = now * keep;
+        if (begins) {
+            now = multiply_add(next, gains, now);
+            double* place = at.place + 4 * i;
+            const double radius = place[3];
+            Record<4> moved = record_at<4>(place);
+            if (closes) moved = multiply_add(closing, first_four(now), moved);
+            put(multiply_add(whole, first_four(now), moved), place);
+            if (has_load.value) put(nothing, load);
+            const Record<size> relative = now - frame;
+            fastest = larger_size(fastest, first_four(relative));
+            if (at.rounded) put_rounded(Whole::with_radius(relative, radius), at.rounded + 8 * i);
+        }
+        put(now, motion);
+    };
+    std::ptrdiff_t i = begin;
+    for (; i + kTogether <= end; i += kTogether) {
+        const std::uint64_t loads = at.loads_from(i);
+        at.fetch_ahead(i, loads);
+        if (loads & kAllTogether)
+            for (int k = 0; k < kTogether; ++k) go_on(i + k, std::true_type());
+        else
+            for (int k = 0; k < kTogether; ++k) go_on(i + k, std::false_type());
+    }
+    for (; i < end; ++i) go_on(i, std::true_type());
+    HWY_ALIGN double f[4];
+    put(fastest, f);
+    return {f[0], f[1], f[2]};
+}
+
+template <bool ends, bool begins, bool closes = false>
+HWY_INLINE Vec3 pass(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const auto of = [&](auto rubs, auto drags) HWY_ATTR {
+        return pass_of<ends, begins, closes, rubs.value, drags.value>(grains, in, begin, end);
+    };
+    const std::true_type yes;
+    const std::false_type no;
+    if (in.keep == 1) return in.rubs ? of(yes, no) : of(no, no);
+    return in.rubs ? of(yes, yes) : of(no, yes);
+}
+
+Vec3 first_half(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    return pass<false, true>(grains, in, begin, end);
+}
+
+Vec3 second_half(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    return pass<true, false>(grains, in, begin, end);
+}
+
+Vec3 both_halves(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    return in.closing_drift == 0 ? pass<true, true>(grains, in, begin, end)
+                                 : pass<true, true, true>(grains, in, begin, end);
+}
+
+void only_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const Numbers at(grains, in);
+    const Record<4> whole = record_of(Vec3(in.drift, in.drift, in.drift));
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+        double* place = at.place + 4 * i;
+        put(multiply_add(whole, record_at<4>(at.motion + 8 * i), record_at<4>(place)), place);
+    }
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grainreel {
+
+namespace {
+
+// Rotates q about the axis of `rate` by the angle |rate| * step. q keeps unit length.
+Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
+    const double angle = rate.norm() * step;
+    if (angle == 0) return q;
+    return (Quaternion(Eigen::AngleAxisd(angle, rate.normalized())) * q).normalized();
+}
+
+}  // namespace
+
+void turn(Grains& grains, const KickInput& in, double time, std::int32_t begin, std::int32_t end) {
+    if (!in.rubs || grains.orientation.empty()) return;
+    for (std::int32_t i = begin; i < end; ++i) {
+        grains.orientation[i] = turned(grains.orientation[i], grains.motion[i].spin, time);
+    }
+}
+
+HWY_EXPORT(first_half);
+HWY_EXPORT(second_half);
+HWY_EXPORT(both_halves);
+HWY_EXPORT(only_drift);
+
+Vec3 kick_and_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const Vec3 fastest = HWY_DYNAMIC_DISPATCH(first_half)(grains, in, begin, end);
+    turn(grains, in, in.drift, begin, end);
+    return fastest;
+}
+
+void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    HWY_DYNAMIC_DISPATCH(second_half)(grains, in, begin, end);
+}
+
+Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    const Vec3 fastest = HWY_DYNAMIC_DISPATCH(both_halves)(grains, in, begin, end);
+    if (in.closing_drift != 0) turn(grains, in, in.closing_drift, begin, end);
+    turn(grains, in, in.drift, begin, end);
+    return fastest;
+}
+
+void fly(Grains& grains, const FreeFlight& flight, std::int32_t begin, std::int32_t end) {
+    KickInput kicks = flight.kicks;
+    kicks.unloaded = true;
+    kicks.loaded = nullptr;
+    flight.begins ? HWY_DYNAMIC_DISPATCH(first_half)(grains, kicks, begin, end)
+                  : HWY_DYNAMIC_DISPATCH(both_halves)(grains, kicks, begin, end);
+}
+
+void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    HWY_DYNAMIC_DISPATCH(only_drift)(grains, in, begin, end);
+    turn(grains, in, in.drift, begin, end);
+}
+
+void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
+    if (grains.rounded.empty()) return;
+    for (std::int32_t i = begin; i < end; ++i) {
+        const Eigen::Vector3f velocity = (grains.motion[i].velocity - in.frame).cast<float>();
+        const Eigen::Vector3f rate = grains.motion[i].spin.cast<float>();
+        grains.rounded[i] = {{velocity.x(), velocity.y(), velocity.z()},
+                             static_cast<float>(grains.motion[i].inverse_mass),
+                             {rate.x(), rate.y(), rate.z()},
+                             static_cast<float>(grains.place[i].radius)};
+    }
+}
+
+}  // namespace grainreel
+#endif

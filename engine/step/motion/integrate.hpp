@@ -1,0 +1,62 @@
+// Kicks and drifts of the grains, and the prediction and correction of Gear's method. scheme.hpp says in
+// which order an integrator uses them.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/state/grains.hpp"
+#include "engine/step/motion/loaded.hpp"
+
+namespace grainreel {
+
+struct KickInput {
+    Vec3 gravity{0, 0, 0};     // m/s2
+    bool rubs = false;         // spins follow torques
+    double keep = 1;           // share of velocity and spin that drag leaves after an ending kick
+    Vec3 frame{0, 0, 0};       // m/s; speeds are measured and motion is rounded relative to this velocity
+    double end_kick = 0;       // s, length of the kick that ends a step
+    double begin_kick = 0;     // s, length of the kick that begins the next step, by the same forces
+    double closing_drift = 0;  // s, length of the drift that ends a step, where the next one begins at once
+    double drift = 0;          // s, length of the drift that begins a step
+    const Loaded* loaded = nullptr;  // grains that may have a load; nullptr: all may
+    bool unloaded = false;           // true: no grain has a load
+};
+
+// Loads are skipped where this many grains in a row have none. A choice for every single grain would be
+// mispredicted.
+constexpr int kTogether = 4;
+
+// Begins a step of the grains [begin, end): a kick, then a drift. Sets the loads to zero. Returns the largest
+// components (m/s) of the velocities relative to the frame.
+Vec3 kick_and_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// Ends a step: the last kick. The loads stay.
+void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// Ends one step and begins the next in one pass. The bits are the same as with kick() and kick_and_drift().
+Vec3 kick_and_go_on(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// Moves grains that have no load. Neither loads nor orientations nor speeds are needed for that.
+struct FreeFlight {
+    const KickInput& kicks;
+    bool begins;  // true: as kick_and_drift() does; false: as kick_and_go_on() does
+};
+void fly(Grains& grains, const FreeFlight& flight, std::int32_t begin, std::int32_t end);
+
+// A drift of the length `in.drift` without a kick. The loads stay.
+void drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// Turns the orientations of the grains, where they are in use, by their spins for `time` (s).
+void turn(Grains& grains, const KickInput& in, double time, std::int32_t begin, std::int32_t end);
+
+// Gear's method with four values for positions and three for spins. predict() goes to the end of `in.drift`
+// and returns what kick_and_drift() returns. correct() then applies the new forces. begin_derivatives() sets
+// the derivatives for the first prediction from the present forces.
+void begin_derivatives(Grains& grains, const KickInput& in);
+Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+// Sets Grains::rounded where it is in use. All functions that begin a step do this as well.
+void round_motion(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
+
+}  // namespace grainreel

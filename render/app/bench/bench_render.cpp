@@ -1,0 +1,274 @@
+#include "render/app/bench/bench_render.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/lab/bench/peers_bed.hpp"
+#include "engine/lab/bench/settled_bed.hpp"
+#include "render/app/report/result.hpp"
+#include "render/app/report/share_watcher.hpp"
+#include "render/film/codec/encoder.hpp"
+#include "render/film/files/png.hpp"
+#include "render/picture/container/container_drawing.hpp"
+#include "render/picture/spheres/light/lamp.hpp"
+#include "render/picture/whole/renderer.hpp"
+#include "render/picture/words/layout.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int kSignalBase = 128;
+
+Species species(const char* name, double diameter, const Colour& colour) {
+    Species s;
+    s.name = name;
+    s.diameter = {SizeSpread::Kind::fixed, diameter, diameter, diameter, 0};
+    s.density = 2500;
+    s.colour = colour;
+    return s;
+}
+
+// A box as high as the bed.
+Scene scene_of(const SettledBed& bed, const BenchRenderRequest& request) {
+    Scene scene;
+    scene.name = "bench";
+    scene.film = request.film;
+    scene.species = {species("small", kPeersSmall, {0.337, 0.706, 0.914}),
+                     species("big", kPeersBig, {0.902, 0.624, 0.0})};
+    for (const std::int32_t kind : bed.grains.species) ++scene.species[static_cast<std::size_t>(kind)].count;
+    scene.container.shape = Container::Shape::box;
+    scene.container.half_width = 0.5 * bed.side;
+    scene.container.depth = bed.side;
+    scene.container.height = bed.height;
+    scene.container.lid = false;
+    scene.drive.present = true;
+    scene.drive.frequency = 25;
+    scene.drive.amplitude = 1.19e-3;
+    return scene;
+}
+
+Frame frame_of(const SettledBed& bed) {
+    Frame frame;
+    const Grains& g = bed.grains;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+        frame.id.push_back(g.id[i]);
+        frame.species.push_back(g.species[i]);
+        frame.radius.push_back(g.place[i].radius);
+        frame.position.push_back(g.place[i].position);
+    }
+    frame.velocity.assign(g.size(), Vec3(0, 0, 0));
+    frame.spin = frame.velocity;
+    return frame;
+}
+
+// Closer, until the grains fill the height of their part of the picture, or its width; then by the zoom asked
+// for.
+void fill_picture(Scene& scene, const Frame& frame) {
+    scene.film.words = WordPlace::gutters;  // the zoom is not a user's
+    const double zoom = std::exchange(scene.film.camera.zoom, 1.0);
+    const View view = frame_container(scene, plan_layout(scene));
+    double widest = 1, highest = 1;  // pixels from the middle
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const Vec3 at = view.to_view(frame.position[i]);
+        const double scale = view.focal / (view.orthographic ? 1 : at.z());
+        widest = std::max(widest, (std::abs(at.x()) + frame.radius[i]) * scale);
+        highest = std::max(highest, (std::abs(at.y()) + frame.radius[i]) * scale);
+    }
+    scene.film.camera.zoom =
+        zoom * std::min(0.5 * view.port.height / highest, 0.5 * view.port.width / widest);
+}
+
+double milliseconds() {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+}
+
+struct DrawStage {
+    const char* name;
+    double DrawTimes::*time;
+};
+constexpr std::array<DrawStage, 8> kStages = {{{"upload", &DrawTimes::upload},
+                                               {"spheres", &DrawTimes::spheres},
+                                               {"shading", &DrawTimes::shading},
+                                               {"occlusion", &DrawTimes::occlusion},
+                                               {"shadow", &DrawTimes::shadow},
+                                               {"walls", &DrawTimes::walls},
+                                               {"overlay", &DrawTimes::overlay},
+                                               {"readback", &DrawTimes::readback}}};
+
+// The share of the picture that shows grains: where it differs from one without them.
+double coverage(Renderer& renderer, const Frame& frame) {
+    const Picture full = renderer.draw(frame, "");
+    const Picture& bare = renderer.draw(Frame{}, "");
+    std::int64_t covered = 0;
+    for (std::size_t i = 0; i < full.rgba.size(); i += 4)
+        covered += !std::equal(&full.rgba[i], &full.rgba[i] + 3, &bare.rgba[i]);
+    return static_cast<double>(covered) / (static_cast<double>(full.width) * full.height);
+}
+
+// Medians of the stages, as they are drawn: what shadows and occlusion cost is what a picture costs less
+// without them, since both are part of a grain's light.
+class StageTimes {
+  public:
+    StageTimes(const Scene& scene, int threads) {
+        Scene less = scene;
+        add(less, threads);
+        less.film.look.shadows = false;
+        add(less, threads);
+        less.film.look.occlusion = false;
+        add(less, threads);
+    }
+    Renderer& full() { return *renderers_.front().renderer; }
+
+    void measure(const Frame& frame) {
+        for (Variant& variant : renderers_) {
+            const DrawTimes times = variant.renderer->draw_timed(frame, "");
+            for (std::size_t s = 0; s < kStages.size(); ++s)
+                variant.times[s].push_back(times.*kStages[s].time);
+        }
+    }
+    DrawTimes medians() const {
+        const DrawTimes all = of(0), unshadowed = of(1), plain = of(2);
+        const auto light = [](const DrawTimes& t) { return t.occlusion + t.shading; };
+        DrawTimes times = all;
+        times.shading = light(plain);
+        times.occlusion = std::max(0.0, light(unshadowed) - light(plain));
+        times.shadow += std::max(0.0, light(all) - light(unshadowed));
+        return times;
+    }
+
+  private:
+    struct Variant {
+        std::unique_ptr<Renderer> renderer;
+        std::array<std::vector<double>, kStages.size()> times;
+    };
+    void add(const Scene& scene, int threads) {
+        renderers_.push_back({std::make_unique<Renderer>(scene, threads), {}});
+    }
+    DrawTimes of(std::size_t variant) const {
+        DrawTimes times;
+        for (std::size_t s = 0; s < kStages.size(); ++s)
+            times.*kStages[s].time = median(renderers_[variant].times[s]);
+        return times;
+    }
+
+    std::vector<Variant> renderers_;
+};
+
+double encode_time(const Picture& picture, const Film& film, int threads) {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("grainreel-bench-{}.mp4", ::getpid());
+    constexpr int kFrames = 30;
+    const double begin = milliseconds();
+    {
+        EncoderSettings settings;
+        settings.path = path;
+        settings.width = film.width;
+        settings.height = film.height;
+        settings.quality = film.quality;
+        settings.preset = film.preset;
+        settings.threads = threads;
+        Encoder encoder(settings);
+        for (int i = 0; i < kFrames; ++i) encoder.add(picture);
+        encoder.finish();
+    }
+    const double taken = milliseconds() - begin;
+    std::filesystem::remove(path);
+    return taken / kFrames;
+}
+
+// The picture, and what another renderer needs for the same one: spheres in view coordinates (x right, y up,
+// z away from the eye) and the camera.
+void keep(const std::filesystem::path& folder, const Picture& picture, const Frame& frame, const View& view) {
+    std::filesystem::create_directories(folder);
+    write_png(folder / "picture.png", picture, {});
+    std::string table = "x,y,z,radius,species\n";
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const Vec3 at = view.to_view(frame.position[i]);
+        table += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{}\n", at.x(), at.y(), at.z(), frame.radius[i],
+                             frame.species[i]);
+    }
+    replace_file(folder / "grains.csv", table);
+    const Lamp lamp;
+    const nlohmann::ordered_json camera = {
+        {"orthographic", view.orthographic},
+        {"focal", view.focal},
+        {"centre", {view.port.x + 0.5 * view.port.width, view.port.y + 0.5 * view.port.height}},
+        {"width", picture.width},
+        {"height", picture.height},
+        {"to_key", lamp.to_key}};
+    replace_file(folder / "camera.json", camera.dump(2) + "\n");
+}
+
+}  // namespace
+
+int bench_render(const BenchRenderRequest& request, Reporter& reporter) {
+    const int threads = request.threads > 0 ? request.threads : usable_processors();
+    const ShareWatcher watcher(reporter, Progress::Stage::timing);
+    const SettledBed bed =
+        settled_bed(request.grains, threads, [&](double done) { return watcher("settling", 0.5 * done); });
+    if (bed.grains.size() == 0) {
+        reporter.info("stopped; nothing was measured to its end");
+        return kSignalBase + stop_signal();
+    }
+    Scene scene = scene_of(bed, request);
+    const Frame frame = frame_of(bed);
+    fill_picture(scene, frame);
+    StageTimes stages(scene, threads);
+    Renderer& renderer = stages.full();
+    const double covered = coverage(renderer, frame);
+    std::vector<double> totals;
+    for (int r = 0; r < request.repeats; ++r) {
+        if (!watcher("drawing", 0.5 + 0.5 * r / request.repeats)) break;
+        const double begin = milliseconds();
+        renderer.draw(frame, "");
+        totals.push_back(milliseconds() - begin);
+        stages.measure(frame);
+    }
+    reporter.clear();
+    if (totals.empty()) return kSignalBase + stop_signal();
+    const Picture& picture = renderer.draw(frame, "");
+    if (request.out) keep(*request.out, picture, frame, renderer.view());
+    using Json = nlohmann::ordered_json;
+    Json ms = {{"total", median(totals)}};
+    const DrawTimes medians = stages.medians();
+    for (const DrawStage& stage : kStages) ms[stage.name] = medians.*stage.time;
+    ms["encode"] = encode_time(picture, scene.film, threads);
+    const Json all = {{"grains", bed.grains.size()},
+                      {"width", scene.film.width},
+                      {"height", scene.film.height},
+                      {"style", request.style},
+                      {"gl", renderer.gl_description()},
+                      {"threads", threads},
+                      {"coverage", covered},
+                      {"ms_per_frame", ms}};
+    if (request.json) {
+        print_result(all.dump(2) + "\n");
+        return 0;
+    }
+    print_result(fmt::format(
+        "{} grains, {}x{}, {}, {} threads, coverage {:.2f}; ms a frame (median of {}):\n", bed.grains.size(),
+        scene.film.width, scene.film.height, renderer.gl_description(), threads, covered, totals.size()));
+    for (const auto& [name, value] : ms.items())
+        print_result(fmt::format("{:>12}{:>9.2f}\n", name, value.get<double>()));
+    return 0;
+}
+
+}  // namespace grainreel

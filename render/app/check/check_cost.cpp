@@ -1,0 +1,99 @@
+// What will come out of it, and what that costs.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/team.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/app/check/check_parts.hpp"
+#include "render/app/estimate/cost_estimate.hpp"
+#include "render/app/estimate/disk_estimate.hpp"
+#include "render/film/codec/codec.hpp"
+#include "render/film/production/caption_holds.hpp"
+#include "render/film/sampling/film_limits.hpp"
+
+namespace grainreel {
+namespace {
+
+// Of records: how often they come.
+std::string interval_text(double periods, double steps, const Plan& plan) {
+    if (periods > 0) return periods == 1 ? "period" : fmt::format("{:.3g} periods", periods);
+    return span_text(steps * plan.clock.step);
+}
+
+constexpr double engine_bytes_a_grain = 600;
+constexpr double bytes_a_pixel = 122;  // from the renderer to the encoder, and what those keep themselves
+constexpr double bytes_of_program = 138e6;  // with its libraries, the software rasteriser above all
+
+std::string film_format_text(const Film& film) {
+    return film.format == FilmFormat::png ? std::string("PNG pictures") : codec_of(film.format).words;
+}
+
+std::string threads_text(int threads) {
+    return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::int64_t frames_of(const std::vector<SegmentCount>& film) {
+    std::int64_t frames = 0;
+    for (const SegmentCount& segment : film) frames += segment.shots;
+    return frames;
+}
+
+void print_files(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {
+    const std::int64_t pictures = frames_of(film), held = held_frames(scene.film);
+    const DiskEstimate disk = estimate_disk(scene, plan, pictures + held);
+    list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {} frames, plays for {}", scene.film.width,
+                                  scene.film.height, scene.film.rate, pictures + held,
+                                  span_text(static_cast<double>(pictures + held) / scene.film.rate)));
+    if (held > 0)
+        list.line("", fmt::format("{} of that it stands still for captions",
+                                  span_text(static_cast<double>(held) / scene.film.rate)));
+    for (const FilmSegment& segment : scene.film.segments)
+        list.line("", fmt::format("{}: {}", segment.duration ? span_text(*segment.duration) : "the rest",
+                                  playback_caption(played(segment, scene.film.rate, plan.clock), scene.drive,
+                                                   scene.film.rate)));
+    list.line("files",
+              fmt::format(
+                  "film ({}) about {}{}", film_format_text(scene.film), data_size_text(disk.film),
+                  scene.film.max_size
+                      ? fmt::format(", {} at most", data_size_text(static_cast<double>(*scene.film.max_size)))
+                      : ""));
+    if (disk.trajectory_frames > 0)
+        list.line("", fmt::format("trajectory {}, {} frames, one every {}", data_size_text(disk.trajectory),
+                                  grouped(disk.trajectory_frames),
+                                  interval_text(plan.trajectory_periods, plan.trajectory_every, plan)));
+    list.line("", fmt::format("measures {}, {} rows, one every {}", data_size_text(disk.measures),
+                              grouped(disk.measures_rows),
+                              interval_text(plan.measures_periods, plan.measures_every, plan)));
+    if (disk.checkpoints + disk.film_moments > 0)
+        list.line("",
+                  fmt::format("so that any moment comes back: checkpoints up to {}, moments of the film {}",
+                              data_size_text(disk.checkpoints), data_size_text(disk.film_moments)));
+}
+
+void print_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {
+    const auto grains = static_cast<double>(scene.grains());
+    const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
+    list.line("memory",
+              fmt::format("about {}", data_size_text(bytes_of_program + grains * engine_bytes_a_grain +
+                                                     pixels * bytes_a_pixel)));
+    const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
+    const ThreadPlan threads = plan_threads(processors, true, scene.grains());
+    const MachineFigures machine = machine_figures(scene, plan, threads);
+    const CostEstimate cost = estimate_cost(scene, plan, film, threads, machine);
+    list.line("cost",
+              fmt::format("{:.2g} grain-steps, {:.0f} % of them for packing: {} on {}, at {:.2g} a second "
+                          "and thread",
+                          cost.grain_steps, 100 * cost.packing_share,
+                          span_text(cost.packing_seconds + cost.engine_seconds), threads_text(threads.engine),
+                          cost.engine_one));
+    list.line("", fmt::format("{} for the film, with {} of one processor's time a frame",
+                              span_text(cost.film_seconds), span_text(cost.frame_seconds)));
+    list.line("", fmt::format(
+                      "together about {} on {}, {}", span_text(cost.total_seconds), threads_text(processors),
+                      threads.take_turns ? "engine and film in turn" : "engine and film beside each other"));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,118 @@
+// How it is computed: what is modelled, and each kind of contact.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/lab/chart/accuracy/promised_error.hpp"
+#include "engine/plan/contact_kinds.hpp"
+#include "engine/scene/bed.hpp"
+#include "render/app/check/check_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+std::string stiffness_text(const PairPlan& pair) {
+    return pair.modulus > 0 ? fmt::format("{:.3g} Pa", pair.modulus)
+                            : fmt::format("{:.3g} N/m", pair.loading_stiffness);
+}
+
+}  // namespace
+
+void print_model(const Scene& scene, const Plan& plan, Listing& list) {
+    std::vector<std::string> in, out;
+    const auto any = [&](auto&& is) {
+        const auto of = [&](const PairPlan& pair) { return is(pair.model); };
+        return std::any_of(plan.grain.begin(), plan.grain.end(), of) ||
+               std::any_of(plan.wall.begin(), plan.wall.end(), of);
+    };
+    const auto note = [&](bool used, const char* what) {
+        if (used) in.push_back(what);
+    };
+    const auto normal = [&](NormalForce law) {
+        return any([&](const ContactModel& m) { return m.normal == law; });
+    };
+    const auto tangential = [&](TangentialLaw law) {
+        return any([&](const ContactModel& m) { return m.tangential == law; });
+    };
+    const bool by_speed = normal(NormalForce::walton_braun_speed) || normal(NormalForce::walton_braun_table);
+    const bool corrected = normal(NormalForce::walton_braun_corrected);
+    note(normal(NormalForce::walton_braun) || corrected || by_speed,
+         "normal force: Walton-Braun latching spring");
+    note(corrected, "corrections of onset, peak and exit");
+    note(by_speed, "restitution that depends on speed");
+    note(normal(NormalForce::spring_dashpot), "normal force: linear spring and dashpot");
+    note(normal(NormalForce::hertz), "normal force: Hertz with dashpot");
+    note(tangential(TangentialLaw::incremental_slip), "friction: Walton's incremental slip");
+    note(tangential(TangentialLaw::linear_spring), "friction: linear spring with Coulomb's cap");
+    note(tangential(TangentialLaw::mindlin), "friction: Mindlin's spring with Coulomb's cap");
+    const bool rubs = plan.rubs();
+    (plan.rolls() ? in : out).push_back("rolling resistance");
+    note(scene.run.precision == Precision::mixed, "contact laws in single precision");
+    (rubs ? in : out).push_back("spin and torque");
+    if (!rubs) out.push_back("friction");
+    (scene.gravity.norm() > 0 ? in : out).push_back("gravity");
+    (plan.moving_walls ? in : out).push_back("moving walls");
+    for (const char* absent : {"air", "cohesion", "wear and breakage"}) out.push_back(absent);
+    if (normal(NormalForce::walton_braun) || corrected) out.push_back("restitution that depends on speed");
+    list.line("modelled", fmt::format("{}", fmt::join(in, ", ")));
+    list.line("left out", fmt::format("{}", fmt::join(out, ", ")));
+}
+
+namespace {
+
+// A row of the table.
+struct Kind {
+    std::string name, restitution;
+    const PairPlan* pair;
+    const Species* first;
+    const Species* second;  // null for a wall
+};
+
+// "0.5", or over the sizes of both: "0.29 to 0.82".
+std::string restitution_text(const Plan& plan, const PairPlan& pair, const Species& a, const Species* b) {
+    const RestitutionRange range = restitution_range(plan, pair, a, b);
+    const std::string low = fmt::format("{:.3g}", range.low), high = fmt::format("{:.3g}", range.high);
+    return low == high ? low : low + " to " + high;
+}
+
+std::vector<Kind> kinds_of(const Scene& scene, const Plan& plan, const Species* glued) {
+    std::vector<Kind> kinds;
+    const auto add = [&](const std::string& name, const PairPlan& pair, const Species& a, const Species* b) {
+        kinds.push_back({name, restitution_text(plan, pair, a, b), &pair, &a, b});
+    };
+    for (std::size_t a = 0; a < scene.species.size(); ++a) {
+        const Species& first = scene.species[a];
+        if (first.all() == 0) continue;  // glued only
+        for (std::size_t b = a; b < scene.species.size(); ++b) {
+            const Species& second = scene.species[b];
+            if (second.all() > 0 && (a != b || first.all() > 1))  // a single grain never meets its like
+                add(first.name + " - " + second.name, plan.between(a, b), first, &second);
+        }
+        if (scene.container.shape != Container::Shape::none || !scene.walls.empty())
+            add(first.name + " - wall", plan.wall[a], first, nullptr);
+        if (glued) add(first.name + " - glued", plan.glued[a], first, glued);
+    }
+    return kinds;
+}
+
+}  // namespace
+
+void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
+    const bool rough = !plan.glued.empty();
+    const Species glued = rough ? glued_species(scene) : Species();
+    std::size_t widest = 8, longest = 6;
+    const std::vector<Kind> kinds = kinds_of(scene, plan, rough ? &glued : nullptr);
+    for (const Species& s : scene.species) widest = std::max(widest, 2 * s.name.size() + 3);
+    for (const Kind& kind : kinds) longest = std::max(longest, kind.restitution.size());
+    fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>{}}{:>8}{:>10}{:>12}{:>9}\n", "contacts", "", widest,
+               "stiffness", "chosen for", "e", longest, "error", "friction", "duration", "steps");
+    for (const Kind& kind : kinds) {
+        const PairPlan& pair = *kind.pair;
+        fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>{}}{:>8}{:>10.3g}{:>12}{:>9.1f}\n", "", kind.name,
+                   widest, stiffness_text(pair), pair.stiffness_reason, kind.restitution, longest,
+                   promised_error_text(promised_restitution_error(plan, pair, *kind.first, kind.second)),
+                   pair.friction, span_text(pair.contact_time), pair.contact_time / plan.clock.step);
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,38 @@
+// What a study will cost, from the scenes of its settings.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/app/estimate/cost_estimate.hpp"
+#include "render/app/study/file/members.hpp"
+
+namespace grainreel {
+
+// Of one member, on one thread.
+struct MemberEstimate {
+    double seconds = 0, bytes = 0;
+};
+
+// Settings are told as they are planned.
+class StudyEstimate {
+  public:
+    // measured: false reckons with a machine of the kind, which does for comparing members.
+    StudyEstimate(int jobs, bool films, bool measured) : jobs_(jobs), films_(films), measured_(measured) {}
+
+    void add_setting(const Scene& scene, const Plan& plan);
+    MemberEstimate of(const Member& member) const;
+    // s, until the last of these members is done when so many run at a time, each begun when another ends.
+    double wall_seconds(const std::vector<const Member*>& members) const;
+
+  private:
+    int jobs_;
+    bool films_, measured_;
+    MachineFigures machine_;
+    double side_by_side_ = 1;  // speed of one of the jobs over that of one alone
+    std::vector<MemberEstimate> settings_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,208 @@
+#include "render/app/estimate/engine_cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/base/smooth_step.hpp"
+#include "engine/plan/rain_plan.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/start/relax.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/motion/scheme.hpp"
+
+namespace grainreel {
+namespace {
+
+// All measured by processor time (docs/notes/performance.md). Contacts a grain of a bed at rest.
+constexpr double kAtRest = 4.5, kAtRestWithoutFriction = 5.8;
+// In a shaken bed some contacts are left at any strength. The others become fewer at this rate with the
+// strength.
+constexpr double kThrown = 0.25, kFallsOff = 2.6;
+
+// Over a step of a grain of the lattice: a step of a grain without contacts, and what a contact of it adds.
+constexpr double kGrain = 0.23, kGrainWithoutSpin = 0.115, kGrainOfGas = 0.15, kContact = 0.165;
+// A part of it is for new lists, which last for some time and so for the more steps the shorter these are.
+constexpr double kLists = 0.1, kStepsOfLists = 5000;  // while a grain falls through its diameter
+constexpr double kStep = 4.2;                         // a step besides its grains
+constexpr double kLargeBedCost = 1.5;  // does not fit into the caches; from kSmallBed on they lose
+constexpr double kSmallBed = 2000;
+constexpr double kRow = 3.7;          // a row of measures, for each grain
+constexpr double kInstrument = 2.5;   // what an instrument adds to a row
+constexpr double kFieldMoment = 8.4;  // a moment of fields, for each grain
+// What the energy balance adds to a step: of a grain, and of each of its contacts.
+constexpr double kBalance = 0.3, kBalanceContact = 0.4;
+
+// Radii grow in about so many steps. Then the bed falls and comes to rest; until it counts as calm a grain
+// falls through its diameter several times.
+constexpr double kGrowingSteps = 8e3, kFalling = 0.28 /* s, under Earth's gravity */, kCalm = 10;
+// Without friction a bed slides into closer order for longer: 0.63 s in all, 0.31 with friction.
+constexpr double kFallingWithoutFriction = 0.48;
+
+// A contact by another law than that of the lattice.
+double contact_cost(const PairPlan& pair) {
+    double cost = 1;
+    if (pair.model.normal == NormalForce::spring_dashpot) cost = 0.62;
+    if (pair.model.normal == NormalForce::hertz) cost = 0.75;
+    if (pair.model.tangential == TangentialLaw::none) cost *= 0.35;
+    if (pair.model.rolls) cost *= 1.27;
+    return pair.model.precision == Precision::mixed ? 0.66 * cost : cost;
+}
+
+// The law that most contacts follow: that of the commonest species.
+const PairPlan& commonest(const Scene& scene, const Plan& plan) {
+    std::size_t most = 0;
+    for (std::size_t s = 0; s < scene.species.size(); ++s)
+        if (scene.species[s].all() > scene.species[most].all()) most = s;
+    return plan.between(most, most);
+}
+
+bool is_gas(const Scene& scene) {
+    return scene.gravity.norm() == 0;
+}
+
+bool rubs(const PairPlan& pair) {
+    return pair.model.tangential != TangentialLaw::none;
+}
+
+// What a grain saves of its lists where steps are short: up to all of kLists.
+double saved_of_lists(const Scene& scene, const Plan& plan) {
+    const double steps = std::sqrt(mean_diameter(scene) / scene.gravity.norm()) / plan.clock.step;
+    return kLists * (1 - std::min(1.0, kStepsOfLists / steps));
+}
+
+// Over that of the lattice.
+double grain_cost(const Scene& scene, const Plan& plan, double contacts) {
+    const PairPlan& pair = commonest(scene, plan);
+    const double free = is_gas(scene) ? (rubs(pair) ? 1.0 : 0.5) * kGrainOfGas
+                        : rubs(pair)  ? kGrain - saved_of_lists(scene, plan)
+                                      : kGrainWithoutSpin;
+    const auto forces = static_cast<double>(scheme_of(plan.integrator).stages.size());
+    const double beyond = std::log(std::max(1.0, static_cast<double>(scene.grains()) / kSmallBed)) /
+                          std::log(static_cast<double>(kLargeBed) / kSmallBed);
+    const double size = 1 + (kLargeBedCost - 1) * std::min(1.0, beyond);
+    return (free + kContact * contacts * contact_cost(pair)) * forces * size;
+}
+
+double contacts_at_rest(const Scene& scene, const Plan& plan) {
+    if (is_gas(scene)) return 0;
+    return rubs(commonest(scene, plan)) ? kAtRest : kAtRestWithoutFriction;
+}
+
+// level: the largest acceleration along gravity, over gravity.
+double contacts_when_shaken(double at_rest, double level) {
+    return level <= 1 ? at_rest : kThrown + (at_rest - kThrown) * std::exp(-kFallsOff * (level - 1));
+}
+
+double level_along_gravity(const Scene& scene, double frequency, double amplitude) {
+    const Vec3 down = scene.gravity.normalized();
+    const Drive of_stage{true, frequency, amplitude};
+    return of_stage.g_level(scene.gravity.norm()) * std::abs(scene.drive.direction.dot(down));
+}
+
+double contacts_in_stage(const Scene& scene, double at_rest, const DriveStage& stage) {
+    if (stage.kind == DriveStage::Kind::rest) return at_rest;
+    const double shaken =
+        contacts_when_shaken(at_rest, level_along_gravity(scene, stage.frequency, stage.amplitude));
+    if (stage.kind == DriveStage::Kind::vibrate) return shaken;
+    const double share =
+        std::min(1.0, 2 / (stage.frequency * stage.interval));  // as long in flight as tapped
+    return at_rest + share * (shaken - at_rest);
+}
+
+// The mean while the amplitude grows: the bed lies until the floor falls away faster than it does.
+double contacts_while_growing(double at_rest, double level) {
+    constexpr int parts = 32;
+    double sum = 0;
+    for (int k = 0; k < parts; ++k)
+        sum += contacts_when_shaken(at_rest, level * smooth_step::value((k + 0.5) / parts));
+    return sum / parts;
+}
+
+// Of the grains that the scene lists, how many there are in the mean over the run.
+double present(const Scene& scene, const Plan& plan) {
+    auto grains = static_cast<double>(scene.grains());
+    const double end = scene.run.duration;
+    for (const Feed& feed : scene.feeds) {
+        const double until = std::min(feed.until.value_or(end), end);
+        grains -= static_cast<double>(feed.due(end)) * std::clamp(0.5 * (feed.from + until) / end, 0.0, 1.0);
+    }
+    if (!plan.opens || scene.container.tray) return std::max(1.0, grains);
+    constexpr double leave = 0.4;  // of those that are there when it opens, in the mean
+    const double open = 1 - static_cast<double>(*plan.opens) / static_cast<double>(plan.steps);
+    return std::max(1.0, grains * (1 - leave * open));
+}
+
+double packing_cost(const Scene& scene, const Plan& plan, double& steps) {
+    if ((!scene.start.packs() && !plan.start.relaxes) || scene.grains_at_start() == 0) return 0;
+    const auto grains = static_cast<double>(scene.grains_at_start());
+    const double dense = grain_cost(scene, plan, contacts_at_rest(scene, plan));
+    const double gravity = scene.gravity.norm();
+    double settling = 0, arriving = kGrowingSteps;
+    if (gravity > 0)
+        settling =
+            kCalm * std::sqrt(mean_diameter(scene) / gravity) +
+            (rubs(commonest(scene, plan)) ? kFalling : kFallingWithoutFriction) * std::sqrt(9.81 / gravity);
+    if (plan.start.relaxes) {
+        // A bed that relaxes is at rest soon after it was stopped.
+        steps = static_cast<double>(braking_steps(plan)) + settling / plan.clock.step;
+        return steps * (grains * dense + kStep);
+    }
+    // On average half of the grains are there while it rains.
+    if (scene.start.method == Start::Method::rain)
+        arriving = 0.5 * grains / rain_rate(scene) / plan.clock.step;
+    steps = arriving + std::min(static_cast<double>(plan.settle_steps_limit), settling / plan.clock.step);
+    return steps * (grains * dense + kStep);
+}
+
+double measuring_cost(const Scene& scene, const Plan& plan, double grains, double contacts) {
+    const auto steps = static_cast<double>(plan.steps);
+    const auto& instruments = scene.output.instruments;
+    const bool balance =
+        std::find(instruments.begin(), instruments.end(), "energy_balance") != instruments.end();
+    const double others = static_cast<double>(instruments.size()) - (balance ? 1 : 0);
+    double cost = steps / static_cast<double>(plan.measures_every) * grains * (kRow + others * kInstrument);
+    if (scene.output.fields.wanted()) cost += steps / plan.fields.every * grains * kFieldMoment;
+    if (balance) cost += steps * (kStep + grains * (kBalance + kBalanceContact * contacts));
+    return cost;
+}
+
+}  // namespace
+
+double mean_contacts(const Scene& scene, const Plan& plan) {
+    const double at_rest = contacts_at_rest(scene, plan), end = scene.run.duration;
+    if (is_gas(scene)) return 0;
+    // What runs out is loose, and what has run out lies or is gone.
+    const double flowing = plan.opens ? 0.5 : 1;
+    if (!scene.drive.present) return flowing * at_rest;
+    const Drive& drive = scene.drive;
+    DriveStage now;
+    now.frequency = drive.frequency;
+    now.amplitude = drive.amplitude;
+    double sum = 0, since = 0;
+    // Grains that are listed fall while it grows, with few contacts.
+    if (drive.ramp > 0 && scene.start.method != Start::Method::grains) {
+        const double level = level_along_gravity(scene, drive.frequency, drive.amplitude);
+        since = std::min(end, drive.ramp / drive.frequency);
+        sum = since * contacts_while_growing(at_rest, level);
+    }
+    for (std::size_t k = 0; k <= drive.stages.size(); ++k) {
+        const double until = k < drive.stages.size() ? std::min(end, drive.stages[k].from) : end;
+        sum += std::max(0.0, until - since) * contacts_in_stage(scene, at_rest, now);
+        since = std::max(since, until);
+        if (k < drive.stages.size()) now = drive.stages[k];
+    }
+    return flowing * sum / end;
+}
+
+EngineCost engine_cost(const Scene& scene, const Plan& plan) {
+    EngineCost cost;
+    const double grains = present(scene, plan), contacts = mean_contacts(scene, plan);
+    cost.packing = packing_cost(scene, plan, cost.packing_steps);
+    cost.run_steps = static_cast<double>(plan.steps);
+    cost.run = cost.run_steps * (grains * grain_cost(scene, plan, contacts) + kStep) +
+               measuring_cost(scene, plan, grains, contacts);
+    return cost;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,106 @@
+// Options that say where a film goes and how it is drawn, and the environment's part in that.
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "engine/scene/text/units.hpp"
+#include "render/app/options/option_groups.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// Of the environment; none when it is empty.
+std::optional<std::string> variable(const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0' ? std::optional<std::string>(value) : std::nullopt;
+}
+
+gl::Provider provider_of(const std::string& word, const std::string& said_by) {
+    if (word == "osmesa") return gl::Provider::osmesa;
+    if (word == "egl") return gl::Provider::egl;
+    throw UserError(
+        fmt::format("{}={}: no such maker of OpenGL contexts; choose osmesa or egl", said_by, excerpt(word)));
+}
+
+}  // namespace
+
+void add_gl(CLI::App& verb, gl::Provider& provider) {
+    if (const auto word = variable("GRAINREEL_GL")) provider = provider_of(*word, "GRAINREEL_GL");
+    verb.add_option_function<std::string>(
+            "--gl", [&provider](const std::string& word) { provider = provider_of(word, "--gl"); },
+            "Draw with osmesa (software, the same everywhere) or egl (a graphics card where there is one)\n"
+            "[$GRAINREEL_GL, else osmesa]")
+        ->type_name("WHICH");
+}
+
+CLI::Validator not_empty() {
+    return CLI::Validator([](std::string& text) { return text.empty() ? "is empty; give a name" : ""; }, "");
+}
+
+void check_typed(const std::string& option, const std::string& text) {
+    if (const std::string wrong = complaint_of_utf8(text); !wrong.empty())
+        throw UserError(fmt::format("{}: {}; type it in a UTF-8 terminal", option, wrong));
+}
+
+std::filesystem::path output_base() {
+    const std::string base = variable("GRAINREEL_OUTPUT").value_or("output");
+    check_typed("GRAINREEL_OUTPUT", base);
+    return base;
+}
+
+void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, const std::string& about) {
+    const auto take = [&out](const std::string& folder) {
+        check_typed("--out", folder);
+        out = folder;
+    };
+    verb.add_option_function<std::string>("--out", take, about)->type_name("DIR");
+}
+
+void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
+    film.base = output_base();
+    const auto take_out = [&film](const std::string& folder) {
+        check_typed("--out", folder);
+        film.to_stdout = folder == "-";
+        if (!film.to_stdout) film.out = folder;
+    };
+    CLI::Option* out =
+        verb.add_option_function<std::string>("--out", take_out,
+                                              about_out + "; - puts the film on\nstdout, with --format y4m")
+            ->type_name("DIR");
+    verb.add_flag("--force", film.force, "Replace the run in --out, once the new one is complete")
+        ->needs(out);
+    verb.add_flag("--frames", film.frames, "Keep every frame of the film as frames/*.png too");
+    verb.add_flag_callback(
+        "--no-film", [&film] { film.film = false; },
+        "Leave out the film; with --frames, keep the pictures alone");
+    add_gl(verb, film.gl);
+}
+
+CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about) {
+    return verb
+        .add_option_function<std::string>(
+            flag,
+            [flag, &into](const std::string& text) {
+                try {
+                    const bool bare = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+                    into = parse_quantity(bare ? text + " s" : text, Dimension::time);
+                } catch (const UserError& mistake) {
+                    throw UserError(fmt::format("{} {}", flag, mistake.what()));
+                }
+            },
+            about)
+        ->type_name("TIME");
+}
+
+void add_no_replay(CLI::App& verb, bool& replay) {
+    verb.add_flag_callback(
+        "--no-replay", [&replay] { replay = false; },
+        "Draw what finished runs kept alone, and say what is left out: moments that they did not keep\nare "
+        "else "
+        "brought back from their checkpoints");
+}
+
+}  // namespace grainreel

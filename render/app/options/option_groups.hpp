@@ -1,0 +1,81 @@
+// Groups of options that several verbs have. Each adds its options to a verb's parser and keeps what they say
+// in what it is given.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "engine/scene/text/assignment.hpp"
+#include "render/app/report/reporter.hpp"
+#include "render/page/live/watch.hpp"
+#include "render/run/film_request.hpp"
+
+namespace grainreel {
+
+inline constexpr const char* exit_statuses =
+    "Exit status: 0 done, 1 the run failed, 2 a mistake in the scene or the options, 129 the\n"
+    "terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.";
+
+// Throws UserError when what was typed after an option is not UTF-8.
+void check_typed(const std::string& option, const std::string& text);
+
+// What an option needs that names a file: an unset variable of a shell is no name.
+CLI::Validator not_empty();
+
+// --set, of values that are to take the place of others.
+void add_sets(CLI::App& verb, Assignments& sets, const char* about);
+// The film: --for, --format, --max-size, --sheet, --transparent, --size, --fps, --title; and --threads.
+void add_picture_keys(CLI::App& verb, Assignments& sets);
+// --set, those of the film, --duration and --seed.
+void add_scene_keys(CLI::App& verb, Assignments& sets);
+// Of a single picture: a PNG file, whatever the scene's film is. Throws UserError for keys of a film's file.
+Assignments sets_for_still(Assignments sets);
+// SCENE, and those of its keys.
+void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets);
+
+// Where the film goes, and what is kept of it: --out, --force, --frames, --no-film, --gl. about_out: of
+// --out. Throws UserError when the environment has a value that makes no sense.
+void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out);
+// --out of a verb that makes no film.
+void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, const std::string& about);
+// --gl: what makes OpenGL contexts.
+void add_gl(CLI::App& verb, gl::Provider& provider);
+// Where what a verb makes goes without --out: $GRAINREEL_OUTPUT, else output/.
+std::filesystem::path output_base();
+
+// An option that is a time of a finished run, s.
+CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about);
+
+// --no-replay: of finished runs nothing is brought back that they did not keep.
+void add_no_replay(CLI::App& verb, bool& replay);
+
+// --port and --watch-host: where a run is shown live.
+void add_watch_port(CLI::App& verb, WatchPlace& place);
+void add_watch_host(CLI::App& verb, WatchPlace& place);
+// --watch, with a port, and --watch-host.
+void add_watch(CLI::App& verb, bool& wanted, WatchPlace& place);
+
+// --progress, --quiet and --verbose.
+void add_reporting(CLI::App& verb, ReporterOptions& report);
+
+// A list of things with a name and what they are about: the names, and all of it in a line.
+struct Choices {
+    std::vector<std::string> names;
+    std::string about;
+
+    template <class All>
+    explicit Choices(const All& all) {
+        for (const auto& one : all) add(one.name, one.about);
+    }
+    void add(const std::string& name, const std::string& what) {
+        names.push_back(name);
+        about += (about.empty() ? "" : "; ") + name + " (" + what + ")";
+    }
+};
+
+}  // namespace grainreel

@@ -1,0 +1,142 @@
+#include "render/app/report/reporter.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/utf8.hpp"
+#include "render/app/report/progress_text.hpp"
+#include "render/app/report/stop_signal.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr auto terminal_interval = std::chrono::milliseconds(100);
+constexpr auto json_interval = std::chrono::milliseconds(500);
+constexpr auto pipe_interval = std::chrono::seconds(5);
+constexpr double pipe_share = 0.1;                       // of a stage, when that is sooner ...
+constexpr auto pipe_shortest = std::chrono::seconds(1);  // ... but not much sooner
+
+bool is_terminal() {
+    const char* term = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::strcmp(term, "dumb") != 0;
+}
+
+// See no-color.org: set and not empty.
+bool colour_wanted() {
+    const char* no_color = std::getenv("NO_COLOR");
+    return no_color == nullptr || *no_color == '\0';
+}
+
+int terminal_width() {
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+constexpr const char* wipe = "\r\033[K";  // of the terminal's line
+
+void put(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+}  // namespace
+
+Reporter::Reporter(const ReporterOptions& options)
+    : options_(options), terminal_(is_terminal()), coloured_(terminal_ && colour_wanted()) {}
+
+Reporter::~Reporter() {
+    clear();
+}
+
+void Reporter::detail(const std::string& text) {
+    if (options_.verbose && !options_.quiet) print("detail", "", text);
+}
+
+void Reporter::info(const std::string& text) {
+    if (!options_.quiet) print("info", "", text);
+}
+
+void Reporter::warning(const std::string& text) {
+    if (!options_.quiet) print("warning", "\033[33m", text);
+}
+
+void Reporter::error(const std::string& text) {
+    print("error", "\033[31m", text);
+}
+
+int Reporter::stop_signal() const {
+    return grainreel::stop_signal();
+}
+
+void Reporter::keep_before_exit() {
+    grainreel::keep_before_exit();
+}
+
+bool Reporter::in_a_hurry() const {
+    return grainreel::in_a_hurry();
+}
+
+void Reporter::print(const char* kind, const char* colour, const std::string& text) {
+    clear();
+    put(line(kind, colour, text));
+}
+
+std::string Reporter::line(const char* kind, const char* colour, const std::string& said) const {
+    const std::string text = message_text(said);
+    if (options_.form == ReporterOptions::Form::json) {
+        const nlohmann::ordered_json object = {{"event", kind}, {"text", text}};
+        return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    }
+    const bool plain = *colour == '\0';
+    if (plain) return text + "\n";
+    if (coloured_) return std::string(colour) + kind + ":\033[0m " + text + "\n";
+    return std::string(kind) + ": " + text + "\n";
+}
+
+std::string Reporter::last_words() const {
+    if (options_.quiet) return "";
+    const bool line_may_be_shown = terminal_ && options_.form == ReporterOptions::Form::automatic;
+    return (line_may_be_shown ? wipe : "") +
+           line("info", "", "stopped at once: what was not yet on disk is lost");
+}
+
+bool Reporter::due(const Progress& now, Watch::time_point time) const {
+    if (!last_ || last_->stage != now.stage) return true;
+    const auto since = time - last_time_;
+    const bool finished = now.done >= 1 && last_->done < 1;
+    if (options_.form == ReporterOptions::Form::json) return finished || since >= json_interval;
+    if (terminal_) return finished || since >= terminal_interval;
+    return since >= pipe_interval ||
+           (since >= pipe_shortest && (finished || now.done - last_->done >= pipe_share));
+}
+
+void Reporter::progress(const Progress& progress) {
+    if (options_.quiet || options_.form == ReporterOptions::Form::none) return;
+    const Watch::time_point now = Watch::now();
+    if (!due(progress, now)) return;
+    last_ = progress;
+    last_time_ = now;
+    if (options_.form == ReporterOptions::Form::json) {
+        put(progress_json(progress) + "\n");
+    } else if (terminal_) {
+        // One column stays free: a line that fills the last one would wrap on some terminals.
+        put("\r" + progress_line(progress, terminal_width() - 1) + "\033[K");
+        line_shown_ = true;
+    } else {
+        put(progress_line(progress, 200) + "\n");
+    }
+}
+
+void Reporter::clear() {
+    if (line_shown_) put(wipe);
+    line_shown_ = false;
+}
+
+}  // namespace grainreel

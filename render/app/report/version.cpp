@@ -1,0 +1,75 @@
+#include "render/app/report/version.hpp"
+
+#include <cairo.h>
+#include <hwy/highway.h>
+#include <microhttpd.h>
+#include <pango/pango.h>
+#include <png.h>
+#include <toml++/toml.h>
+#include <xxhash.h>
+
+#include <fmt/format.h>
+#include <spdlog/version.h>
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/avutil.h>
+#include <libswscale/swscale.h>
+}
+
+#include "build_info.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
+#include "engine/vector/instructions.hpp"
+
+namespace grainreel {
+
+namespace {
+
+std::string three(unsigned major, unsigned minor, unsigned patch) {
+    return fmt::format("{}.{}.{}", major, minor, patch);
+}
+
+std::string ffmpeg(unsigned version) {
+    return three(AV_VERSION_MAJOR(version), AV_VERSION_MINOR(version), AV_VERSION_MICRO(version));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+    const unsigned xxhash = XXH_versionNumber();
+    return {
+        {"Eigen", three(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+        {"Highway", three(HWY_MAJOR, HWY_MINOR, HWY_PATCH)},
+        {"NetCDF", netcdf_version()},
+        {"FFmpeg", av_version_info()},
+        {"libavformat", ffmpeg(avformat_version())},
+        {"libavcodec", ffmpeg(avcodec_version())},
+        {"libswscale", ffmpeg(swscale_version())},
+        {"libmicrohttpd", MHD_get_version()},
+        {"libpng", png_get_libpng_ver(nullptr)},
+        {"Pango", pango_version_string()},
+        {"cairo", cairo_version_string()},
+        {"toml++", three(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+        {"nlohmann-json",
+         three(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+        {"CLI11", CLI11_VERSION},
+        {"fmt", three(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+        {"spdlog", three(SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
+        {"xxHash", three(xxhash / 10000, xxhash / 100 % 100, xxhash % 100)},
+    };
+}
+
+std::string version_text() {
+    std::string text = fmt::format("grainreel {} (commit {})\ncompiler   {}\nflags      {}\nvectors    {}\n",
+                                   build_info::version, build_info::commit, build_info::compiler,
+                                   build_info::flags, vector_instructions());
+    text += "libraries";
+    for (const auto& [name, version] : library_versions()) text += fmt::format("\n  {:<15}{}", name, version);
+    return text;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,142 @@
+#include "render/app/study/file/members.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/scene/file/writer.hpp"
+#include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/text/toml_text.hpp"
+
+namespace grainreel {
+namespace {
+
+// Which value of each variation the setting of that number has; the last one changes fastest.
+std::vector<std::size_t> place_in_grid(const Study& study, std::size_t setting) {
+    std::vector<std::size_t> at(study.variations.size());
+    for (std::size_t i = at.size(); i-- > 0;) {
+        at[i] = setting % study.variations[i].values.size();
+        setting /= study.variations[i].values.size();
+    }
+    return at;
+}
+
+// All that decides the numbers of a run.
+std::uint64_t hash_of(Scene scene, const Plan& plan, std::optional<std::uint64_t> seed) {
+    scene.film = Film();
+    scene.title.clear();
+    scene.name.clear();
+    scene.run.threads = 1;
+    if (seed) scene.run.seed = *seed;
+    const std::string text = resolved_scene(scene, plan);
+    return XXH64(text.data(), text.size(), 0);
+}
+
+std::string name_of_member(const Study& study, const Member& member, std::uint64_t hash) {
+    std::string name;
+    for (std::size_t i = 0; i < member.at.size(); ++i)
+        name += fmt::format("{}-{}_", name_of(study.variations[i].key),
+                            study.variations[i].values[member.at[i]].words);
+    if (member.seed) name += fmt::format("seed-{}_", *member.seed);
+    return fmt::format("{}_{:016x}", file_name_part(name.substr(0, name.size() - 1)), hash);
+}
+
+// Two members that are the same run, at the first value in which they differ.
+[[noreturn]] void fail_for_twins(const Study& study, const Member& one, const Member& other) {
+    std::string place = study.file.string();
+    for (std::size_t i = other.at.size(); i-- > 0;)
+        if (one.at[i] != other.at[i]) place = study.variations[i].values[other.at[i]].place;
+    throw UserError(fmt::format("{}: the members {} and {} are the same run; leave one out", place,
+                                member_text(study, one), member_text(study, other)));
+}
+
+}  // namespace
+
+std::size_t count_members(const Study& study, bool many_are_meant) {
+    double count = static_cast<double>(study.seed_count());
+    const Variation* longest = nullptr;
+    for (const Variation& variation : study.variations) {
+        count *= static_cast<double>(variation.values.size());
+        if (longest == nullptr || variation.values.size() > longest->values.size()) longest = &variation;
+    }
+    const std::size_t limit = many_are_meant ? most_members : most_members_unasked;
+    if (count > static_cast<double>(limit))
+        throw UserError(fmt::format(
+            "{}: the study would have {:.15g} members, more than {}; {}",
+            longest != nullptr ? longest->place : study.file.string(), count, limit,
+            many_are_meant ? "split it in several" : "vary less, or say --yes when that is meant"));
+    return static_cast<std::size_t>(count);
+}
+
+std::vector<Member> make_members(const Study& study, const AcceptSetting& accept) {
+    const std::size_t settings = count_members(study, true) / study.seed_count();
+    std::vector<Member> members;
+    std::map<std::uint64_t, std::size_t> known;  // which member has this hash
+    for (std::size_t setting = 0; setting < settings; ++setting) {
+        Member member;
+        member.setting = setting;
+        member.at = place_in_grid(study, setting);
+        member.sets = study.sets;
+        for (std::size_t i = 0; i < member.at.size(); ++i) {
+            const Variation::Value& value = study.variations[i].values[member.at[i]];
+            member.sets.push_back({study.variations[i].key + "=" + value.toml, value.place});
+        }
+        const Scene scene = read_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
+        const Plan plan = make_plan(scene);
+        accept(scene, plan);
+        // Members read a copy of the scene, from whose folder other paths would count.
+        if (scene.start.method == Start::Method::file)
+            member.sets.push_back("start.file=" +
+                                  quoted(std::filesystem::absolute(scene.start.file).string()));
+        for (std::size_t s = 0; s < study.seed_count(); ++s) {
+            Member seeded = member;
+            seeded.seed_index = s;
+            if (!study.seeds.empty()) {
+                seeded.seed = study.seeds[s];
+                seeded.sets.push_back(fmt::format("run.seed={}", *seeded.seed));
+            }
+            const std::uint64_t hash = hash_of(scene, plan, seeded.seed);
+            seeded.name = name_of_member(study, seeded, hash);
+            const auto [same, is_new] = known.emplace(hash, members.size());
+            if (!is_new) fail_for_twins(study, members[same->second], seeded);
+            members.push_back(std::move(seeded));
+        }
+    }
+    return members;
+}
+
+std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without) {
+    std::string text;
+    for (std::size_t i = 0; i < member.at.size(); ++i) {
+        if (i == without) continue;
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", study.variations[i].label,
+                            study.variations[i].values[member.at[i]].words);
+    }
+    return text;
+}
+
+std::string member_text(const Study& study, const Member& member) {
+    std::string text = setting_text(study, member);
+    if (member.seed) text += fmt::format("{}seed {}", text.empty() ? "" : ", ", *member.seed);
+    return text;
+}
+
+std::string file_name_part(const std::string& text, std::size_t most) {
+    std::string name;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = byte < 0x80 && (std::isalnum(byte) || c == '-' || c == '.' || c == '_');
+        if (c != ' ') name += plain ? c : '-';
+    }
+    if (name.empty() || name.front() == '.') name.insert(0, 1, '_');
+    return name.substr(0, most);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,68 @@
+// What a study measures: [[measure]].
+#include <fmt/format.h>
+
+#include "engine/base/utf8.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/scene/chapters/words.hpp"
+#include "engine/scene/film/live_text.hpp"
+#include "engine/scene/film/named_grains.hpp"
+#include "render/app/study/file/read_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+const Words<Reduction::Kind> reduction_words{{"end", Reduction::Kind::end},
+                                             {"mean", Reduction::Kind::mean},
+                                             {"slope", Reduction::Kind::slope},
+                                             {"crossing", Reduction::Kind::crossing},
+                                             {"first-passage", Reduction::Kind::first_passage}};
+
+void read_window(Document& document, const Scene& scene, const std::string& table, Reduction& reduction) {
+    reduction.from = document.quantity(table + ".from").value_or(reduction.from);
+    reduction.to = document.quantity(table + ".to").value_or(reduction.to);
+    if (reduction.from >= reduction.to)
+        document.fail(table + ".to", "must be later than 'from'; exchange them or widen the window");
+    if (reduction.from > scene.run.duration)
+        document.fail(table + ".from",
+                      fmt::format("is {:.6g} s, but the run ends at {:.6g} s; make it earlier",
+                                  reduction.from, scene.run.duration));
+}
+
+void read_threshold(Document& document, const std::string& table, const MeasureColumn& column,
+                    Reduction& reduction) {
+    const std::string path = table + ".threshold";
+    const bool wanted =
+        reduction.kind == Reduction::Kind::crossing || reduction.kind == Reduction::Kind::first_passage;
+    if (!wanted) return document.refuse(path, "only 'crossing' and 'first-passage' have a threshold");
+    if (!document.has(path)) document.fail_missing(path);
+    reduction.threshold = *document.quantity(path, column.dimension);
+}
+
+}  // namespace
+
+void read_measure(Document& document, const Scene& scene, const std::string& table, Study& study) {
+    const std::vector<MeasureColumn> columns = measure_columns(scene);
+    StudyMeasure measure;
+    const std::string name = document.required_text(table + ".column");
+    const MeasureColumn* column = find_column(columns, name);
+    if (column == nullptr)
+        document.fail(table + ".column",
+                      fmt::format("must be a column of measures.csv, but is \"{}\"; there are {}",
+                                  excerpt(name), column_names(columns)));
+    measure.column = column->name;
+    const std::string how = document.required_text(table + ".reduce");
+    for (const auto& [word, kind] : reduction_words)
+        if (word == how) measure.reduction.kind = kind;
+    measure.name = document.text(table + ".name").value_or(name + "_" + how);
+    measure.label = document.text(table + ".label").value_or(fmt::format("{} ({})", column->label, how));
+    for (const StudyMeasure& other : study.measures)
+        if (other.name == measure.name)
+            document.fail(document.has(table + ".name") ? table + ".name" : table + ".column",
+                          fmt::format("gives a second measure the name \"{}\"; give one another 'name'",
+                                      excerpt(measure.name)));
+    read_window(document, scene, table, measure.reduction);
+    read_threshold(document, table, *column, measure.reduction);
+    study.measures.push_back(std::move(measure));
+}
+
+}  // namespace grainreel

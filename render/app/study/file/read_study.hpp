@@ -1,0 +1,16 @@
+// From a study file to a Study.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "render/app/study/study.hpp"
+
+namespace grainreel {
+
+// Throws UserError at the first mistake, "file:line:column: ...": a key that is unknown here or in the scene,
+// a column that no run would have, a range that is none. The values of the scene's keys are looked at when
+// members are made of them (members.hpp).
+Study read_study(const std::filesystem::path& file);
+
+}  // namespace grainreel

@@ -1,0 +1,52 @@
+#include "render/app/study/members/member_commands.hpp"
+
+#include <xxhash.h>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/text_file.hpp"
+
+namespace grainreel {
+
+std::filesystem::path StudyFolder::scene(const Study& study) const {
+    const auto hash = XXH64(study.scene_text.data(), study.scene_text.size(), 0);
+    return path / "scenes" / fmt::format("{:016x}", hash) / study.scene.filename();
+}
+
+void make_study_folder(const Study& study, const StudyFolder& folder) {
+    const std::filesystem::path scene = folder.scene(study);
+    std::error_code failure;
+    for (const auto& wanted : {folder.path / "members", folder.path / "posters", scene.parent_path()})
+        if (!failure) std::filesystem::create_directories(wanted, failure);
+    if (failure)
+        throw UserError(fmt::format("{}: cannot be made ({}); give another --out", folder.path.string(),
+                                    failure.message()));
+    replace_file(folder.path / "study.toml", study.text);
+    replace_file(scene, study.scene_text);
+}
+
+std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
+                                     bool film) {
+    std::vector<std::string> words{"movie",   folder.scene(study).string(),
+                                   "--out",   folder.member(member).string(),
+                                   "--force", "--threads",
+                                   "1",       "--no-report"};
+    if (!film) words.push_back("--no-film");
+    // Members are run again rather than looked into; a value of the study's own comes later and counts.
+    for (const char* word : {"--set", "output.checkpoints=none"}) words.emplace_back(word);
+    for (const Assignment& assignment : member.sets) {
+        words.push_back("--set");
+        words.push_back(assignment.text);
+    }
+    return words;
+}
+
+std::vector<std::string> poster_command(const Member& member, const MemberResult& result,
+                                        const StudyFolder& folder) {
+    return {"render", folder.member(member).string(), "--at",    fmt::format("{}", result.simulated),
+            "--out",  folder.poster(member).string(), "--force", "--threads",
+            "1"};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,38 @@
+// The commands that run the members of a study, words after the program's name.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/app/study/file/members.hpp"
+#include "render/app/study/results/results.hpp"
+
+namespace grainreel {
+
+struct StudyFolder {
+    std::filesystem::path path;  // absolute
+
+    // Where the members' copy of the scene is, so that who edits the scene does not change members that are
+    // still to be run.
+    std::filesystem::path scene(const Study& study) const;
+
+    std::filesystem::path member(const Member& member) const { return path / "members" / member.name; }
+    std::filesystem::path poster(const Member& member) const {
+        return path / "posters" / (member.name + ".png");
+    }
+    std::filesystem::path charts() const { return path / "charts"; }
+};
+
+// Makes the folder with all that the commands need. Throws UserError when that cannot be done.
+void make_study_folder(const Study& study, const StudyFolder& folder);
+
+// Runs it on one thread: what was there of it before is replaced.
+std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
+                                     bool film);
+
+// Draws the last frame of a complete member as its poster.
+std::vector<std::string> poster_command(const Member& member, const MemberResult& result,
+                                        const StudyFolder& folder);
+
+}  // namespace grainreel

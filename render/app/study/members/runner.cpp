@@ -1,0 +1,224 @@
+#include "render/app/study/members/runner.hpp"
+
+#include <poll.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <deque>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "render/app/study/members/child.hpp"
+#include "render/run/stage_times.hpp"
+
+namespace grainreel {
+namespace {
+
+using State = MemberResult::State;
+using Json = nlohmann::json;
+
+constexpr int poll_interval = 200;     // ms
+constexpr double packing_share = 0.1;  // of a member's cost, as far as the progress goes
+
+struct Job {
+    std::size_t member = 0;
+    bool is_poster = false;
+};
+
+struct Running {
+    Job job;
+    Child child;
+    double done = 0;         // 0 to 1
+    std::string last_error;  // that it has told
+};
+
+class Runner {
+  public:
+    Runner(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
+           const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
+           const std::function<void()>& gained)
+        : study_(study),
+          members_(members),
+          folder_(folder),
+          request_(request),
+          results_(results),
+          listener_(listener),
+          gained_(gained) {
+        plan_jobs();
+    }
+
+    void run() {
+        while (!running_.empty() || (!jobs_.empty() && !stopping())) {
+            while (!stopping() && !jobs_.empty() && running_.size() < static_cast<std::size_t>(request_.jobs))
+                start();
+            if (stopping() && !told_to_stop_) tell_to_stop();
+            wait();
+            show_progress();
+        }
+    }
+
+  private:
+    bool stopping() const { return listener_.stop_signal() != 0; }
+    double cost(std::size_t member) const { return request_.cost.empty() ? 1 : request_.cost[member]; }
+
+    bool wants_poster(std::size_t member) const {
+        return request_.posters && members_[member].seed_index == 0 &&
+               results_[member].state == State::complete &&
+               !std::filesystem::exists(folder_.member(members_[member]) / "poster.png") &&
+               !std::filesystem::exists(folder_.poster(members_[member])) &&
+               std::filesystem::exists(folder_.member(members_[member]) / "trajectory.nc");
+    }
+
+    // All settings once before the second seed: the charts have their shape early.
+    void plan_jobs() {
+        std::vector<std::size_t> order(members_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return members_[a].seed_index < members_[b].seed_index;
+        });
+        for (const std::size_t member : order) {
+            if (!request_.collect_only && is_pending(results_[member], request_)) {
+                jobs_.push_back({member, false});
+                cost_left_ += cost(member);
+            } else if (wants_poster(member)) {
+                jobs_.push_back({member, true});
+            }
+        }
+        cost_planned_ = cost_left_;
+    }
+
+    void start() {
+        const Job job = jobs_.front();
+        jobs_.pop_front();
+        const Member& member = members_[job.member];
+        std::vector<std::string> words = job.is_poster ? poster_command(member, results_[job.member], folder_)
+                                                       : run_command(study_, member, folder_, request_.films);
+        words.insert(words.end(), {"--progress", "json"});
+        running_.push_back({job, Child(words), 0, ""});
+    }
+
+    void tell_to_stop() {
+        told_to_stop_ = true;
+        jobs_.clear();
+        listener_.info(fmt::format("stopping: {} members end in good order", running_.size()));
+        for (const Running& one : running_) one.child.send(SIGTERM);
+    }
+
+    void wait() {
+        std::vector<pollfd> files;
+        for (const Running& one : running_) files.push_back({one.child.file(), POLLIN, 0});
+        ::poll(files.data(), files.size(), poll_interval);
+        for (Running& one : running_)
+            for (const std::string& line : one.child.read()) listen(one, line);
+        for (std::size_t i = 0; i < running_.size();) {
+            if (!running_[i].child.ended()) {
+                ++i;
+                continue;
+            }
+            const Running ended = std::move(running_[i]);
+            running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
+            take(ended);
+        }
+    }
+
+    // An event of --progress json. Whatever else it says is no error of ours.
+    static void listen(Running& one, const std::string& line) {
+        const Json event = Json::parse(line, nullptr, false);
+        if (!event.is_object()) {
+            one.last_error = line;
+            return;
+        }
+        const std::string kind = event.value("event", "");
+        if (kind == "error") one.last_error = event.value("text", "");
+        if (kind != "progress" || one.job.is_poster) return;
+        const double done = event.value("done", 0.0);
+        const std::string stage = event.value("stage", "");
+        if (stage == "vibrating") one.done = packing_share + (1 - packing_share) * done;
+    }
+
+    void take(const Running& ended) {
+        const std::size_t index = ended.job.member;
+        if (ended.job.is_poster) return take_poster(ended);
+        cost_left_ -= cost(index);
+        MemberResult& result = results_[index];
+        result = read_result(folder_.member(members_[index]), study_.measures);
+        const int status = ended.child.status();
+        if (stopping() && result.state != State::complete) return;
+        if (status != 0) {
+            result.state = State::failed;
+            if (result.error.empty()) result.error = ended.last_error;
+            if (result.error.empty())
+                result.error = status > 128 ? fmt::format("was ended by signal {}", status - 128)
+                                            : fmt::format("ended with status {}", status);
+            listener_.error(fmt::format("{}: {}", member_text(study_, members_[index]), result.error));
+        }
+        if (wants_poster(index)) jobs_.push_front({index, true});
+        gained_();
+    }
+
+    void take_poster(const Running& ended) {
+        if (ended.child.status() == 0 || stopping()) return;
+        listener_.warning(fmt::format("{}: no poster: {}", member_text(study_, members_[ended.job.member]),
+                                      ended.last_error));
+    }
+
+    void show_progress() {
+        const auto in = [&](State state) {
+            return std::count_if(results_.begin(), results_.end(),
+                                 [&](const auto& r) { return r.state == state; });
+        };
+        double done = cost_planned_ - cost_left_;
+        for (const Running& one : running_)
+            if (!one.job.is_poster) done += one.done * cost(one.job.member);
+        Progress progress;
+        progress.stage = Progress::Stage::studying;
+        progress.done = cost_planned_ > 0 ? std::min(1.0, done / cost_planned_) : 1;
+        progress.what = fmt::format("{} of {} members, {} running", in(State::complete), results_.size(),
+                                    running_.size());
+        if (const auto failed = in(State::failed); failed > 0)
+            progress.what += fmt::format(", {} failed", failed);
+        progress.elapsed = watch_.seconds();
+        constexpr double soon = 0.02;  // of the work: what the time left can be reckoned by
+        if (progress.done > soon) progress.remaining = progress.elapsed * (1 - progress.done) / progress.done;
+        listener_.progress(progress);
+    }
+
+    const Study& study_;
+    const std::vector<Member>& members_;
+    const StudyFolder& folder_;
+    const StudyRunRequest& request_;
+    std::vector<MemberResult>& results_;
+    RunListener& listener_;
+    const std::function<void()>& gained_;
+    std::deque<Job> jobs_;
+    std::vector<Running> running_;
+    Stopwatch watch_;
+    double cost_planned_ = 0, cost_left_ = 0;
+    bool told_to_stop_ = false;
+};
+
+}  // namespace
+
+bool is_pending(const MemberResult& result, const StudyRunRequest& request) {
+    switch (result.state) {
+        case State::complete:
+            return request.films && !result.has_film;
+        case State::failed:
+            return request.retry;
+        case State::missing:
+        case State::incomplete:
+            break;
+    }
+    return true;
+}
+
+void run_members(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
+                 const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
+                 const std::function<void()>& gained) {
+    Runner(study, members, folder, request, results, listener, gained).run();
+}
+
+}  // namespace grainreel

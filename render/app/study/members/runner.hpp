@@ -1,0 +1,38 @@
+// Runs the members of a study side by side, each as a process of its own on one thread.
+//
+// Why processes and not threads of this one: a member that runs out of memory or meets a bug ends alone; the
+// NetCDF library, which writes the trajectories, is not made for several threads; and what --print-commands
+// gives to a cluster is then the same thing that runs here. A process costs a tenth of a second, and a
+// member takes seconds at least. Both ways reach the same speed (docs/notes/performance.md#studies).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/app/study/members/member_commands.hpp"
+#include "render/app/study/results/results.hpp"
+#include "render/run/listener.hpp"
+
+namespace grainreel {
+
+struct StudyRunRequest {
+    int jobs = 1;  // members at a time
+    bool films = false;
+    bool retry = false;         // run failed members again
+    bool posters = true;        // of the first seed of each setting
+    bool collect_only = false;  // run none; posters alone
+    std::vector<double> cost;   // of each member, in any unit: what the time left is reckoned by
+};
+
+// Whether a member is still to be run.
+bool is_pending(const MemberResult& result, const StudyRunRequest& request);
+
+// Runs what is pending of `members`, the first seed of all settings first, and fills in `results`, which hold
+// what is on disk already. `gained` is called after each member. Returns when all is done, or once the
+// listener has a stop signal and the running members have ended in good order.
+void run_members(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
+                 const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
+                 const std::function<void()>& gained);
+
+}  // namespace grainreel

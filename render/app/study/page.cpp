@@ -1,0 +1,167 @@
+#include "render/app/study/page.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "render/app/study/results/points.hpp"
+#include "render/page/embed/html.hpp"
+
+namespace grainreel {
+namespace {
+
+using State = MemberResult::State;
+
+constexpr std::size_t most_warnings = 20;  // that the page lists
+
+constexpr const char* style = R"(
+:root { color-scheme: light dark; --line: #8886; }
+body { font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 72rem; padding: 1rem; }
+h1 { font-size: 1.6rem; line-height: 1.2; } h2 { font-size: 1.2rem; margin-top: 2rem; }
+.charts { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 28rem), 1fr)); }
+.members { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fill, minmax(min(100%, 15rem), 1fr)); }
+figure { margin: 0; border: 1px solid var(--line); border-radius: 4px; overflow: hidden; }
+figure img, figure video { display: block; width: 100%; height: auto; background: white; }
+figcaption { padding: .4rem .6rem; font-size: .9rem; overflow-wrap: anywhere; }
+.table { overflow-x: auto; } table { border-collapse: collapse; }
+th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: left; white-space: nowrap; }
+th { min-width: 6rem; vertical-align: bottom; white-space: normal; }
+td.number { text-align: right; font-variant-numeric: tabular-nums; }
+li { overflow-wrap: anywhere; }
+)";
+
+std::size_t count_of(const std::vector<MemberResult>& results, State state) {
+    return static_cast<std::size_t>(std::count_if(results.begin(), results.end(),
+                                                  [&](const MemberResult& r) { return r.state == state; }));
+}
+
+std::string summary(const Study& study, const std::vector<MemberResult>& results) {
+    std::string text = fmt::format("{} of {} members of {} are complete", count_of(results, State::complete),
+                                   results.size(), study.scene.filename().string());
+    if (const std::size_t failed = count_of(results, State::failed); failed > 0)
+        text += fmt::format(", {} failed", failed);
+    const std::size_t left = count_of(results, State::missing) + count_of(results, State::incomplete);
+    if (left > 0) text += fmt::format(", {} are not there yet", left);
+    return text + ".";
+}
+
+std::string chart_figures(const Study& study, const std::vector<std::string>& stems) {
+    std::string text;
+    for (const std::string& stem : stems)
+        text += fmt::format(
+            "<figure><a href=\"charts/{0}.svg\"><img src=\"charts/{0}.svg\" alt=\"{0}\"></a><figcaption>"
+            "<a href=\"charts/{0}.csv\">table</a>, <a "
+            "href=\"charts/{0}.png\">PNG</a></figcaption></figure>\n",
+            html_text(stem));
+    if (text.empty()) return "";
+    const char* bars = study.seed_count() > 1
+                           ? "<p>Points are means over seeds; bars are 95 % intervals of the mean "
+                             "(Student’s t).</p>\n"
+                           : "";
+    return fmt::format("<h2>Charts</h2>\n{}<div class=\"charts\">\n{}</div>\n", bars, text);
+}
+
+// Settings, in order: the index of the first member of each.
+std::vector<std::size_t> first_members(const std::vector<Member>& members) {
+    std::vector<std::size_t> firsts;
+    for (std::size_t m = 0; m < members.size(); ++m)
+        if (members[m].seed_index == 0) firsts.push_back(m);
+    return firsts;
+}
+
+std::string settings_table(const Study& study, const std::vector<Member>& members,
+                           const std::vector<MemberResult>& results) {
+    if (study.measures.empty()) return "";
+    std::string text = "<h2>Settings</h2>\n<div class=\"table\"><table>\n<tr>";
+    for (const Variation& variation : study.variations)
+        text += fmt::format("<th>{}</th>", html_text(variation.label));
+    for (const StudyMeasure& measure : study.measures)
+        text += fmt::format("<th>{}</th>", html_text(measure.label));
+    text += "<th>values</th></tr>\n";
+    for (const std::size_t m : first_members(members)) {
+        text += "<tr>";
+        for (std::size_t i = 0; i < study.variations.size(); ++i)
+            text += fmt::format("<td>{}</td>", html_text(study.variations[i].values[members[m].at[i]].words));
+        std::size_t most = 0;
+        for (std::size_t i = 0; i < study.measures.size(); ++i) {
+            const MeanInterval interval = setting_interval(members, results, members[m].setting, i);
+            text += fmt::format("<td class=\"number\">{}</td>", interval_text(interval));
+            most = std::max(most, interval.count);
+        }
+        text += fmt::format("<td class=\"number\">{} of {}</td></tr>\n", most, study.seed_count());
+    }
+    return text + "</table></div>\n";
+}
+
+// The film of a member or its poster, whichever is there.
+std::string picture_of(const Member& member, const StudyFolder& folder, const std::string& about) {
+    const std::string inside = "members/" + member.name + "/";
+    const bool own = std::filesystem::exists(folder.member(member) / "poster.png");
+    const std::string poster = own ? inside + "poster.png" : "posters/" + member.name + ".png";
+    for (const char* film : {"movie.mp4", "movie.webm"})
+        if (std::filesystem::exists(folder.member(member) / film))
+            return fmt::format("<video controls preload=\"none\" poster=\"{}\" src=\"{}{}\"></video>",
+                               html_text(poster), html_text(inside), film);
+    if (!own && !std::filesystem::exists(folder.poster(member))) return "";
+    return fmt::format("<a href=\"{0}\"><img loading=\"lazy\" src=\"{0}\" alt=\"{1}\"></a>",
+                       html_text(poster), html_text("End of the run: " + about));
+}
+
+std::string posters(const Study& study, const std::vector<Member>& members, const StudyFolder& folder) {
+    std::string text;
+    for (const std::size_t m : first_members(members)) {
+        const std::string about = member_text(study, members[m]);
+        const std::string picture = picture_of(members[m], folder, about);
+        if (!picture.empty())
+            text +=
+                fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture, html_text(about));
+    }
+    return text.empty() ? "" : fmt::format("<h2>Members</h2>\n<div class=\"members\">\n{}</div>\n", text);
+}
+
+std::string failures(const Study& study, const std::vector<Member>& members,
+                     const std::vector<MemberResult>& results) {
+    std::string text;
+    for (std::size_t m = 0; m < members.size(); ++m)
+        if (results[m].state == State::failed)
+            text += fmt::format("<li>{}: {}</li>\n", html_text(member_text(study, members[m])),
+                                html_text(results[m].error));
+    return text.empty() ? "" : fmt::format("<h2>Failed</h2>\n<ul>\n{}</ul>\n", text);
+}
+
+std::string warnings(const std::vector<MemberResult>& results) {
+    std::map<std::string, std::size_t> counts;
+    for (const MemberResult& result : results)
+        for (const std::string& warning : result.warnings) ++counts[warning];
+    std::string text;
+    std::size_t listed = 0;
+    for (const auto& [warning, count] : counts) {
+        if (listed++ == most_warnings) {
+            text += fmt::format("<li>and {} more, which stand in run.json of the members</li>\n",
+                                counts.size() - most_warnings);
+            break;
+        }
+        text += fmt::format("<li>{} (members: {})</li>\n", html_text(warning), count);
+    }
+    return text.empty() ? "" : fmt::format("<h2>Warnings</h2>\n<ul>\n{}</ul>\n", text);
+}
+
+}  // namespace
+
+std::string study_page(const Study& study, const std::vector<Member>& members,
+                       const std::vector<MemberResult>& results, const StudyFolder& folder,
+                       const std::vector<std::string>& charts) {
+    return fmt::format(
+               "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+               "name=\"viewport\" "
+               "content=\"width=device-width, "
+               "initial-scale=1\">\n<title>{0}</title>\n<style>{1}</style>\n</head>\n"
+               "<body>\n<h1>{0}</h1>\n<p>{2} All of them: <a href=\"study.csv\">study.csv</a>.</p>\n",
+               html_text(study.title), style, html_text(summary(study, results))) +
+           chart_figures(study, charts) + settings_table(study, members, results) +
+           posters(study, members, folder) + failures(study, members, results) + warnings(results) +
+           "</body>\n</html>\n";
+}
+
+}  // namespace grainreel

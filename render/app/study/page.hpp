@@ -1,0 +1,16 @@
+// index.html: a study to be looked at in a browser.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/app/study/members/member_commands.hpp"
+
+namespace grainreel {
+
+// Paths count from the study's folder, where posters and films are looked for. charts: stems of charts/*.svg.
+std::string study_page(const Study& study, const std::vector<Member>& members,
+                       const std::vector<MemberResult>& results, const StudyFolder& folder,
+                       const std::vector<std::string>& charts);
+
+}  // namespace grainreel

@@ -1,0 +1,148 @@
+#include "render/app/study/results/drawing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/text_file.hpp"
+#include "engine/lab/chart/gnuplot.hpp"
+#include "render/app/study/results/table.hpp"
+
+namespace grainreel {
+namespace {
+
+// Okabe and Ito (2008): told apart by those who do not see all colours.
+constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                             "#e69f00", "#56b4e9", "#000000"};
+constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};
+
+constexpr std::size_t most_across = 80, most_upright = 55, most_in_key = 60;  // characters of a line
+
+// Of the longest name in the key. gnuplot lets the names overlap unless they are set so far apart.
+std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference) {
+    const auto lines = [](const std::string& name) { return std::ssize(wrapped(name, most_in_key)); };
+    std::ptrdiff_t most = lines(reference);
+    for (const ChartSeries& each : series) most = std::max(most, lines(each.name));
+    return most;
+}
+
+std::string gnuplot_number(double value) {
+    return std::isnan(value) ? "NaN" : fmt::format("{}", value);
+}
+
+// gnuplot ends a row at each line break, between quotes too.
+std::string on_one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+    return text;
+}
+
+// Words in place of numbers along x.
+std::string word_ticks(const Variation& axis) {
+    std::string ticks;
+    for (std::size_t i = 0; i < axis.values.size(); ++i)
+        ticks += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_text(axis.values[i].words), i);
+    return fmt::format("set xtics ({})\nset xrange [-0.5:{}.5]\n", ticks, axis.values.size() - 1);
+}
+
+std::string reference_table(const std::vector<ReferencePoint>& points) {
+    std::string text = "x,y,error\n";
+    for (const ReferencePoint& point : points)
+        text += fmt::format("{},{},{}\n", point.x, point.y, point.error);
+    return text;
+}
+
+// A series: its line and points, and over them the bars of those that have some.
+std::string plot_series(const std::string& table, const ChartSeries& series, std::size_t number) {
+    const std::string style = fmt::format("lc rgb '{}' lw 2", colours[number % colours.size()]);
+    const int mark = marks[number % marks.size()];
+    const std::string title =
+        series.name.empty() ? "notitle" : "title " + gnuplot_lines(series.name, most_in_key);
+    return fmt::format(
+        "{0} using (column(1)=={1} ? column(2) : NaN):3 with linespoints pt {2} ps 0.9 {3} {4}, \\\n"
+        "    {0} using (column(1)=={1} ? column(2) : NaN):3:4:5 with yerrorbars pt {2} ps 0.9 {3} notitle",
+        table, number, mark, style, title);
+}
+
+}  // namespace
+
+std::string chart_stem(const StudyChart& chart) {
+    return file_name_part(chart.name);
+}
+
+std::string chart_table(const std::vector<ChartSeries>& series) {
+    std::string text = "series,x,mean,low,high,values,members,name\n";
+    for (std::size_t s = 0; s < series.size(); ++s)
+        for (const ChartPoint& point : series[s].points)
+            text += fmt::format("{},{},{},{},{},{},{},{}\n", s, point.x, gnuplot_number(point.y.mean),
+                                gnuplot_number(point.y.mean - point.y.half),
+                                gnuplot_number(point.y.mean + point.y.half), point.y.count, point.members,
+                                csv_cell(on_one_line(series[s].name)));
+    return text;
+}
+
+std::string chart_commands(const Study& study, const StudyChart& chart,
+                           const std::vector<ChartSeries>& series, bool has_reference) {
+    const Variation& axis = study.variations[chart.x];
+    const std::string stem = chart_stem(chart), table = gnuplot_text(stem + ".csv");
+    std::string plots;
+    for (std::size_t s = 0; s < series.size(); ++s)
+        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s);
+    if (has_reference)
+        plots += fmt::format(
+            ", \\\n    {0} using 1:2:3 with yerrorbars pt 6 ps 1.1 lw 1.5 lc rgb 'black' title {1}",
+            gnuplot_text(stem + ".reference.csv"), gnuplot_lines(chart.reference_label, most_in_key));
+    std::string text = fmt::format("# Draws the table beside it: gnuplot {}.gp\n", stem);
+    text += "set encoding utf8\nset datafile separator ','\nset datafile missing 'NaN'\nset grid\n";
+    text += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
+                        gnuplot_lines(axis.title(), most_across),
+                        gnuplot_lines(study.measures[chart.y].label, most_upright));
+    if (!chart.title.empty())
+        text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, most_across));
+    text += fmt::format(
+        "set key noenhanced outside above left Left reverse maxcols 2 spacing {:.1f}\n",
+        1.1 * static_cast<double>(lines_of_key(series, has_reference ? chart.reference_label : "")));
+    text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n";
+    if (!axis.numeric) text += word_ticks(axis);
+    if (chart.log_x) text += "set logscale x\n";
+    if (chart.log_y) text += "set logscale y\n";
+    text += fmt::format(
+        "do for [form in 'svg png'] {{\n"
+        "    if (form eq 'svg') {{ set terminal svg noenhanced size 800,560 font 'DejaVu Sans,14' background "
+        "'white' }}\n"
+        "    else {{ set terminal pngcairo noenhanced size 1200,840 font 'DejaVu Sans,18' }}\n"
+        "    set output {}.'.'.form\n    plot {}\n}}\n",
+        gnuplot_text(stem), plots);
+    return text;
+}
+
+DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
+                        const std::vector<MemberResult>& results,
+                        const std::vector<std::vector<ReferencePoint>>& references,
+                        const std::filesystem::path& folder) {
+    DrawnCharts charts;
+    std::filesystem::create_directories(folder);
+    for (std::size_t i = 0; i < study.charts.size(); ++i) {
+        const StudyChart& chart = study.charts[i];
+        const std::vector<ChartSeries> series = chart_series(study, members, results, chart);
+        const std::string stem = chart_stem(chart);
+        replace_file(folder / (stem + ".csv"), chart_table(series));
+        const bool any = std::any_of(series.begin(), series.end(), [](const ChartSeries& s) {
+            return std::any_of(s.points.begin(), s.points.end(),
+                               [](const ChartPoint& p) { return p.y.count > 0; });
+        });
+        if (!any) continue;
+        if (!references[i].empty())
+            replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
+        replace_file(folder / (stem + ".gp"), chart_commands(study, chart, series, !references[i].empty()));
+        if (run_gnuplot(folder, stem + ".gp"))
+            charts.stems.push_back(stem);
+        else
+            charts.drawn = false;
+    }
+    return charts;
+}
+
+}  // namespace grainreel

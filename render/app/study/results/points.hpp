@@ -1,0 +1,34 @@
+// The points of a study's charts: means over seeds with their intervals.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/app/study/file/members.hpp"
+#include "render/app/study/results/interval.hpp"
+#include "render/app/study/results/results.hpp"
+
+namespace grainreel {
+
+struct ChartPoint {
+    double x = 0;  // in the axis' unit; of an axis of words the number of the word, from 0
+    MeanInterval y;
+    std::size_t members = 0;  // complete ones; y.count of them have a value
+};
+
+// One line of a chart: all settings that differ in x alone.
+struct ChartSeries {
+    std::string name;                // "species.nut.diameter = 9 mm"; empty when there is one series alone
+    std::vector<ChartPoint> points;  // by rising x
+};
+std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Member>& members,
+                                      const std::vector<MemberResult>& results, const StudyChart& chart);
+
+// A measure of one setting over its seeds. Members as make_members gives them.
+MeanInterval setting_interval(const std::vector<Member>& members, const std::vector<MemberResult>& results,
+                              std::size_t setting, std::size_t measure);
+
+// "0.412 ± 0.031", the mean and half of its 95 % interval; of one value the value, of none a dash.
+std::string interval_text(const MeanInterval& interval);
+
+}  // namespace grainreel

@@ -1,0 +1,84 @@
+#include "render/app/study/results/results.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/plain_file.hpp"
+#include "engine/files/measures_csv.hpp"
+
+namespace grainreel {
+namespace {
+
+using Json = nlohmann::json;
+using State = MemberResult::State;
+
+State state_of(const std::string& status) {
+    if (status == "complete") return State::complete;
+    return status == "failed" ? State::failed : State::incomplete;
+}
+
+void read_record(const std::filesystem::path& path, MemberResult& result) {
+    std::ifstream file = read_plain(path);
+    const Json record = Json::parse(file);
+    result.state = state_of(record.at("status").get<std::string>());
+    if (record.at("error").is_string()) result.error = record["error"].get<std::string>();
+    result.warnings = record.at("warnings").get<std::vector<std::string>>();
+    const Json& engine = record.at("engine");
+    result.simulated = engine.at("simulated_s").get<double>();
+    result.particle_steps_per_second = engine.at("particle_steps_per_second").get<double>();
+    const Json& frames = record.at("written").at("film_frames");
+    result.has_film = frames.is_number() && frames.get<double>() > 0;
+}
+
+std::vector<double> column_of(const MeasureTable& table, const std::string& name) {
+    const auto& columns = table.columns();
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found == columns.end()) return {};
+    return table.values(static_cast<std::size_t>(found - columns.begin()), 0, table.rows());
+}
+
+}  // namespace
+
+std::string to_string(State state) {
+    switch (state) {
+        case State::missing:
+            return "missing";
+        case State::incomplete:
+            return "incomplete";
+        case State::failed:
+            return "failed";
+        case State::complete:
+            break;
+    }
+    return "complete";
+}
+
+MemberResult read_result(const std::filesystem::path& folder, const std::vector<StudyMeasure>& measures) {
+    MemberResult result;
+    if (!std::filesystem::exists(folder / "run.json")) return result;
+    try {
+        read_record(folder / "run.json", result);
+    } catch (const Json::exception&) {
+        result = MemberResult();
+        result.state = State::incomplete;
+    }
+    result.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
+    if (result.state != State::complete) return result;
+    const auto table = read_measures(folder / "measures.csv");
+    if (table == nullptr) {
+        result.state = State::incomplete;
+        return result;
+    }
+    const std::vector<double> times = column_of(*table, "time_s");
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+        const std::vector<double> values = column_of(*table, measures[i].column);
+        if (!times.empty() && values.size() == times.size())
+            result.values[i] = reduce(measures[i].reduction, times, values);
+    }
+    return result;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,154 @@
+// The verb `bench`: how fast the engine and the drawing are on beds of known kind.
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/lab/bench/bench_run.hpp"
+#include "engine/scene/film/colours.hpp"
+#include "render/app/bench/bench_render.hpp"
+#include "render/app/bench/bench_text.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/result.hpp"
+#include "render/app/report/share_watcher.hpp"
+#include "render/app/verbs/verb.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int signal_base = 128;
+
+void read_size(const std::string& size, Film& film) {
+    int end = 0;
+    const bool read = std::sscanf(size.c_str(), "%dx%d%n", &film.width, &film.height, &end) == 2;
+    if (!read || end != static_cast<int>(size.size()) || std::min(film.width, film.height) < 64 ||
+        std::max(film.width, film.height) > 8192)
+        throw UserError(
+            fmt::format("--size {}: must be width x height, each from 64 to 8192, as in 1920x1080", size));
+}
+
+void set_style(const std::string& style, BenchRenderRequest& request) {
+    request.style = style;
+    Film& film = request.film;
+    const bool bare = style == "plain" || style == "flat";
+    film.look.occlusion = film.look.shadows = film.look.ground = !bare;
+    film.look.style = style == "flat"   ? FilmLook::Style::flat
+                      : style == "dark" ? FilmLook::Style::dark
+                                        : FilmLook::Style::studio;
+    film.background = default_background(film.look.style);
+}
+
+class Bench final : public Verb {
+  public:
+    Bench()
+        : Verb(
+              "bench", "Time the engine on a bed of known kind",
+              "Results go to stdout, progress to stderr.\n"
+              "Exit status: 0 done, 1 the run failed, 2 a mistake in the options, 130 Ctrl-C, 143 SIGTERM.") {
+    }
+
+    void add_options(CLI::App& parser) override {
+        Choices cases(bench_cases());
+        cases.add("render", "the drawing of the peers' bed at rest, by stage");
+        parser.add_option("CASE", case_, cases.about)
+            ->required()
+            ->check(CLI::IsMember(cases.names))
+            ->type_name("CASE");
+        add_bed_options(parser);
+        add_render_options(parser);
+        parser.add_flag("--quick", request_.quick,
+                        "A tenth of the steps, to try it: the bed is then\nhardly settled, and its figures "
+                        "are not those of a whole run");
+        parser.add_flag("--json", json_, "One JSON object in place of a table");
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        if (case_ == "render") {
+            render_.threads = request_.threads;
+            render_.repeats = request_.repeats;
+            render_.json = json_;
+            return bench_render(render_, reporter);
+        }
+        const auto& cases = bench_cases();
+        const auto found =
+            std::find_if(cases.begin(), cases.end(), [&](const BenchCase& c) { return c.name == case_; });
+        GRAINREEL_CHECK(found != cases.end());
+        const BenchOutcome outcome =
+            run_bench(*found, request_, ShareWatcher(reporter, Progress::Stage::timing));
+        reporter.clear();
+        if (!outcome.complete) {
+            reporter.info("stopped; nothing was measured to its end");
+            return signal_base + stop_signal();
+        }
+        print_result((json_ ? bench_json(outcome.report) : bench_table(outcome.report, request_.quick)) +
+                     "\n");
+        return 0;
+    }
+
+  private:
+    void add_bed_options(CLI::App& parser) {
+        parser.add_option("--threads", request_.threads, "Threads [as many as there are processors]")
+            ->check(CLI::Range(1, 1024))
+            ->type_name("N");
+        parser
+            .add_option_function<std::string>(
+                "--precision",
+                [this](const std::string& word) {
+                    request_.precision = word == "mixed" ? Precision::mixed : Precision::full;
+                },
+                "double or mixed [double]")
+            ->check(CLI::IsMember({"double", "mixed"}))
+            ->type_name("WHICH");
+        parser.add_option("--particles", request_.particles, "Grains [by the case]; for render: --grains")
+            ->check(CLI::Range(100, 10000000))
+            ->type_name("N");
+        parser.add_option("--repeat", request_.repeats, "Run it all so often and give medians [1]")
+            ->check(CLI::Range(1, 1000))
+            ->type_name("K");
+    }
+
+    void add_render_options(CLI::App& parser) {
+        parser.add_option("--grains", render_.grains, "render: grains in the bed [10125]")
+            ->check(CLI::Range(100, 10000000))
+            ->type_name("N");
+        parser
+            .add_option_function<std::string>(
+                "--size", [this](const std::string& size) { read_size(size, render_.film); },
+                "render: of the picture in pixels [1920x1080]")
+            ->type_name("WxH");
+        add_out_folder(
+            parser, render_.out,
+            "render: keep the picture, and the grains and camera for other renderers, in this folder");
+        parser
+            .add_option_function<std::string>(
+                "--style", [this](const std::string& style) { set_style(style, render_); },
+                "render: studio, flat, dark or plain (lit spheres alone) [studio]")
+            ->check(CLI::IsMember({"studio", "flat", "dark", "plain"}))
+            ->type_name("WHICH");
+        parser.add_flag_callback(
+            "--orthographic", [this] { render_.film.camera.field_of_view = 0; },
+            "render: with an orthographic camera");
+        parser
+            .add_option("--zoom", render_.film.camera.zoom,
+                        "render: closer than where the grains fill the picture's height or width [1]")
+            ->type_name("Z")
+            ->check(CLI::Range(0.01, 100.0));
+    }
+
+    std::string case_;
+    BenchRequest request_;
+    BenchRenderRequest render_;
+    bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> bench_verb() {
+    return std::make_unique<Bench>();
+}
+
+}  // namespace grainreel

@@ -1,0 +1,88 @@
+// The verb `compare`: several scenes, or finished runs, in one film, side by side and in step.
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/film_report.hpp"
+#include "render/app/report/record.hpp"
+#include "render/app/verbs/verb.hpp"
+#include "render/run/compare/compare_run.hpp"
+
+namespace grainreel {
+namespace {
+
+class Compare final : public Verb {
+  public:
+    Compare()
+        : Verb("compare", "Run scenes and film them side by side, in step",
+               fmt::format(
+                   "Rate, size and segments of the film are those of the first scene; --set and its like go "
+                   "to\n"
+                   "every scene. All panels show the same moment, at the same scale where they can. A film "
+                   "of\n"
+                   "finished runs shows moments that they did not keep too: they are brought back.\n{}",
+                   exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        parser
+            .add_option("SCENE", request_.inputs,
+                        "Two to six scenes to run, or folders of finished runs to draw from; one with --vary")
+            ->required()
+            ->type_name("FILE|DIR");
+        add_vary(parser);
+        add_captions(parser);
+        CLI::Option* at =
+            add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file in the folder");
+        add_no_replay(parser, request_.replay);
+        add_scene_keys(parser, request_.sets);
+        add_film(parser, film_,
+                 "Folder of the film, with one in it for each run [output/ and the scenes' names]");
+        for (const char* other : {"--frames", "--no-film"}) at->excludes(parser.get_option(other));
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        film_.command = command;
+        film_.program = program_info();
+        if (request_.at) request_.sets = sets_for_still(std::move(request_.sets));
+        CompareRun comparison(film_, reporter, read_comparison(request_, film_));
+        return tell_folder(comparison.run(), film_);
+    }
+
+  private:
+    void add_vary(CLI::App& parser) {
+        parser
+            .add_option_function<std::string>(
+                "--vary",
+                [this](const std::string& text) {
+                    check_typed("--vary", text);
+                    request_.vary = text;
+                },
+                "Run one scene with two to six values of a key, as in --vary drive.g_level=2,4 or\n"
+                "--vary drive.frequency=\"20 Hz,30 Hz\"")
+            ->type_name("KEY=VALUES");
+    }
+    void add_captions(CLI::App& parser) {
+        parser
+            .add_option_function<std::string>(
+                "--captions",
+                [this](const std::string& text) {
+                    check_typed("--captions", text);
+                    request_.captions = text;
+                },
+                "One a panel, bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the values of --vary, "
+                "the drives, else the titles]")
+            ->type_name("TEXT");
+    }
+
+    CompareRequest request_;
+    FilmRequest film_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> compare_verb() {
+    return std::make_unique<Compare>();
+}
+
+}  // namespace grainreel

@@ -1,0 +1,66 @@
+// The verb `movie`: one scene becomes a film and the files beside it.
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "engine/measure/columns.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/film_report.hpp"
+#include "render/app/report/page_of_run.hpp"
+#include "render/app/report/record.hpp"
+#include "render/app/verbs/verb.hpp"
+#include "render/app/watch/watch_child.hpp"
+#include "render/run/movie_run.hpp"
+
+namespace grainreel {
+namespace {
+
+class Movie final : public Verb {
+  public:
+    Movie()
+        : Verb("movie", "Run a scene and make its film",
+               fmt::format("The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the "
+                           "film so that it\nplays and keeps the end state; a second one keeps the end state "
+                           "alone, a third stops at once.\n{}",
+                           exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        add_scene(parser, scene_, sets_);
+        add_film(parser, film_,
+                 "Folder of the run [output/ and the scene's name, numbered when that is taken]");
+        parser.add_flag("--no-report", no_page_, "Leave out report.html, the run as a page for a browser");
+        add_watch(parser, watched_, place_);
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        film_.command = command;
+        film_.program = program_info();
+        if (!no_page_) film_.page = page_of_ended_run();
+        const Scene scene = read_scene(scene_, sets_, measurable_in);
+        const Plan plan = make_plan(scene);
+        std::optional<Listening> listening;
+        if (watched_) listening.emplace(listen_at(place_));
+        MovieRun movie(film_, reporter, scene, plan);
+        std::optional<WatchChild> watch;
+        if (listening) watch.emplace(movie.folder(), place_.host, std::move(*listening), report);
+        return tell_folder(movie.run(), film_);
+    }
+
+  private:
+    std::filesystem::path scene_;
+    Assignments sets_;
+    FilmRequest film_;
+    bool no_page_ = false, watched_ = false;
+    WatchPlace place_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> movie_verb() {
+    return std::make_unique<Movie>();
+}
+
+}  // namespace grainreel

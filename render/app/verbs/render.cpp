@@ -1,0 +1,98 @@
+// The verb `render`: a finished run is drawn again, as a film or as one picture. What it did not keep is
+// brought back from its checkpoints; the run itself stays as it is.
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "engine/base/error.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/film_report.hpp"
+#include "render/app/report/record.hpp"
+#include "render/app/report/result.hpp"
+#include "render/app/verbs/verb.hpp"
+#include "render/run/frames/revisited_run.hpp"
+#include "render/run/redraw_run.hpp"
+#include "render/run/still.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int signal_base = 128;
+
+// Frames of the trajectory have a pace of their own.
+void check_no_segments(const Assignments& sets) {
+    for (const Assignment& set : sets)
+        if (set.key().rfind("film.segment", 0) == 0)
+            throw UserError(
+                fmt::format("{}: --every draws the frames of the trajectory one after the other, "
+                            "without segments; leave one of the two out",
+                            set.place()));
+}
+
+class Render final : public Verb {
+  public:
+    Render()
+        : Verb(
+              "render", "Draw a finished run again, without running it",
+              fmt::format("RUN itself is never changed. The folder or file that was made goes to stdout.\n{}",
+                          exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        parser.add_option("RUN", request_.run, "Folder of a run, with its scene.toml and trajectory.nc")
+            ->required()
+            ->type_name("DIR");
+        add_sets(parser, request_.sets,
+                 "Another value for a key of [film] or a species' colour, as in --set film.camera.azimuth=60 "
+                 "or --set species.big.colour=orange; may be repeated");
+        add_picture_keys(parser, request_.sets);
+        CLI::Option* from =
+            add_time(parser, "--from", request_.from, "First moment to draw [the film's first]");
+        CLI::Option* to = add_time(parser, "--to", request_.to, "Last moment to draw [the film's last]");
+        CLI::Option* every =
+            parser
+                .add_option("--every", request_.every,
+                            "Draw one of so many frames of the trajectory, in place of the film's pictures")
+                ->check(CLI::Range(1, 1000000000))
+                ->type_name("N");
+        CLI::Option* at = add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file");
+        add_no_replay(parser, request_.replay);
+        add_film(
+            parser, film_,
+            "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
+        for (CLI::Option* other :
+             {from, to, every, parser.get_option("--frames"), parser.get_option("--no-film")})
+            at->excludes(other);
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        film_.command = command;
+        film_.program = program_info();
+        if (request_.at) return draw_one(reporter);
+        if (request_.every) check_no_segments(request_.sets);
+        RevisitedRun source(request_.run, request_.sets, request_.replay);
+        source.leave_out_damaged();
+        RedrawRun redraw(film_, request_, reporter, source);
+        return tell_folder(redraw.run(), film_);
+    }
+
+  private:
+    int draw_one(Reporter& reporter) const {
+        RevisitedRun source(request_.run, sets_for_still(request_.sets), request_.replay);
+        const auto file = draw_still(film_, *request_.at, reporter, source);
+        if (!file) return signal_base + reporter.stop_signal();
+        print_exact(file->string() + "\n");
+        return 0;
+    }
+
+    RenderRequest request_;
+    FilmRequest film_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> render_verb() {
+    return std::make_unique<Render>();
+}
+
+}  // namespace grainreel

@@ -1,0 +1,94 @@
+// The verb `report`: a finished run as one page for a browser.
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/page_of_run.hpp"
+#include "render/app/report/result.hpp"
+#include "render/app/report/share_watcher.hpp"
+#include "render/app/verbs/verb.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Report final : public Verb {
+  public:
+    Report()
+        : Verb(
+              "report", "Make a page of a run: film, charts and the bed in three dimensions",
+              "The page is one file. It needs no network and no server; any browser of today opens it. An "
+              "earlier "
+              "page is replaced, and nothing else in RUN is changed. The file that was made goes to stdout.\n"
+              "Exit status: 0 done, 1 the page could not be written, 2 a mistake in the options or the "
+              "run.") {}
+
+    void add_options(CLI::App& parser) override {
+        parser
+            .add_option("RUN", runs_,
+                        "Folder of a run, however it ended; of several, which then stand\nside by side on "
+                        "one time axis")
+            ->required()
+            ->type_name("DIR ...");
+        parser
+            .add_option("--out", out_,
+                        "The page's file [report.html in RUN; of several runs side_by_side.html]")
+            ->type_name("FILE")
+            ->check(not_empty());
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        if (runs_.size() > most_runs)
+            throw UserError(fmt::format("report: {} runs do not fit side by side; give {} at most",
+                                        runs_.size(), most_runs));
+        if (runs_.size() > 1 && out_.empty()) out_ = "side_by_side.html";
+        if (!out_.empty()) check_out(out_);
+        const ShareWatcher watcher(reporter, Progress::Stage::paging);
+        const bool checked = false;
+        const ReportMade made =
+            *make_page_of(runs_, out_, checked, [&](double done) { return watcher("", done), true; });
+        for (const std::string& line : made.news) reporter.warning(line);
+        reporter.info(fmt::format("wrote {} ({}); open it in a browser", made.file.string(),
+                                  data_size_text(static_cast<double>(made.bytes))));
+        print_exact(made.file.string() + "\n");
+        return 0;
+    }
+
+    bool ends_in_good_order() const override { return false; }
+
+  private:
+    // A page that is no page of ours is not written over.
+    static void check_out(const fs::path& out) {
+        check_typed("--out", out.string());
+        std::error_code ignored;
+        const fs::path folder = out.parent_path();
+        if (!folder.empty() && !fs::is_directory(folder, ignored))
+            throw UserError(
+                fmt::format("--out {}: there is no folder {}; make it first", out.string(), folder.string()));
+        if (fs::is_directory(out, ignored))
+            throw UserError(fmt::format("--out {}: is a folder; name a file, as in {}", out.string(),
+                                        (out / "report.html").string()));
+        if (out.extension() != ".html")
+            throw UserError(fmt::format("--out {}: a page's name ends in .html", out.string()));
+    }
+
+    static constexpr std::size_t most_runs = 6;
+    std::vector<fs::path> runs_;
+    fs::path out_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> report_verb() {
+    return std::make_unique<Report>();
+}
+
+}  // namespace grainreel

@@ -1,0 +1,243 @@
+// The verb `resume`: a run that was broken off, or is to be longer, goes on in its folder.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
+#include "engine/files/folder_lock.hpp"
+#include "engine/files/former_run.hpp"
+#include "engine/files/run_json.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/replay/checkpoint_ring.hpp"
+#include "engine/replay/replay.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/start/continuation.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/film_report.hpp"
+#include "render/app/report/page_of_run.hpp"
+#include "render/app/report/record.hpp"
+#include "render/app/verbs/verb.hpp"
+#include "render/run/frames/recorded_scene.hpp"
+#include "render/run/moments/key_moments.hpp"
+#include "render/run/movie_run.hpp"
+#include "render/run/resume/accepted_changes.hpp"
+#include "render/run/resume/kept_files.hpp"
+#include "render/run/resume/resume_point.hpp"
+#include "render/run/thread_plan.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Resume final : public Verb {
+  public:
+    Resume()
+        : Verb(
+              "resume", "Go on with a run that was broken off, or make a finished one longer",
+              fmt::format(
+                  "The run goes on bit by bit in its own folder, from its last checkpoint: trajectory, "
+                  "measures and what lies\nbeside them have neither a gap nor a row twice. The film is drawn "
+                  "again from the moments that were kept of it.\n{}",
+                  exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        parser.add_option("RUN", run_, "Folder of the run")->required()->type_name("DIR");
+        CLI::Option* until =
+            add_time(parser, "--until", until_, "Where the run ends then [run.duration of its scene]");
+        add_time(parser, "--for", more_, "So much further than it has come")->excludes(until);
+        parser
+            .add_option("--accept", accept_,
+                        "A key that may differ from now on, as in drive.g_level=4 or contact.friction=0.2; "
+                        "without a value as it is in scene.toml; may be repeated")
+            ->type_name("KEY[=VALUE]")
+            ->expected(1)
+            ->take_all();
+        parser.add_flag("--no-film", no_film_, "Leave the film as it is");
+        parser.add_flag("--no-report", no_page_, "Leave report.html as it is");
+        parser.add_option("--threads", threads_, "Threads in all [as its scene says]")
+            ->type_name("N")
+            ->check(CLI::Range(1, 1024));
+        add_gl(parser, film_.gl);
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        film_.command = command;
+        film_.program = program_info();
+        if (!no_page_) film_.page = page_of_ended_run();
+        const fs::path folder = folder_of_run(run_);
+        scene_file(folder);
+        check_all_plain(folder);
+        std::shared_ptr<FolderLock> lock = locked(folder);
+        put_back_former(folder, reporter);
+        if (is_only_page_missing(folder)) return make_missing_page(folder, reporter);
+        Scene scene = scene_to_go_on(folder, {});
+        Plan plan = plan_of_run(scene, folder);
+        std::vector<AcceptedChange> changes;
+        if (!accept_.empty()) {
+            changes = accepted_changes(kept_checkpoints(folder).back().file, scene, plan, accepted_keys());
+            scene = scene_to_go_on(folder, undone(changes));
+            plan = plan_of_run(scene, folder);
+        }
+        film_.out = folder;
+        film_.film = !no_film_ && has_film(scene, folder);
+        std::error_code ignored;
+        film_.frames = film_.film && fs::exists(folder / "frames", ignored);
+        const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
+        const int threads = plan_threads(processors, film_.film, scene.grains()).engine;
+        ResumePoint point = find_resume_point(scene, plan, folder, film_.film, threads);
+        point.accepted = accepted_in_run_json(folder / "run.json");
+        if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
+        reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
+                                  plan.clock.time(point.simulation.step()), scene.run.duration));
+        if (!point.held_back.empty()) reporter.info("note: " + point.held_back);
+        for (const AcceptedChange& change : changes)
+            reporter.info(
+                fmt::format("'{}' is {} from there on; it was {}", change.key, change.now, change.then));
+        name_as_before(scene, folder);
+        MovieRun movie(film_, reporter, scene, plan, std::move(point), std::move(lock));
+        return tell_folder(movie.run(), film_);
+    }
+
+  private:
+    static fs::path scene_file(const fs::path& folder) {
+        return file_of_run(
+            folder, "scene.toml",
+            "give the folder of a run of `movie`; a film that `render` or `compare` made cannot "
+            "go on");
+    }
+
+    // From here on nobody else changes the run.
+    std::shared_ptr<FolderLock> locked(const fs::path& folder) const {
+        if (std::optional<FolderLock> lock = FolderLock::take(folder, command))
+            return std::make_shared<FolderLock>(std::move(*lock));
+        throw UserError(fmt::format("{}: is in use by {}; wait until it has ended", folder.string(),
+                                    FolderLock::holder(folder).value_or("another process")));
+    }
+
+    static void put_back_former(const fs::path& folder, Reporter& reporter) {
+        if (!FormerRun::is_kept(folder)) return;
+        FormerRun::put_back(folder);
+        reporter.info(fmt::format(
+            "{}: an earlier `resume` did not come past the run's former end; the run is as it was before it",
+            folder.string()));
+    }
+
+    // Of a run that has come to its end, and is not to be longer. Versions before did not note it.
+    bool is_only_page_missing(const fs::path& folder) const {
+        if (until_ || more_ || !accept_.empty()) return false;
+        const fs::path record = folder / "run.json";
+        const bool complete = status_in_run_json(record) == to_string(RunStatus::complete);
+        return lacks_only_page(record) ||
+               (complete && !no_page_ && is_there(folder / kKeyMoments) && !is_there(folder / kPageName));
+    }
+
+    int make_missing_page(const fs::path& folder, Reporter& reporter) const {
+        std::string page;
+        if (film_.page) {
+            reporter.info(fmt::format("{}: only its page is missing", folder.string()));
+            const auto go_on = [&](double) { return reporter.stop_signal() == 0; };
+            page = film_.page(folder, go_on).value_or("");
+            if (page.empty()) return 128 + reporter.stop_signal();
+        }
+        complete_run_json(folder / "run.json", page);
+        reporter.info(fmt::format("wrote {}: {}run.json", folder.string(), page.empty() ? "" : page + ", "));
+        return tell_folder({0, folder}, film_);
+    }
+
+    std::vector<std::string> accepted_keys() const {
+        std::vector<std::string> keys;
+        for (const std::string& one : accept_) keys.push_back(one.substr(0, one.find('=')));
+        return keys;
+    }
+
+    // "contact.friction=0.2" stands for the friction of each pair, which the scene of a run has one by one.
+    static Assignments spelled_out(const std::string& one, const fs::path& file) {
+        const std::size_t equals = one.find('=');
+        const std::string key = one.substr(0, equals), value = one.substr(equals);
+        if (key != "contact.friction" && key != "contact.rolling_friction") return {{one, "--accept"}};
+        const std::size_t species = read_scene(file, {}, measurable_in).species.size();
+        Assignments all;
+        for (std::size_t k = 0; k < species * (species + 3) / 2; ++k)
+            all.push_back({fmt::format("contact.pair[{}].{}{}", k, key.substr(sizeof "contact." - 1), value),
+                           "--accept"});
+        return all;
+    }
+
+    // The run is another one from the checkpoint on, which is saved again with what it is now, so that later
+    // moments come back from it as they were.
+    void take_up(const std::vector<AcceptedChange>& changes, const fs::path& folder, Scene& scene, Plan& plan,
+                 ResumePoint& point, int threads) const {
+        const double time = plan.clock.time(point.simulation.step());
+        const Scene changed = changed_at(time, scene, scene_to_go_on(folder, {}), changes);
+        const Plan changed_plan = plan_of_run(changed, folder);
+        check_overlap_stays(scene, plan, changed_plan);
+        point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
+        for (const KeyDifference& one :
+             deciding_differences(scene_to_keep(scene, plan), scene_to_keep(changed, changed_plan)))
+            point.accepted.push_back({point.simulation.step(), one.key, one.then, one.now});
+        scene = changed;
+        plan = changed_plan;
+        point.changed = true;
+    }
+
+    // With the end that is asked for, and values that were given with --accept; `undone` goes before those.
+    Scene scene_to_go_on(const fs::path& folder, const Assignments& undone) const {
+        const fs::path file = scene_file(folder);
+        Assignments sets;
+        if (threads_) sets.push_back({fmt::format("run.threads={}", *threads_), "--threads"});
+        for (const std::string& one : accept_)
+            if (undone.empty() && one.find('=') != std::string::npos)
+                for (Assignment& set : spelled_out(one, file)) sets.push_back(std::move(set));
+        sets.insert(sets.end(), undone.begin(), undone.end());
+        const Scene before = read_scene(file, sets, measurable_in);
+        const std::vector<KeptCheckpoint> kept = kept_checkpoints(folder);
+        if (kept.empty())
+            throw UserError(
+                fmt::format("{}: has no checkpoint; the run was stopped while its grains were packed, or its "
+                            "checkpoints were removed; run its scene.toml again",
+                            folder.string()));
+        const Plan plan = plan_of_run(before, folder);
+        const double reached = plan.clock.time(reached_step(folder, kept.back().step));
+        const double end = until_ ? *until_ : more_ ? reached + *more_ : before.run.duration;
+        // One that was killed while its film was finished has come to its end and is not complete.
+        const bool complete = status_in_run_json(folder / "run.json") == to_string(RunStatus::complete);
+        if (end < reached + (complete ? 0.5 : -0.5) * plan.clock.step)
+            throw UserError(
+                fmt::format("{}: the run has come to {:.6g} s already; give a later end, as in --for 5s",
+                            until_ || more_ ? (until_ ? "--until" : "--for") : folder.string(), reached));
+        if (until_ || more_)
+            sets.push_back({fmt::format("run.duration={} s", end), until_ ? "--until" : "--for"});
+        return read_scene(file, sets, measurable_in);
+    }
+
+    // run.json and the pictures name the scene that the run was made of.
+    static void name_as_before(Scene& scene, const fs::path& folder) {
+        const std::string file = scene_in_run_json(folder / "run.json");
+        if (file.empty()) return;
+        scene.file = file;
+        scene.name = fs::path(file).stem().string();
+    }
+
+    fs::path run_;
+    std::optional<double> until_, more_;
+    std::optional<int> threads_;
+    std::vector<std::string> accept_;
+    bool no_film_ = false, no_page_ = false;
+    FilmRequest film_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> resume_verb() {
+    return std::make_unique<Resume>();
+}
+
+}  // namespace grainreel

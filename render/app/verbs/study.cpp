@@ -1,0 +1,246 @@
+// The verb `study`: one scene is run with many values of its keys, measured, and drawn in charts.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/base/shell_word.hpp"
+#include "engine/base/team.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/files/folder_lock.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/app/check/study_estimate.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/result.hpp"
+#include "render/app/study/file/read_study.hpp"
+#include "render/app/study/members/child.hpp"
+#include "render/app/study/members/runner.hpp"
+#include "render/app/study/page.hpp"
+#include "render/app/study/results/drawing.hpp"
+#include "render/app/study/results/table.hpp"
+#include "render/app/verbs/verb.hpp"
+#include "render/run/stage_times.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int signal_base = 128;
+constexpr double table_interval = 5;  // s between two versions of study.csv while members run
+constexpr std::size_t most_listed = 40;
+
+class StudyVerb final : public Verb {
+  public:
+    StudyVerb()
+        : Verb("study", "Run a scene with many values of its keys, and chart what is measured",
+               "Members run side by side, one thread each. The same command goes on where it stopped. The "
+               "folder\n"
+               "goes to stdout, everything else to stderr.\n"
+               "Exit status: 0 all members are complete, 1 one has failed, 2 a mistake in the study, its "
+               "scene\n"
+               "or the options, 129 the terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.") {
+        request_.jobs = usable_processors();
+    }
+
+    void add_options(CLI::App& parser) override {
+        parser
+            .add_option("STUDY", file_,
+                        "The study, a TOML file; docs/guide/studies.md tells how one is written")
+            ->required()
+            ->type_name("FILE");
+        add_out_folder(parser, out_,
+                       "Folder of the study; a study that was stopped there goes on [output/ and its name]");
+        parser.add_option("--jobs", request_.jobs, "Members at a time [as many as there are processors]")
+            ->check(CLI::Range(1, 4096))
+            ->type_name("N");
+        parser.add_flag("--films", request_.films,
+                        "Make the film of each member; one that has none is run again");
+        parser.add_flag("--retry", request_.retry, "Run failed members again");
+        parser.add_flag_callback(
+            "--no-posters", [this] { request_.posters = false; },
+            "Leave out the pictures of the members' last frames");
+        parser.add_flag("--yes", yes_, "More than 10,000 members are meant");
+        add_ways(parser);
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        const Study study = read_study(file_);
+        count_members(study, yes_);
+        std::vector<std::vector<ReferencePoint>> references;
+        for (const StudyChart& chart : study.charts)
+            references.push_back(chart.reference ? read_reference(*chart.reference)
+                                                 : std::vector<ReferencePoint>());
+        StudyEstimate estimate(request_.jobs, request_.films, dry_);
+        members_ = make_members(
+            study, [&](const Scene& scene, const Plan& plan) { estimate.add_setting(scene, plan); });
+        folder_.path =
+            std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
+        check_folder();
+        for (const Member& member : members_) {
+            results_.push_back(read_result(folder_.member(member), study.measures));
+            request_.cost.push_back(estimate.of(member).seconds);
+        }
+        if (dry_) return tell_plan(study, estimate);
+        if (print_commands_) return tell_commands(study);
+        return work(study, references, reporter);
+    }
+
+  private:
+    void add_ways(CLI::App& parser) {
+        CLI::Option* dry =
+            parser.add_flag("--dry-run", dry_, "Print the members, their cost and disk; run nothing");
+        CLI::Option* print =
+            parser.add_flag("--print-commands", print_commands_,
+                            "Print a command for each member that is to be run, for GNU parallel or "
+                            "Slurm; run nothing");
+        CLI::Option* collect = parser.add_flag("--collect", request_.collect_only,
+                                               "Run nothing; gather what those commands have made");
+        dry->excludes(print)->excludes(collect);
+        print->excludes(collect);
+    }
+
+    // A folder of anything else is left alone.
+    void check_folder() const {
+        std::error_code none;
+        const bool fresh =
+            !std::filesystem::exists(folder_.path, none) || std::filesystem::is_empty(folder_.path, none);
+        if (fresh || std::filesystem::is_directory(folder_.path / "members")) return;
+        throw UserError(
+            fmt::format("{}: holds something that is no study; give another --out", folder_.path.string()));
+    }
+
+    std::vector<const Member*> pending() const {
+        std::vector<const Member*> members;
+        for (std::size_t m = 0; m < members_.size(); ++m)
+            if (is_pending(results_[m], request_)) members.push_back(&members_[m]);
+        return members;
+    }
+
+    int tell_plan(const Study& study, const StudyEstimate& estimate) const {
+        const std::vector<const Member*> left = pending();
+        const std::size_t settings = members_.size() / study.seed_count();
+        std::string text =
+            fmt::format("study        {}: {}\nscene        {}\nfolder       {}\n", study.file.string(),
+                        study.title, study.scene.string(), folder_.path.string());
+        for (const Variation& variation : study.variations)
+            text +=
+                fmt::format("vary         {}: {} values, {} to {}\n", variation.key, variation.values.size(),
+                            variation.values.front().words, variation.values.back().words);
+        text += fmt::format("members      {} = {} settings x {} seeds, {} of them to be run\n",
+                            members_.size(), settings, study.seed_count(), left.size());
+        double bytes = 0, work = 0;
+        for (const Member* member : left) {
+            bytes += estimate.of(*member).bytes;
+            work += estimate.of(*member).seconds;
+        }
+        text += fmt::format(
+            "cost         {} of one processor, about {} with {} at a time\ndisk         about {}\n\n",
+            duration_text(work), duration_text(estimate.wall_seconds(left)), request_.jobs,
+            data_size_text(bytes));
+        for (std::size_t i = 0; i < std::min(left.size(), most_listed); ++i)
+            text += fmt::format("{:>10}   {}\n", duration_text(estimate.of(*left[i]).seconds),
+                                member_text(study, *left[i]));
+        if (left.size() > most_listed)
+            text += fmt::format("             and {} more\n", left.size() - most_listed);
+        print_result(text);
+        return 0;
+    }
+
+    int tell_commands(const Study& study) const {
+        make_study_folder(study, folder_);
+        for (const Member* member : pending()) {
+            std::vector<std::string> words{own_program()};
+            for (std::string& word : run_command(study, *member, folder_, request_.films))
+                words.push_back(word);
+            words.push_back("--quiet");
+            print_exact(shell_words(words) + "\n");
+        }
+        return 0;
+    }
+
+    int work(const Study& study, const std::vector<std::vector<ReferencePoint>>& references,
+             Reporter& reporter) {
+        make_study_folder(study, folder_);
+        const FolderLock lock = locked_folder();
+        Stopwatch since_table;
+        run_members(study, members_, folder_, request_, results_, reporter, [&] {
+            if (since_table.seconds() < table_interval) return;
+            replace_file(folder_.path / "study.csv", study_table(study, members_, results_));
+            since_table = Stopwatch();
+        });
+        reporter.clear();
+        write_results(study, references, reporter);
+        return tell_end(study, reporter);
+    }
+
+    FolderLock locked_folder() const {
+        if (auto lock = FolderLock::take(folder_.path, command)) return std::move(*lock);
+        throw UserError(fmt::format("{}: is in use by {}; wait for it, or give another --out",
+                                    folder_.path.string(),
+                                    FolderLock::holder(folder_.path).value_or("another process")));
+    }
+
+    void write_results(const Study& study, const std::vector<std::vector<ReferencePoint>>& references,
+                       Reporter& reporter) const {
+        replace_file(folder_.path / "study.csv", study_table(study, members_, results_));
+        const DrawnCharts charts = draw_charts(study, members_, results_, references, folder_.charts());
+        if (!charts.drawn)
+            reporter.warning(
+                "gnuplot is missing or failed, so there are tables but no charts; install gnuplot-nox "
+                "and give the same command again");
+        replace_file(folder_.path / "index.html",
+                     study_page(study, members_, results_, folder_, charts.stems));
+    }
+
+    int tell_end(const Study& study, Reporter& reporter) const {
+        const auto count = [&](MemberResult::State state) {
+            return std::count_if(results_.begin(), results_.end(),
+                                 [&](const auto& r) { return r.state == state; });
+        };
+        const auto complete = count(MemberResult::State::complete),
+                   failed = count(MemberResult::State::failed);
+        tell_gaps(study, reporter);
+        reporter.info(fmt::format("{} of {} members are complete{}; wrote study.csv, charts/, index.html",
+                                  complete, results_.size(),
+                                  failed > 0 ? fmt::format(", {} failed", failed) : ""));
+        print_exact(folder_.path.string() + "\n");
+        if (reporter.stop_signal() != 0) {
+            reporter.info("stopped; the same command goes on");
+            return signal_base + reporter.stop_signal();
+        }
+        return failed > 0 ? 1 : 0;
+    }
+
+    // Numbers that are not there are left out of means, which then tell of the others alone.
+    void tell_gaps(const Study& study, Reporter& reporter) const {
+        for (std::size_t i = 0; i < study.measures.size(); ++i) {
+            const auto gaps = std::count_if(results_.begin(), results_.end(), [&](const MemberResult& r) {
+                return r.state == MemberResult::State::complete && std::isnan(r.values[i]);
+            });
+            if (gaps > 0)
+                reporter.warning(fmt::format(
+                    "{} has no value in {} complete members, and means leave these out; either its "
+                    "column is empty there, or its window has no row, or its threshold is not "
+                    "reached",
+                    study.measures[i].name, gaps));
+        }
+    }
+
+    std::filesystem::path file_;
+    std::optional<std::filesystem::path> out_;
+    StudyRunRequest request_;
+    bool yes_ = false, dry_ = false, print_commands_ = false;
+    StudyFolder folder_;
+    std::vector<Member> members_;
+    std::vector<MemberResult> results_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> study_verb() {
+    return std::make_unique<StudyVerb>();
+}
+
+}  // namespace grainreel

@@ -1,0 +1,66 @@
+// The verb `watch`: a run as a page while it goes.
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+
+#include "engine/base/error.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/page_of_run.hpp"
+#include "render/app/verbs/verb.hpp"
+#include "render/page/live/watch.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WatchVerb final : public Verb {
+  public:
+    WatchVerb()
+        : Verb("watch", "Show a run while it goes, as a page for a browser",
+               fmt::format("The page is for reading alone: whoever sees it changes nothing in RUN. Ctrl-C "
+                           "ends it; the "
+                           "run\ngoes on.\n{}",
+                           exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        parser.add_option("RUN", run_, "Folder of a run, which may go on or be finished")
+            ->required()
+            ->type_name("DIR");
+        add_watch_port(parser, place_);
+        add_watch_host(parser, place_);
+        // Of a run that shows itself: a socket that listens, and a pipe that closes when the run ends.
+        parser.add_option("--socket", socket_)->group("");
+        parser.add_option("--until", until_)->group("");
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        check_typed("RUN", run_.string());
+        std::error_code ignored;
+        if (!fs::is_directory(run_, ignored))
+            throw UserError(fmt::format("{}: no such folder; give the folder of a run", run_.string()));
+        const bool begins = socket_.has_value();  // its files are yet to come
+        if (!begins && !fs::exists(run_ / "run.json", ignored))
+            throw UserError(
+                fmt::format("{}: holds no run (no run.json); give the folder of a run", run_.string()));
+        Listening listening = socket_ ? Listening(*socket_) : listen_at(place_);
+        return watch_run({run_, place_.host, std::move(listening), until_.value_or(-1)}, planned_scene,
+                         reporter);
+    }
+
+  private:
+    fs::path run_;
+    WatchPlace place_;
+    std::optional<int> socket_, until_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> watch_verb() {
+    return std::make_unique<WatchVerb>();
+}
+
+}  // namespace grainreel

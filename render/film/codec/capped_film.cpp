@@ -1,0 +1,173 @@
+#include "render/film/codec/capped_film.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/film/codec/film_reader.hpp"
+#include "render/film/codec/remux.hpp"
+#include "render/film/codec/smaller_film.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double aim = 0.96, least = 0.9;  // of the cap
+constexpr int most_passes = 4;             // the first of them hits nearly always
+constexpr const char* fitted = "fitted";   // in the work folder: the film encoded anew
+
+EncoderSettings first_settings(EncoderSettings settings, const WorkFolder& work) {
+    if (!settings.codec->film_is_first_pass) return settings;
+    settings.pass = 1;
+    settings.log = work.file("pass.log");
+    return settings;
+}
+
+EncoderSettings spool_settings(EncoderSettings settings, const WorkFolder& work) {
+    settings.codec = &spool_of_yuv();
+    settings.path = work.file("spool.mkv");
+    return settings;
+}
+
+std::int64_t size_of(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(path, error);
+    if (error) throw RunError(fmt::format("{}: cannot be found again: {}", path.string(), error.message()));
+    return static_cast<std::int64_t>(size);
+}
+
+}  // namespace
+
+CappedFilm::CappedFilm(const EncoderSettings& settings, std::int64_t cap)
+    : settings_(settings),
+      cap_(cap),
+      work_(settings.path),
+      film_(std::make_unique<Encoder>(first_settings(settings, work_))),
+      spool_(std::make_unique<Encoder>(spool_settings(settings, work_))),
+      description_(film_->description()),
+      notes_(film_->notes()) {}
+
+void CappedFilm::add(const Picture& picture) {
+    film_->add(picture);
+    spool_->add(picture);
+}
+
+void CappedFilm::finish() {
+    spool_->finish();
+    film_->finish();
+    const std::int64_t size = size_of(settings_.path);
+    result_ =
+        fmt::format("{} at this quality, below the cap of {}", data_size_text(static_cast<double>(size)),
+                    data_size_text(static_cast<double>(cap_)));
+    if (size > cap_) fit(size);
+    work_.remove();
+}
+
+// Brings the film under its cap, if it can be legible there.
+void CappedFilm::fit(std::int64_t size) {
+    const auto overhead = static_cast<double>(size - film_->payload());  // of the container
+    film_.reset();  // x264 writes the last of its log when it is closed
+    const std::int64_t floor = settings_.quality < least_legible ? encode_legible() : size;
+    if (floor > cap_) refuse(size, floor, overhead);
+    if (static_cast<double>(floor) >= least * static_cast<double>(cap_)) {
+        result_ =
+            fmt::format("{} at quality {}, under the cap of {}", data_size_text(static_cast<double>(floor)),
+                        least_legible, data_size_text(static_cast<double>(cap_)));
+        return take_fitted();
+    }
+    fill(overhead);
+}
+
+void CappedFilm::refuse(std::int64_t size, std::int64_t floor, double overhead) const {
+    const auto cap = static_cast<double>(cap_);
+    const auto frames = spool_->frames();
+    const double share = std::max(0.0, cap - overhead) / (static_cast<double>(floor) - overhead);
+    throw RunError(
+        fmt::format("{}: a cap of {} is too small for this film: below {} small digits on its frames read "
+                    "wrong. What fits: {}; "
+                    "or raise --max-size (the whole film is kept, {})",
+                    settings_.path.string(), data_size_text(cap), data_size_text(static_cast<double>(floor)),
+                    smaller_film(settings_.width, settings_.height, frames, share),
+                    data_size_text(static_cast<double>(size))));
+}
+
+// Encodes anew, with the rate corrected by what came out, until the size is within its bounds.
+void CappedFilm::fill(double overhead) {
+    const auto cap = static_cast<double>(cap_);
+    const double wanted = aim * cap - overhead;
+    const std::string log = first_pass();
+    const double seconds = static_cast<double>(spool_->frames()) / settings_.rate;
+    double rate = 8 * wanted / seconds;
+    for (int pass = 1; pass <= most_passes; ++pass) {
+        const std::int64_t got = encode_at(std::llround(rate), log);
+        result_ = fmt::format("{} in two passes of {:.0f} kbit/s, under the cap of {}",
+                              data_size_text(static_cast<double>(got)), rate / 1000, data_size_text(cap));
+        const bool fits = got <= cap_ && static_cast<double>(got) >= least * cap;
+        if (fits || (pass == most_passes && got <= cap_)) return take_fitted();
+        rate *= wanted / std::max(1.0, static_cast<double>(got) - overhead);
+    }
+    throw RunError(
+        fmt::format("{}: {} could not be brought under the cap of {}; raise --max-size (the whole film "
+                    "is kept)",
+                    settings_.path.string(), settings_.codec->words, data_size_text(cap)));
+}
+
+// Puts the film that was encoded anew in place of the one at its quality.
+void CappedFilm::take_fitted() const {
+    const int code = replace_synced(work_.file(fitted), settings_.path);
+    if (code < 0)
+        throw RunError(
+            fmt::format("{}: cannot be replaced: {}", settings_.path.string(), ffmpeg_error(code)));
+}
+
+// What the first pass found, for the second one: the name of x264's file, or libvpx's text.
+std::string CappedFilm::first_pass() const {
+    if (settings_.codec->film_is_first_pass) return work_.file("pass.log");
+    CodecSettings settings = codec_settings(settings_);
+    settings.pass = 1;
+    settings.bit_rate = 1'000'000;  // of no consequence yet
+    const OpenCodec codec = open_codec(*settings_.codec, settings);
+    FilmReader spool(work_.file("spool.mkv"));
+    const PacketPtr packet(av_packet_alloc());
+    std::int64_t number = 0;
+    for (AVFrame* frame = spool.next();; frame = spool.next()) {
+        if (frame) frame->pts = number++;
+        int code = avcodec_send_frame(codec.context.get(), frame);
+        while (code >= 0) code = avcodec_receive_packet(codec.context.get(), packet.get());
+        if (code != AVERROR(EAGAIN) && code != AVERROR_EOF)
+            throw RunError(
+                fmt::format("{}: the first pass failed: {}", settings_.path.string(), ffmpeg_error(code)));
+        if (!frame) break;
+    }
+    return codec.context->stats_out ? codec.context->stats_out : "";
+}
+
+std::int64_t CappedFilm::encode(EncoderSettings settings) const {
+    settings.path = work_.file(fitted);
+    Encoder encoder(settings);
+    FilmReader spool(work_.file("spool.mkv"));
+    while (AVFrame* frame = spool.next()) encoder.add(*frame);
+    encoder.finish();
+    return size_of(settings.path);
+}
+
+std::int64_t CappedFilm::encode_legible() const {
+    EncoderSettings settings = settings_;
+    settings.quality = least_legible;
+    return encode(settings);
+}
+
+std::int64_t CappedFilm::encode_at(std::int64_t bit_rate, const std::string& log) const {
+    EncoderSettings settings = settings_;
+    settings.pass = 2;
+    settings.bit_rate = bit_rate;
+    settings.log = log;
+    return encode(settings);
+}
+
+std::string CappedFilm::description() const {
+    return result_.empty() ? description_ : description_ + "; " + result_;
+}
+
+}  // namespace grainreel

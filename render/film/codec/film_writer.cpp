@@ -1,0 +1,46 @@
+#include "render/film/codec/film_writer.hpp"
+
+#include <fmt/format.h>
+
+#include "render/film/codec/capped_film.hpp"
+#include "render/film/codec/encoder.hpp"
+#include "render/film/codec/gif_film.hpp"
+
+namespace grainreel {
+namespace {
+
+EncoderSettings encoder_settings(const Scene& scene, const FilmWriterOptions& options) {
+    EncoderSettings settings;
+    settings.codec = &codec_of(scene.film.format);
+    settings.path = options.to_stdout ? to_stdout : options.folder / film_file_name(scene.film.format);
+    settings.width = scene.film.width;
+    settings.height = scene.film.height;
+    settings.rate = scene.film.rate;
+    settings.quality = scene.film.quality;
+    settings.preset = scene.film.preset;
+    settings.alpha = scene.film.transparent;
+    settings.threads = options.threads;
+    settings.title = scene.film.title;
+    settings.comment = fmt::format("grainreel, scene {}, seed {}", scene.name, scene.run.seed);
+    return settings;
+}
+
+}  // namespace
+
+std::string film_file_name(FilmFormat format) {
+    return format == FilmFormat::png ? "" : fmt::format("movie.{}", codec_of(format).extension);
+}
+
+std::string left_film_name(FilmFormat format) {
+    return format == FilmFormat::gif ? GifFilm::spool_name() : film_file_name(format);
+}
+
+std::unique_ptr<FilmWriter> make_film_writer(const Scene& scene, const FilmWriterOptions& options) {
+    if (scene.film.format == FilmFormat::png) return nullptr;
+    const EncoderSettings settings = encoder_settings(scene, options);
+    if (scene.film.format == FilmFormat::gif) return std::make_unique<GifFilm>(settings, scene.film.max_size);
+    if (scene.film.max_size) return std::make_unique<CappedFilm>(settings, *scene.film.max_size);
+    return std::make_unique<Encoder>(settings);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,44 @@
+// Pictures in, one film out. Each format has a writer; make_film_writer() chooses.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "render/picture/base/picture.hpp"
+
+namespace grainreel {
+
+class FilmWriter {
+  public:
+    // Without finish(): what was taken in is on disk in a form that plays, where the format allows that.
+    virtual ~FilmWriter() = default;
+
+    // Throws RunError, naming the file and the reason, when writing fails.
+    virtual void add(const Picture& picture) = 0;
+    // Completes the film under its final name. Throws RunError likewise.
+    virtual void finish() = 0;
+
+    // "H.264 in MP4: libx264 (Lavc59.37.100), crf 20, veryfast, 2 threads"
+    virtual std::string description() const = 0;
+    // What the user should know: "1921x1080 padded to 1922x1080: ..."
+    virtual std::vector<std::string> notes() const = 0;
+};
+
+struct FilmWriterOptions {
+    std::filesystem::path folder;
+    bool to_stdout = false;  // y4m only: the film goes there and not into the folder
+    int threads = 1;         // of the encoder
+};
+
+// "movie.webm"; empty for a film of PNG pictures, which has no file of its own.
+std::string film_file_name(FilmFormat format);
+// The same of a film whose writer was left without finish(): of a GIF, what it was to be made from.
+std::string left_film_name(FilmFormat format);
+
+// Creates the film's file. Null for a film of PNG pictures. Throws RunError.
+std::unique_ptr<FilmWriter> make_film_writer(const Scene& scene, const FilmWriterOptions& options);
+
+}  // namespace grainreel

@@ -1,0 +1,155 @@
+#include "render/film/production/picture_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "render/film/sampling/sampler.hpp"
+
+namespace grainreel {
+namespace {
+
+// A poster for whoever kills the run: of the first frame, and again each time the film has doubled.
+bool poster_in_passing(std::int64_t count) {
+    return count == 1 || (count >= 32 && std::has_single_bit(static_cast<std::uint64_t>(count)));
+}
+
+std::string flash_remedy(const Film& film) {
+    const std::vector<FilmSegment> segments = segments_of(film);
+    const bool locked = std::all_of(segments.begin(), segments.end(), [](const FilmSegment& segment) {
+        return segment.kind == FilmSegment::Kind::locked;
+    });
+    return locked ? "show fewer frames a second (film.rate), or colours nearer in brightness"
+                  : "slow it down (film.segment playback) or lock it to a phase";
+}
+
+}  // namespace
+
+std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
+                              const std::string& playback) {
+    return {{"Title", title},
+            {"Scene", scene},
+            {"Time", fmt::format("{:.9g} s", frame.time)},
+            {"Drive phase", fmt::format("{:.9g}", frame.phase)},
+            {"Step", std::to_string(frame.step)},
+            {"Playback", playback},
+            {"Software", "grainreel"}};
+}
+
+PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
+    : folder_(options.folder),
+      check_folder_(options.check_folder),
+      name_(scene.name),
+      title_(scene.film.title),
+      frames_wanted_(options.frames || (options.film && scene.film.format == FilmFormat::png)),
+      transparent_(scene.film.transparent),
+      poster_time_(poster_time(scene.film, scene.run.duration)),
+      poster_done_(!options.film),
+      flashes_(scene.film.rate),
+      flash_remedy_(flash_remedy(scene.film)) {
+    if (frames_wanted_) {
+        const std::error_code error = make_plain_folder(folder_ / "frames");
+        if (error)
+            throw RunError(fmt::format("{}: cannot make the folder: {}", (folder_ / "frames").string(),
+                                       error.message()));
+    }
+    if (!options.film) return;
+    film_ = make_film_writer(scene, {folder_, options.to_stdout, options.encoder_threads});
+    if (!options.to_stdout) {
+        film_file_ = film_file_name(scene.film.format);
+        left_file_ = left_film_name(scene.film.format);
+        open_copy(scene, options);
+    }
+    if (scene.film.sheet[0] > 0) sheet_ = std::make_unique<ContactSheet>(scene.film);
+}
+
+// What an earlier film left goes in any case.
+void PictureFiles::open_copy(const Scene& scene, const FilmOptions& options) {
+    std::error_code ignored;
+    std::filesystem::remove(folder_ / kPageCopy, ignored);
+    if (!options.page_copy || !may_need_copy(scene.film, options.pictures)) return;
+    try {
+        copy_ = std::make_unique<PageCopy>(scene, folder_, options.encoder_threads);
+    } catch (const RunError&) {
+        // The page makes one, or says that it could not.
+    }
+}
+
+void PictureFiles::with_copy(const std::function<void(PageCopy&)>& act) {
+    if (!copy_) return;
+    try {
+        act(*copy_);
+    } catch (const RunError&) {
+        copy_.reset();
+    }
+}
+
+Picture PictureFiles::add(DrawnFrame drawn) {
+    if (count_ == 0) first_time_ = drawn.frame->time;
+    if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", frames()), drawn);
+    if (film_) film_->add(drawn.picture);
+    with_copy([&](PageCopy& copy) { copy.add(drawn.picture); });
+    ++count_;
+    flashes_.add(drawn.picture);
+    if (sheet_) sheet_->add(drawn.picture, drawn.frame->time);
+    if (!poster_done_) consider_poster(drawn);
+    std::swap(last_, drawn);
+    return std::move(drawn.picture);
+}
+
+void PictureFiles::consider_poster(const DrawnFrame& drawn) {
+    if (last_.frame && drawn.frame->time - first_time_ > poster_time_) {
+        close_poster();
+    } else if (poster_in_passing(count_)) {
+        write_poster(drawn);
+    }
+}
+
+std::vector<std::string> PictureFiles::notes() const {
+    std::vector<std::string> notes = film_ ? film_->notes() : std::vector<std::string>{};
+    if (film_ && flashes_.too_much_at())
+        notes.push_back(
+            fmt::format("the film flashes more than three times a second, first at {:.3g} s of it, which can "
+                        "set off seizures; {}",
+                        *flashes_.too_much_at(), flash_remedy_));
+    return notes;
+}
+
+void PictureFiles::close_poster() {
+    if (poster_done_ || !last_.frame) return;
+    poster_done_ = true;
+    write_poster(last_);
+}
+
+void PictureFiles::write_poster(const DrawnFrame& drawn) {
+    write(folder_ / "poster.png", drawn);
+    poster_written_ = true;
+}
+
+void PictureFiles::finish() {
+    check_folder_();
+    if (sheet_ && count_ > 0)
+        write_png(folder_ / "sheet.png", sheet_->draw(last_.picture),
+                  {{"Title", title_}, {"Scene", name_}, {"Software", "grainreel"}});
+    if (film_) film_->finish();
+    with_copy([&](PageCopy& copy) { copy.finish(folder_ / film_file_); });
+    complete_ = true;
+}
+
+void PictureFiles::leave() {
+    film_file_ = left_file_;
+    left_encoder_ = encoder();
+    film_.reset();
+    copy_.reset();
+}
+
+void PictureFiles::write(const std::filesystem::path& path, const DrawnFrame& drawn) const {
+    check_folder_();
+    write_png(path, drawn.picture, texts_of(name_, title_, *drawn.frame, drawn.playback), transparent_);
+}
+
+}  // namespace grainreel

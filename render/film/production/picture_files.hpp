@@ -1,0 +1,82 @@
+// What the encoding thread does with a drawn picture: the film, numbered PNG files, poster and contact sheet.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/film/codec/film_writer.hpp"
+#include "render/film/files/flash_watch.hpp"
+#include "render/film/files/page_copy.hpp"
+#include "render/film/files/png.hpp"
+#include "render/film/production/film_maker.hpp"
+#include "render/picture/base/picture.hpp"
+#include "render/picture/panels/contact_sheet.hpp"
+
+namespace grainreel {
+
+struct DrawnFrame {
+    Picture picture;
+    FramePtr frame;
+    std::string playback;
+};
+
+// What a PNG file says of the picture in it.
+std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
+                              const std::string& playback);
+
+class PictureFiles {
+  public:
+    // Creates the film's file and the folder of frames. Throws RunError.
+    PictureFiles(const Scene& scene, const FilmOptions& options);
+
+    // Takes the next picture and gives a picture back whose buffer may be drawn over. Throws RunError.
+    Picture add(DrawnFrame drawn);
+
+    // The poster, if it is still to come. Throws RunError.
+    void close_poster();
+    // Completes the film and the contact sheet, after close_poster(). Throws RunError.
+    void finish();
+    // In place of finish(): the film is closed as it grew.
+    void leave();
+
+    std::int64_t frames() const { return count_; }  // taken so far; may be asked by another thread
+    bool complete() const { return complete_; }
+    std::string film_file() const { return film_file_; }  // its name; empty without one
+    bool has_frames() const { return frames_wanted_; }
+    bool has_poster() const { return poster_written_; }
+    bool has_sheet() const { return complete_ && sheet_ != nullptr && count_ > 0; }
+    std::string encoder() const { return film_ ? film_->description() : left_encoder_; }
+    std::vector<std::string> notes() const;
+
+  private:
+    void open_copy(const Scene& scene, const FilmOptions& options);
+    // Does something to the copy. One that fails goes, and the film goes on.
+    void with_copy(const std::function<void(PageCopy&)>& act);
+    void consider_poster(const DrawnFrame& drawn);
+    void write(const std::filesystem::path& path, const DrawnFrame& drawn) const;
+    void write_poster(const DrawnFrame& drawn);
+
+    std::filesystem::path folder_;
+    std::function<void()> check_folder_;
+    std::string name_, title_;
+    bool frames_wanted_, transparent_;
+    double poster_time_;  // s after the first frame
+    double first_time_ = 0;
+    std::atomic<std::int64_t> count_ = 0;
+    bool poster_done_, poster_written_ = false, complete_ = false;
+    FlashWatch flashes_;
+    std::string flash_remedy_;
+    DrawnFrame last_;  // kept because it is the poster when the next one comes too late
+    std::unique_ptr<FilmWriter> film_;
+    std::unique_ptr<PageCopy> copy_;
+    std::string film_file_, left_file_, left_encoder_;
+    std::unique_ptr<ContactSheet> sheet_;
+};
+
+}  // namespace grainreel

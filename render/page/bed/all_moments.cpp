@@ -1,0 +1,100 @@
+#include "render/page/bed/all_moments.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/state/wall_motion.hpp"
+#include "render/run/frames/same_run.hpp"
+#include "render/run/moments/key_moments.hpp"
+#include "render/run/run_files.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_there(const fs::path& file) {
+    std::error_code ignored;
+    return fs::exists(file, ignored);
+}
+
+}  // namespace
+
+AllMoments::AllMoments(const RecordedRun& run, bool with_contacts)
+    : run_(run), with_contacts_(with_contacts), moments_(run.moments()) {
+    for (std::size_t k = 0; k < moments_.size(); ++k) places_.push_back({k, {}, {}});
+    const fs::path film = run.folder() / kFilmMoments, keys = run.folder() / kKeyMoments;
+    try {
+        if (is_there(film)) merge(film_.emplace(film), &Place::film, film.string());
+    } catch (const UserError& problem) {
+        film_.reset();
+        news_.push_back(fmt::format("{}; its moments are not on the page", problem.what()));
+    }
+    try {
+        if (!is_there(keys)) return;
+        const fs::path contacts = run.folder() / kKeyContacts;
+        if (key_contacts_.emplace(contacts).cut_off())
+            news_.push_back(
+                fmt::format("{}: was cut off; the forces of the last key moments are not on the page",
+                            contacts.string()));
+        merge(keys_.emplace(keys), &Place::key, keys.string());
+    } catch (const UserError& problem) {
+        keys_.reset();
+        news_.push_back(fmt::format("{}; the forces of key moments are not on the page", problem.what()));
+    }
+}
+
+// All of the file or nothing.
+void AllMoments::merge(const TrajectoryReader& file, std::optional<std::size_t> Place::*of,
+                       const std::string& name) {
+    std::vector<Frame> moments;
+    std::vector<Place> places;
+    std::size_t next = 0;  // of those that are there
+    const auto take_until = [&](std::int64_t step) {
+        for (; next < moments_.size() && moments_[next].step <= step; ++next) {
+            moments.push_back(moments_[next]);
+            places.push_back(places_[next]);
+        }
+    };
+    if (file.frames() > 0) check_grains(run_.scene(), file.info(), file.read(0), name);
+    for (std::size_t index = 0; index < file.frames(); ++index) {
+        Frame moment = file.read_moment(index);
+        take_until(moment.step);
+        if (moments.empty() || moments.back().step < moment.step) {
+            add_planes(run_.scene().walls, moment.time, moment.bodies);
+            check_drive(run_.scene(), run_.clock(), moment, name);
+            moments.push_back(std::move(moment));
+            places.emplace_back();
+        }
+        if (moments.back().step == moment.step) places.back().*of = index;
+    }
+    take_until(std::numeric_limits<std::int64_t>::max());
+    moments_ = std::move(moments);
+    places_ = std::move(places);
+}
+
+Frame AllMoments::grains(std::size_t index) const {
+    const Place& place = places_.at(index);
+    if (place.trajectory) return run_.grains(*place.trajectory);
+    Frame frame = place.film ? film_->read(*place.film) : keys_->read(*place.key);
+    add_planes(run_.scene().walls, frame.time, frame.bodies);
+    return frame;
+}
+
+bool AllMoments::has_touches(std::size_t index) const {
+    const Place& place = places_.at(index);
+    return (place.key && key_contacts_->has_all(*place.key)) || (place.trajectory && with_contacts_);
+}
+
+std::optional<std::vector<Touch>> AllMoments::touches(std::size_t index) const {
+    const Place& place = places_.at(index);
+    if (place.key && key_contacts_->has_all(*place.key)) return key_contacts_->touches(*place.key);
+    if (place.trajectory && with_contacts_) return run_.frame(*place.trajectory).touches;
+    return std::nullopt;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,66 @@
+// The bed as the page carries it: places of grains in 16 bits an axis, moment by moment.
+//
+// The bytes, before they are packed, are for N grains and K moments, little-endian:
+//   ids, N int32; species, N uint16; radii in m, N float32;
+//   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the
+//   moment before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the
+//   film colours its grains by a quantity, N bytes of that (film_colours.hpp).
+// A contact number of 255 is not known. Where a grain is not present, speed, contacts and presence are 0 and
+// its place repeats the one before. render/page/html/bed_frames.js reads them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/page/bed/film_colours.hpp"
+#include "render/page/bed/pair_forces.hpp"
+#include "render/page/page_progress.hpp"
+#include "render/run/frames/frame_source.hpp"
+
+namespace grainreel {
+
+struct BedFrames {
+    std::vector<std::uint8_t> packed;             // in zlib's format
+    std::vector<Frame> moments;                   // those that the page has, without grains
+    std::size_t grains = 0;                       // N
+    std::size_t all_grains = 0, all_moments = 0;  // of the run
+    Vec3 low{0, 0, 0}, high{0, 0, 0};             // m, the box that 16 bits span: of all centres
+    double lowest_speed = 0, highest_speed = 0;   // m/s, what the speed's bytes 1 and 254 stand for
+    std::size_t counted = 0;                      // moments whose contact numbers are known
+    bool has_film_colours = false;
+    std::size_t film_coloured = 0;  // moments at which the film's quantity is known of a grain
+    PairForces forces;
+
+    // m, along each axis: half a step of 16 bits, and what rounding of the box's numbers adds.
+    Vec3 error() const { return (high - low) / (2 * 65535.0); }
+    std::size_t bytes() const { return packed.size() + forces.packed.size(); }
+};
+
+// What a page has beside places and speeds.
+struct BedContacts {
+    // Of a moment, by its index; nothing where they are not known.
+    std::function<std::optional<std::vector<Touch>>(std::size_t)> touches;
+    std::vector<std::size_t> keys;  // moments whose pairs the page is to have; by rising index
+    FilmColours* film = nullptr;    // null where the film shows the species
+};
+
+constexpr std::size_t kMostGrainsOnPage = 100000;
+
+// As many evenly spread moments of the run as fit into so many packed bytes, the first and the last among
+// them, and besides those of key moments; at least one. Of more grains than kMostGrainsOnPage those that lie
+// nearest to the plane x = 0 when they are first seen. Throws DamagedFrame.
+BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes,
+                     const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
+// Of these moments, by rising index into the run's.
+BedFrames bed_frames_of(const FrameArchive& run, const std::vector<std::size_t>& chosen,
+                        const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
+
+constexpr double kByteSpan = 1e5;  // highest over lowest speed, or force, that a byte tells
+
+// Of the speed's byte: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm.
+std::uint8_t speed_byte(double speed, double lowest, double highest);
+
+}  // namespace grainreel

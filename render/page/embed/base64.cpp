@@ -1,0 +1,18 @@
+#include "render/page/embed/base64.hpp"
+
+namespace grainreel {
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+    constexpr char signs[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t there = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < there ? bytes[i + k] : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += k <= there ? signs[three >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,177 @@
+#include "render/page/film/page_film.hpp"
+
+#include <stdlib.h>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/film/codec/codec.hpp"
+#include "render/film/codec/encoder.hpp"
+#include "render/film/codec/film_reader.hpp"
+#include "render/film/codec/filter_graph.hpp"
+#include "render/page/embed/read_bytes.hpp"
+#include "render/page/film/small_jpeg.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_threads_of_copy = 8;
+
+// "" of what not every browser of today plays.
+std::string type_of(FilmFormat format) {
+    if (!plays_in_browsers(format)) return "";
+    return format == FilmFormat::mp4 ? "video/mp4" : "video/webm";
+}
+
+// A folder that is gone when the page is made.
+class ScratchFolder {
+  public:
+    ScratchFolder() {
+        std::string name = (fs::temp_directory_path() / "grainreel-report-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw RunError("report: cannot make a folder for work in " + name);
+        path_ = name;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    fs::path file(const char* name) const { return path_ / name; }
+
+  private:
+    fs::path path_;
+};
+
+std::string copy_filter(const EncoderSettings& copy) {
+    return fmt::format(
+        "scale={}:{}:in_color_matrix=bt709:out_color_matrix=bt709:out_range=limited,format=yuv420p",
+        copy.width, copy.height);
+}
+
+std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film,
+                                       const std::function<void()>& picture_taken) {
+    const ScratchFolder scratch;
+    const int threads = std::clamp(usable_processors(), 1, most_threads_of_copy);
+    FilmReader reader(film, threads);
+    const EncoderSettings settings = settings_of_copy(scene, scratch.file("copy.mp4"), reader.codec().width,
+                                                      reader.codec().height, threads);
+    FilterGraph graph(reader.codec(), copy_filter(settings));
+    std::unique_ptr<Encoder> copy;
+    const auto take_pictures = [&] {
+        while (const AvFramePtr picture = graph.pull()) {
+            if (!copy) copy = std::make_unique<Encoder>(settings);
+            copy->add(*picture);
+        }
+    };
+    while (AVFrame* frame = reader.next()) {
+        graph.push(*frame);
+        take_pictures();
+        picture_taken();
+    }
+    graph.end();
+    take_pictures();
+    if (!copy) throw RunError(fmt::format("{}: holds no picture", film.string()));
+    copy->finish();
+    return read_bytes(settings.path);
+}
+
+// Why the file is not the film that the run wrote; "" where it is. frames: that were written, where known.
+std::string damage_of(const fs::path& film, std::optional<std::int64_t> frames) {
+    try {
+        const std::int64_t whole = pictures_in(film);
+        if (whole == 0) return "it holds no picture";
+        if (frames && whole < *frames)
+            return fmt::format("{} of the {} pictures that the run wrote are in it", whole, *frames);
+        return "";
+    } catch (const RunError& problem) {
+        return problem.what();
+    }
+}
+
+std::string size_text(std::size_t bytes) {
+    return data_size_text(static_cast<double>(bytes));
+}
+
+}  // namespace
+
+PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std::int64_t> frames,
+                   const PageProgress& progress, std::size_t most_bytes) {
+    quiet_ffmpeg();
+    PageFilm film;
+    if (scene.film.format == FilmFormat::png) return film;
+    const Codec& codec = codec_of(scene.film.format);
+    const std::string name = std::string("movie.") + codec.extension;
+    std::error_code error;
+    const auto size = static_cast<std::size_t>(fs::file_size(folder / name, error));
+    if (error || size == 0) {
+        if (frames.value_or(0) > 0)
+            film.note =
+                fmt::format("The film is not on this page, since {} is not in the run's folder.", name);
+        return film;
+    }
+    film.file = name;
+    if (const std::string damage = damage_of(folder / name, frames); !damage.empty()) {
+        film.note = fmt::format("The film is not on this page, since {} is damaged ({}).", name, damage);
+        return film;
+    }
+    film.whole_in_folder = true;
+    film.type = type_of(scene.film.format);
+    if (!film.type.empty() && size <= most_bytes) {
+        film.bytes = read_bytes(folder / name);
+        return film;
+    }
+    const std::string why = film.type.empty() ? fmt::format("browsers do not play {}", codec.words)
+                                              : fmt::format("the film has {}", size_text(size));
+    film.type = "video/mp4";
+    film.note = fmt::format(
+        "This is a copy of at most 720 lines, since {}; the film itself is {} in the run's folder.", why,
+        name);
+    const auto planned = static_cast<double>(std::max<std::int64_t>(1, frames.value_or(1)));
+    std::int64_t copied = 0;
+    const auto picture_taken = [&] {
+        go_on_or_stop(progress, std::min(1.0, static_cast<double>(++copied) / planned));
+    };
+    const std::uintmax_t kept = fs::file_size(folder / kPageCopy, error);
+    try {
+        // One that is too large is as large when it is made again.
+        if (error || kept == 0)
+            film.bytes = smaller_copy(scene, folder / name, picture_taken);
+        else if (kept <= most_bytes)
+            film.bytes = read_bytes(folder / kPageCopy);
+    } catch (const RunError& problem) {
+        film.note = fmt::format(
+            "The film is not on this page, since {}, and no copy could be made ({}); it is {} in the run's "
+            "folder.",
+            why, problem.what(), name);
+        return film;
+    }
+    if (!film.bytes.empty() && film.bytes.size() <= most_bytes) return film;
+    film.bytes.clear();
+    film.note = fmt::format(
+        "The film is not on this page, since {} and even a smaller copy is too large for it; it is {} in the "
+        "run's folder.",
+        why, name);
+    return film;
+}
+
+std::vector<std::uint8_t> page_poster(const fs::path& folder) {
+    quiet_ffmpeg();
+    std::error_code ignored;
+    if (!fs::exists(folder / "poster.png", ignored)) return {};
+    try {
+        FilmReader reader(folder / "poster.png");
+        AVFrame* picture = reader.next();
+        if (picture == nullptr) return {};
+        return small_jpeg(reader.codec(), *picture);
+    } catch (const RunError&) {
+        return {};
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,19 @@
+// The live page's HTML.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "engine/scene/scene.hpp"
+#include "render/page/report.hpp"
+
+namespace grainreel {
+
+// Its scripts ask for the rest: live.js.
+std::string live_page(const Scene& scene, const std::filesystem::path& folder,
+                      const std::optional<PlannedScene>& planned);
+// Until the run has told its scene: asks again by itself.
+std::string waiting_page(const std::string& title);
+
+}  // namespace grainreel

@@ -1,0 +1,217 @@
+#include "render/page/live/live_run.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/files/folder_lock.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/run_json.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "render/page/facts/page_facts.hpp"
+#include "render/page/live/last_picture.hpp"
+#include "render/page/live/live_page.hpp"
+#include "render/page/page_measures.hpp"
+#include "render/run/frames/recorded_run.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using Steady = std::chrono::steady_clock;
+
+constexpr std::size_t most_rows = 400;                    // of measures, evenly spread
+constexpr double picture_share = 0.05;                    // of the time, that reading pictures may take
+constexpr std::chrono::duration<double> looked_back{60};  // for the speed
+constexpr std::chrono::duration<double> settled_rate{3};  // until a speed is known from what was seen
+
+LiveSnapshot::Bytes shared(std::string text) {
+    return std::make_shared<const std::string>(std::move(text));
+}
+
+fs::file_time_type changed(const fs::path& file) {
+    std::error_code error;
+    const auto time = fs::last_write_time(file, error);
+    return error ? fs::file_time_type::min() : time;
+}
+
+std::uintmax_t size_of(const fs::path& file) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    return error ? 0 : size;
+}
+
+// The first moment, the one before the last, and the last: what colours by height at the start and by rise
+// need.
+std::vector<std::size_t> shown_of(std::size_t moments) {
+    std::vector<std::size_t> shown = {0};
+    for (const std::size_t from_end : {2u, 1u})
+        if (moments > from_end && moments - from_end > shown.back()) shown.push_back(moments - from_end);
+    return shown;
+}
+
+std::string with_length(const std::string& json, const std::vector<std::uint8_t>& packed) {
+    const auto length = static_cast<std::uint32_t>(json.size());
+    std::string bytes(4, '\0');
+    std::memcpy(bytes.data(), &length, 4);
+    return bytes.append(json).append(packed.begin(), packed.end());
+}
+
+}  // namespace
+
+LiveRun::LiveRun(fs::path folder, Planner planner)
+    : folder_(std::move(folder)), planner_(std::move(planner)) {}
+
+LiveSnapshot LiveRun::now() const {
+    const std::scoped_lock lock(mutex_);
+    return now_;
+}
+
+std::string LiveRun::title() const {
+    if (!scene_) return folder_.filename().string();
+    return scene_->title.empty() ? scene_->name : scene_->title;
+}
+
+void LiveRun::refresh() {
+    std::error_code ignored;
+    gone_ = !fs::is_directory(folder_, ignored);
+    if (!gone_) {
+        status_ = status_in_run_json(folder_ / "run.json");
+        over_ = !FolderLock::holder(folder_).has_value();
+        if (over_ && (status_.empty() || status_ == "running")) status_ = "broken off";
+        read_scene_again();
+        if (scene_) {
+            read_measures_again();
+            read_bed_again();
+            read_picture_again();
+        }
+        make_page();
+    }
+    make_state();
+}
+
+void LiveRun::read_scene_again() {
+    const fs::path file = folder_ / "scene.toml";
+    const fs::file_time_type time = changed(file);
+    if (!is_plain(file) || time == scene_time_ || time == fs::file_time_type::min()) return;
+    try {
+        scene_ = read_scene(file, {}, measurable_in);
+        scene_->name = folder_.filename().string();
+        scene_time_ = time;
+        page_status_.clear();
+    } catch (const UserError&) {
+        // Half written, perhaps; the next look tells.
+    }
+}
+
+void LiveRun::read_measures_again() {
+    const std::uintmax_t size = size_of(folder_ / "measures.csv");
+    if (size == measures_size_) return;
+    const auto table = read_measures(folder_ / "measures.csv");
+    if (!table || table->rows() == 0) return;
+    PageMeasures measures = page_measures(*scene_, *table);
+    if (measures.time >= measures.columns.size()) return;
+    measures_size_ = size;
+    rows_ = table->rows();
+    begin_ = table->values(measures.time, 0, 1).front();
+    time_ = table->values(measures.time, rows_ - 1, rows_).front();
+    if (!seen_.empty() && time_ < seen_.back().simulated) seen_.clear();  // another run of that name
+    seen_.push_back({time_, Steady::now()});
+    while (seen_.size() > 2 && seen_.back().at - seen_[1].at > looked_back) seen_.pop_front();
+    measures.rows = spread_rows(rows_, most_rows);
+    auto json = shared(all_measures_json(*table, measures));
+    const std::scoped_lock lock(mutex_);
+    now_.measures = std::move(json);
+}
+
+void LiveRun::read_bed_again() {
+    const fs::file_time_type time = changed(folder_ / "trajectory.nc");
+    if (time == trajectory_time_ || time == fs::file_time_type::min()) return;
+    try {
+        const RecordedRun run(folder_, {});
+        const std::vector<Frame>& moments = run.moments();
+        trajectory_time_ = time;
+        if (moments.back().step == bed_step_) return;
+        std::optional<FilmColours> film;
+        if (film_has_scale(run.scene())) film.emplace(run.scene(), run, run.clock(), run.span().from);
+        BedContacts beside;
+        beside.film = film ? &*film : nullptr;
+        const BedFrames bed = bed_frames_of(run, shown_of(moments.size()), kNoPageProgress, beside);
+        bed_step_ = moments.back().step;
+        bed_time_ = moments.back().time;
+        auto bytes = shared(with_length(bed_facts_json(run.scene(), bed), bed.packed));
+        const std::scoped_lock lock(mutex_);
+        now_.bed = std::move(bytes);
+    } catch (const UserError&) {
+        // No whole moment yet.
+    } catch (const RunError&) {
+    }
+}
+
+std::optional<fs::path> LiveRun::film() const {
+    for (const char* name : {"movie.mp4", "movie.webm", "movie.mkv"})
+        if (size_of(folder_ / name) > 0) return folder_ / name;
+    return std::nullopt;
+}
+
+void LiveRun::read_picture_again() {
+    const std::optional<fs::path> file = film();
+    if (!file || size_of(*file) == film_size_) return;
+    const auto begin = Steady::now();
+    if (begin - picture_at_ < picture_took_ / picture_share) return;
+    film_size_ = size_of(*file);
+    const std::vector<std::uint8_t> jpeg = last_picture(*file);
+    picture_at_ = Steady::now();
+    picture_took_ = picture_at_ - begin;
+    if (jpeg.empty()) return;
+    ++pictures_;
+    auto bytes = shared(std::string(jpeg.begin(), jpeg.end()));
+    const std::scoped_lock lock(mutex_);
+    now_.picture = std::move(bytes);
+}
+
+void LiveRun::make_page() {
+    const std::string now = scene_ ? status_ : "waiting";
+    if (now == page_status_) return;
+    auto page = shared(scene_ ? live_page(*scene_, folder_, planner_(*scene_)) : waiting_page(title()));
+    page_status_ = now;
+    const std::scoped_lock lock(mutex_);
+    now_.page = std::move(page);
+}
+
+// s of wall time, by the speed of the last minute; negative while that is not known.
+double LiveRun::remaining(double time, double end) const {
+    if (seen_.size() < 2 || over_) return -1;
+    const std::chrono::duration<double> passed = seen_.back().at - seen_.front().at;
+    const double gained = seen_.back().simulated - seen_.front().simulated;
+    return passed > settled_rate && gained > 0 ? passed.count() / gained * (end - time) : -1;
+}
+
+void LiveRun::make_state() {
+    std::error_code ignored;
+    const double end = scene_ ? scene_->run.duration : 0;
+    const bool begun = rows_ > 0;
+    const double share = begun && end > begin_ ? std::clamp((time_ - begin_) / (end - begin_), 0.0, 1.0) : 0;
+    const std::string stage = gone_                  ? "gone"
+                              : status_ == "running" ? (begun ? "running" : "packing")
+                                                     : status_;
+    nlohmann::json state = {
+        {"stage", stage},   {"over", over_ || gone_ || last_},
+        {"last", last_},    {"begin", begin_},
+        {"time", time_},    {"end", end},
+        {"done", share},    {"picture", pictures_},
+        {"bed", bed_step_}, {"bed_time", bed_time_},
+        {"rows", rows_},    {"report", !gone_ && fs::exists(folder_ / "report.html", ignored)}};
+    const double left = begun ? remaining(time_, end) : -1;
+    state["remaining"] = left >= 0 ? nlohmann::json(left) : nlohmann::json();
+    auto text = shared(state.dump());
+    const std::scoped_lock lock(mutex_);
+    now_.state = std::move(text);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,167 @@
+#include "render/page/live/watch.hpp"
+
+#include <poll.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/page/live/run_file.hpp"
+#include "render/page/live/server.hpp"
+#include "render/page/live/visitors.hpp"
+
+namespace grainreel {
+namespace {
+
+using Steady = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr auto look_interval = std::chrono::milliseconds(100);
+constexpr Seconds refresh_interval{0.5};
+constexpr double refresh_share = 0.1;  // of the time, that reading the run may take
+constexpr Seconds visitor_stays{5};    // after whose last question nobody looks any more
+constexpr Seconds farewell{3};         // without a question: all visitors have heard that the run is over ...
+constexpr Seconds longest_farewell{15};  // ... or nobody waits for them
+constexpr int priority = 10;             // of 19: whoever computes goes first
+
+constexpr const char* html = "text/html; charset=utf-8";
+
+WatchAnswer part(const LiveSnapshot::Bytes& bytes, const char* type) {
+    if (!bytes) return text_answer(404, "The run has none yet.\n");
+    WatchAnswer answer;
+    answer.body = bytes;
+    answer.type = type;
+    return answer;
+}
+
+class Watch {
+  public:
+    Watch(WatchTask& request, const Planner& planner, RunListener& listener)
+        : folder_(request.run),
+          until_(request.until),
+          listener_(listener),
+          run_(request.run, planner),
+          visitors_(request.host, request.listening.port(), !request.listening.is_loopback()) {}
+
+    int serve(Listening listening) {
+        run_.refresh();
+        tell_address();
+        const WatchServer server(std::move(listening), [this](const WatchRequest& r) { return answer(r); });
+        while (true) {
+            std::this_thread::sleep_for(look_interval);
+            if (const int signal = listener_.stop_signal(); signal != 0) return 128 + signal;
+            if (new_key_.exchange(false)) tell_address();
+            refresh_when_due();
+            if (run_.is_gone() && since(gone_at_) > farewell) {
+                listener_.error(fmt::format("{}: the run's folder has gone", folder_.string()));
+                return 1;
+            }
+            if (is_to_end()) return 0;
+        }
+    }
+
+  private:
+    static Seconds since(Steady::time_point time) { return Steady::now() - time; }
+
+    void refresh_when_due() {
+        const bool watched =
+            Seconds(Steady::now().time_since_epoch()) - last_question_.load() < visitor_stays;
+        const Seconds interval = std::max(refresh_interval, refresh_took_ / refresh_share);
+        if (!watched || since(refreshed_) < interval) return;
+        refresh();
+    }
+
+    void refresh() {
+        const auto begin = Steady::now();
+        const bool was_gone = run_.is_gone();
+        run_.refresh();
+        refreshed_ = Steady::now();
+        refresh_took_ = refreshed_ - begin;
+        if (run_.is_gone() && !was_gone) gone_at_ = refreshed_;
+    }
+
+    // The run's own process closes its end of the pipe when the run's files are closed.
+    bool is_to_end() {
+        if (until_ < 0) return false;
+        if (!ending_) {
+            pollfd end{until_, POLLIN, 0};
+            if (::poll(&end, 1, 0) <= 0) return false;
+            ending_ = Steady::now();
+            run_.say_farewell();
+            refresh();
+        }
+        const Seconds silence = Seconds(Steady::now().time_since_epoch()) - last_question_.load();
+        return silence > farewell || since(*ending_) > longest_farewell;
+    }
+
+    void tell_address() {
+        const std::scoped_lock lock(mutex_);
+        listener_.info(fmt::format("{} is shown at {}{}", run_.title(), visitors_.address(),
+                                   visitors_.keyed() ? " (good for one visitor; a new one follows)" : ""));
+    }
+
+    // On the server's thread.
+    WatchAnswer answer(const WatchRequest& request) {
+        {
+            const std::scoped_lock lock(mutex_);
+            if (!visitors_.knows_host(request.host))
+                return text_answer(403, "This page is not to be had under that name.\n");
+            if (!visitors_.admitted(request.cookies)) return at_the_door(request);
+        }
+        last_question_ = Seconds(Steady::now().time_since_epoch());
+        const LiveSnapshot now = run_.now();
+        if (request.path == "/") return part(now.page, html);
+        if (request.path == "/live/state") return part(now.state, "application/json");
+        if (request.path == "/live/measures") return part(now.measures, "application/json");
+        if (request.path == "/live/picture") return part(now.picture, "image/jpeg");
+        if (request.path == "/live/bed") return part(now.bed, "application/octet-stream");
+        return run_file(folder_, request.path);
+    }
+
+    WatchAnswer at_the_door(const WatchRequest& request) {
+        const std::optional<std::string> token = visitors_.admit(request.key);
+        if (!token) return text_answer(403, "Open the address that the program tells, with its key.\n");
+        new_key_ = true;
+        WatchAnswer answer = text_answer(303, "");
+        answer.headers = {
+            {"Location", "/"},
+            {"Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Lax; Path=/", kCookie, *token)}};
+        return answer;
+    }
+
+    const std::filesystem::path folder_;
+    const int until_;
+    RunListener& listener_;
+    LiveRun run_;
+    std::mutex mutex_;  // of visitors_
+    Visitors visitors_;
+    std::atomic<bool> new_key_{false};
+    std::atomic<Seconds> last_question_{Seconds(-1e9)};
+    Steady::time_point refreshed_, gone_at_;
+    Seconds refresh_took_{0};
+    std::optional<Steady::time_point> ending_;
+};
+
+}  // namespace
+
+Listening listen_at(const WatchPlace& place) {
+    if (place.port) return Listening(place.host, *place.port);
+    try {
+        return Listening(place.host, kUsualWatchPort);
+    } catch (const UserError&) {
+        return Listening(place.host, 0);
+    }
+}
+
+int watch_run(WatchTask request, const Planner& planner, RunListener& listener) {
+    ::setpriority(PRIO_PROCESS, 0, priority);  // as far as the system lets it
+    return Watch(request, planner, listener).serve(std::move(request.listening));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,249 @@
+#include "render/page/page_parts.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/scene/file/scene_file.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/page/embed/base64.hpp"
+#include "render/page/embed/html.hpp"
+#include "render/page/facts/methods.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+constexpr std::size_t most_files = 60;            // that the page lists
+constexpr std::size_t most_scene_text = 200'000;  // bytes
+
+// A line without a name goes on with the one before.
+std::string list_html(const Lines& lines) {
+    std::string html = "<dl>\n";
+    for (const auto& [name, text] : lines) {
+        if (!name.empty()) html += fmt::format("<dt>{}</dt>", html_text(name));
+        html += fmt::format("<dd>{}</dd>\n", html_text(text));
+    }
+    return html + "</dl>\n";
+}
+
+std::string chapter(const char* title, const std::string& html) {
+    return fmt::format("<section><h2>{}</h2>\n{}</section>\n", title, html);
+}
+
+std::string copyable(const std::string& id, const char* label, const std::string& text, const char* style) {
+    return fmt::format(
+        "<h3>{0}</h3>\n<pre id=\"{1}\" class=\"{2}\" tabindex=\"0\" aria-label=\"{0}\">{3}</pre>\n"
+        "<p class=\"no-print\"><button type=\"button\" data-copies=\"{1}\">Copy</button></p>\n",
+        label, id, style, html_text(text));
+}
+
+std::string plan_html(const PlannedScene& planned) {
+    return "<p>What was asked for, what is modelled, and what is left out. The error is that of the "
+           "restitution in a "
+           "free impact, found by making the impact.</p>\n" +
+           list_html(planned.lines) +
+           fmt::format("<h3>Contacts</h3>\n<pre tabindex=\"0\" aria-label=\"Contacts\">{}</pre>\n",
+                       html_text(planned.contacts));
+}
+
+std::string provenance_html(const RunFacts& facts) {
+    std::string html = list_html(facts.lines);
+    if (facts.warnings.empty()) return html;
+    html += "<h3>Warnings of the run</h3>\n<ul>\n";
+    for (const std::string& warning : facts.warnings)
+        html += fmt::format("<li>{}</li>\n", html_text(warning));
+    return html + "</ul>\n";
+}
+
+std::string scene_html(const fs::path& folder, const std::string& n, bool beside) {
+    std::string text;
+    try {
+        text = load_scene_file(folder / "scene.toml");
+    } catch (const UserError&) {
+        return "";
+    }
+    if (text.size() > most_scene_text)
+        return chapter("Scene",
+                       fmt::format("<p>The scene is too long for this page; it is {} in the run's "
+                                   "folder.</p>\n",
+                                   beside ? "<a href=\"./scene.toml\">scene.toml</a>" : "scene.toml"));
+    return chapter("Scene",
+                   "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
+                   "again.</p>\n" +
+                       copyable("scene-text" + n, "scene.toml", text, "plain"));
+}
+
+std::string files_html(const fs::path& folder, const std::string& page_name) {
+    Lines files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        std::error_code ignored;
+        if (name.front() == '.' || name == page_name || !entry->is_regular_file(ignored)) continue;
+        const std::uintmax_t size = entry->file_size(ignored);
+        if (!ignored) files.emplace_back(name, data_size_text(static_cast<double>(size)));
+    }
+    std::sort(files.begin(), files.end());
+    if (files.size() > most_files) files.resize(most_files);
+    std::string html = fmt::format(
+        "<p>They are not on this page. The links open them while it lies in the run's folder, "
+        "{}.</p>\n<ul>\n",
+        html_text(folder.filename().string()));
+    for (const auto& [name, size] : files)
+        html += fmt::format("<li><a href=\"{}\">{}</a>, {}</li>\n", file_link(name), html_text(name), size);
+    return html + "</ul>\n";
+}
+
+const char* words_of(Container::Shape shape) {
+    switch (shape) {
+        case Container::Shape::wedge:
+            return "in a wedge hopper";
+        case Container::Shape::box:
+            return "in a box";
+        case Container::Shape::cylinder:
+            return "in a cylinder";
+        case Container::Shape::none:
+            break;
+    }
+    return "in empty space";
+}
+
+// "400 sand (and 300 more that are fed)"
+std::string number_words(const Species& species) {
+    if (species.fed == 0) return fmt::format("{} {}", species.count, species.name);
+    if (species.count == 0) return fmt::format("{} {} that are fed", species.fed, species.name);
+    return fmt::format("{} {} (and {} more that are fed)", species.count, species.name, species.fed);
+}
+
+std::string drive_words(const Scene& scene) {
+    const Drive& drive = scene.drive;
+    if (!drive.present) return fmt::format("without a drive, for {:.4g} s", scene.run.duration);
+    const double gravity = scene.gravity.norm();
+    const std::string level =
+        gravity > 0 ? fmt::format(" with Γ = {:.3g}", drive.g_level(gravity)) : std::string();
+    return fmt::format("shaken at {:.4g} Hz{} (amplitude {:.3g} mm){} for {:.4g} s", drive.frequency, level,
+                       1000 * drive.amplitude, drive.changes() ? " and then otherwise," : "",
+                       scene.run.duration);
+}
+
+}  // namespace
+
+std::string lead_html(const Scene& scene) {
+    std::string species;
+    for (const Species& one : scene.species)
+        if (one.all() > 0)  // else it is glued to walls
+            species += fmt::format("{}{}", species.empty() ? "" : " and ", number_words(one));
+    return fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
+                       words_of(scene.container.shape), drive_words(scene));
+}
+
+std::string end_html(const Scene& scene, const RunFacts& facts, double until) {
+    if (facts.status == "complete") return "";
+    const std::string at = fmt::format("{:.4g} of {:.4g} s", std::max(0.0, until), scene.run.duration);
+    std::string text;
+    if (facts.status == "failed")
+        text =
+            fmt::format("The run failed at {}: {}.", at, facts.error.empty() ? "see log.txt" : facts.error);
+    else if (facts.status == "interrupted")
+        text = fmt::format("The run was stopped at {}.", at);
+    else if (facts.status == "running")
+        text = fmt::format("The run goes on; it was at {} when this page was made.", at);
+    else if (facts.status == "broken off")
+        text = fmt::format("The run was broken off at {}: it was killed, or its machine went off.", at);
+    else
+        text = fmt::format("The run’s status is “{}”; it came to {}.", facts.status, at);
+    return fmt::format("<p class=\"ended\"><strong>{}</strong> This page has what it kept until then.</p>\n",
+                       html_text(text));
+}
+
+std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
+                      const std::string& why_not_tied, const std::string& n, bool beside) {
+    const std::string picture =
+        poster.empty() ? "" : fmt::format("data:image/jpeg;base64,{}", base64(poster));
+    const char* about = "One picture of the run: grains in their container, with time and scale beside them";
+    std::string html;
+    if (!film.bytes.empty())
+        html = fmt::format(
+            "<video id=\"film{}\" controls muted playsinline aria-label=\"Film of the run\"{}></video>\n", n,
+            picture.empty() ? "" : fmt::format(" poster=\"{}\"", picture));
+    if (!picture.empty())
+        html += fmt::format("<img class=\"poster\" src=\"{}\" alt=\"{}\"{}>\n", picture, about,
+                            film.bytes.empty() ? "" : " hidden");
+    if (html.empty()) html = "<p>The run has no film and no poster.</p>\n";
+    for (const std::string& note : {film.note, film.bytes.empty() ? std::string() : why_not_tied})
+        if (!note.empty()) html += fmt::format("<p class=\"faint\">{}</p>\n", html_text(note));
+    if (film.whole_in_folder && beside)
+        html += fmt::format(
+            "<p class=\"faint no-print\"><a href=\"{}\" title=\"Opens while this page lies there\">{}</a> in "
+            "the "
+            "run's folder</p>\n",
+            file_link(film.file), html_text(film.file));
+    return html;
+}
+
+std::string bed_about(const BedFrames& bed, const Scene& scene) {
+    const Vec3 error = 1e6 * bed.error();
+    std::string text = fmt::format(
+        "Places are rounded to 16 bits over the box that the grains reach: they are off by {:.2g} µm along "
+        "x, {:.2g} "
+        "µm along y and {:.2g} µm along z at most. Speeds are right to 2.3 % and come from the run, not from "
+        "differences of places. Nothing is interpolated between moments. ",
+        error.x(), error.y(), error.z());
+    if (bed.moments.size() == bed.all_moments)
+        text += fmt::format("These are all {} moments that the run kept.", bed.all_moments);
+    else
+        text += fmt::format(
+            "Of the {} moments that the run kept these are {}, evenly spread; the page has no room for "
+            "the others.",
+            bed.all_moments, bed.moments.size());
+    if (bed.grains < bed.all_grains)
+        text += fmt::format(
+            " Of {} grains it shows the {} that lay nearest to the middle of the depth when they were "
+            "first seen.",
+            bed.all_grains, bed.grains);
+    if (bed.counted == 0)
+        text += " The run kept no contact numbers.";
+    else if (bed.counted < bed.moments.size())
+        text += fmt::format(" Contact numbers are known at {} of them.", bed.counted);
+    if (bed.has_film_colours && bed.film_coloured < bed.moments.size())
+        text += fmt::format(" What the film's colours stand for is known at {} of them.", bed.film_coloured);
+    if (!bed.forces.moments.empty())
+        text += fmt::format(
+            " Of {} moments the page has the pairs that push each other, with their normal forces to 2.3 %.",
+            bed.forces.moments.size());
+    if (scene.container.wall_grains) text += " Grains that are glued to walls are not shown.";
+    return html_text(text);
+}
+
+std::string story_html(const Scene& scene) {
+    if (scene.film.captions.empty()) return "";
+    std::string html = "<ol class=\"story\">\n";
+    for (const FilmCaption& caption : scene.film.captions)
+        html += fmt::format(
+            "<li data-from=\"{0:.9g}\" data-until=\"{1:.9g}\"><button type=\"button\" class=\"no-print\" "
+            "data-time=\"{0:.9g}\">{0:.4g} s</button> <span>{2}</span></li>\n",
+            caption.from, caption.to, html_text(caption.text));
+    return chapter("What to look at", html + "</ol>\n");
+}
+
+std::string chapters_html(const Scene& scene, const RunFacts& facts,
+                          const std::optional<PlannedScene>& planned, const fs::path& folder,
+                          const std::string& page_name, const std::string& n) {
+    std::string html = story_html(scene);
+    if (planned) {
+        html += chapter("What was computed", plan_html(*planned));
+        const Methods text = methods(scene, planned->plan, facts, planned->lines);
+        html += chapter("To cite", copyable("methods" + n, "Methods", text.paragraph, "wraps") +
+                                       copyable("bibtex" + n, "BibTeX", text.bibtex, "plain"));
+    }
+    html += chapter("Where it comes from", provenance_html(facts));
+    const bool beside = !page_name.empty();
+    html += scene_html(folder, n, beside);
+    return beside ? html + chapter("Files of the run", files_html(folder, page_name)) : html;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,75 @@
+// What a page has of one run.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/page/facts/page_facts.hpp"
+#include "render/page/facts/run_facts.hpp"
+#include "render/page/page_fields.hpp"
+#include "render/page/page_progress.hpp"
+#include "render/page/report.hpp"
+
+namespace grainreel {
+
+class RunPart {
+  public:
+    // n: what the ids of its elements end in; "" on a page of one run. most_film: bytes that its film may
+    // have.
+    RunPart(const PageRun& run, std::string name, std::string n, std::size_t most_film);
+
+    // Film, measures and words. Throws PageStopped.
+    void read(const PageProgress& progress);
+    // Bytes of the page that read() has taken.
+    std::size_t taken() const;
+    // Grains, into so many packed bytes. Throws likewise.
+    void read_bed(std::size_t most_bytes, const PageProgress& progress);
+
+    const Scene& scene() const { return run_.scene; }
+    const std::filesystem::path& folder() const { return run_.folder; }
+    const std::string& name() const { return name_; }
+    std::string title() const;  // HTML
+    Span span() const;          // of the trajectory and the film
+    bool tied() const { return !times_.times.empty(); }
+
+    std::string lead() const { return lead_; }
+    std::string film(bool beside) const;  // beside: the page lies beside the film's file
+    std::string bed() const;
+    std::string fields(int level) const;  // of its heading; empty where the run kept none
+    std::string charts_about() const;
+    // on_page_of_its_own: with links to the files beside it, and their names.
+    std::string chapters(const std::filesystem::path& page, bool on_page_of_its_own) const;
+    std::string facts() const;     // JSON
+    std::string bed_blob() const;  // in the order of the page's end
+    std::string late_blobs() const;
+    std::vector<std::string> news() const;  // what the user is to know
+
+  private:
+    void read_table(const std::filesystem::path& file);
+    FilmTimes film_times_of();
+    std::vector<std::string> lacking_files() const;
+    std::string in_folder(const std::string& line) const;
+    std::string no_moments() const;
+    Span kept_span() const;  // of moments and measures
+
+    const PageRun& run_;
+    const std::string name_, n_;
+    const std::size_t most_film_;
+    RunFacts record_;
+    std::shared_ptr<const MeasureTable> table_;  // null without measures
+    PageMeasures measures_;
+    PageFilm film_;
+    std::vector<std::uint8_t> poster_;
+    FilmTimes times_;
+    BedFrames bed_;
+    std::vector<std::string> bed_news_;
+    PageFields fields_;
+    std::string lead_, late_blobs_;
+    bool whole_table_ = false, table_of_film_is_odd_ = false;
+    std::string no_charts_, table_fault_;  // why there are none; what is wrong with measures.csv
+};
+
+}  // namespace grainreel

@@ -1,0 +1,56 @@
+// Flat shapes in pixels, painted in the order in which they are added: polygons and lines of constant width
+// with smooth edges. The container is drawn with it, after projection.
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "render/picture/gl/objects.hpp"
+
+namespace grainreel {
+
+using Pixel = Eigen::Vector2d;  // from the top left
+
+struct Paint {
+    Colour colour;  // sRGB
+    double alpha = 1;
+};
+
+// A list of shapes, made anew every frame.
+class Shapes {
+  public:
+    void polygon(const std::vector<Pixel>& corners, const Paint& paint);  // convex
+    // width: pixels. Corners are mitred, so a translucent line shows no knots.
+    void line(const std::vector<Pixel>& points, bool closed, double width, const Paint& paint);
+    void append(const Shapes& others) {
+        vertices_.insert(vertices_.end(), others.vertices_.begin(), others.vertices_.end());
+    }
+    void clear() { vertices_.clear(); }
+
+    struct Vertex {
+        float x, y;                     // pixels
+        float across, half_width;       // signed distance from the line's middle; half its width
+        float red, green, blue, alpha;  // sRGB, not premultiplied
+        bool operator==(const Vertex&) const = default;
+    };
+    bool operator==(const Shapes&) const = default;
+    const std::vector<Vertex>& vertices() const { return vertices_; }
+
+  private:
+    std::vector<Vertex> vertices_;  // triangles
+};
+
+// Paints shapes into the framebuffer that is bound, whose size is width x height.
+class ShapePainter {
+  public:
+    explicit ShapePainter(const gl::Functions& gl);
+    void paint(const Shapes& shapes, int width, int height) const;
+
+  private:
+    const gl::Functions& gl_;
+    gl::Program program_;
+    gl::VertexArray array_;
+    gl::Buffer buffer_;
+};
+
+}  // namespace grainreel

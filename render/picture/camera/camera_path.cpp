@@ -1,0 +1,224 @@
+#include "render/picture/camera/camera_path.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/bed.hpp"
+#include "render/picture/container/container_drawing.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double degrees = std::numbers::pi / 180;
+
+// Half a degree apart the outline of what turns differs by less than 1e-5 of its size from its largest.
+constexpr double sample_angle = 0.5;
+constexpr int key_samples = 720;
+
+// Of the camera's distance: the container does not come nearer to the eye.
+constexpr double close_by = 0.1;
+
+}  // namespace
+
+void settle_orbit(Camera& camera, double film_seconds) {
+    if (camera.orbit != 0 && !camera.orbit_time && film_seconds > 0) camera.orbit_time = film_seconds;
+}
+
+CameraPath::CameraPath(const Scene& scene, const PictureLayout& layout)
+    : camera_(scene.film.camera),
+      port_(layout.port),
+      picture_height_(scene.film.height),
+      margin_(type_scale(scene.film).margin),
+      target_(camera_.target.value_or(camera_.position ? extent_of(scene).middle() : framed_middle(scene))) {
+    make_tracks();
+    if (camera_.position)
+        look_from_position();
+    else
+        frame_by_itself(scene);
+    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene));
+    for (const Vec3& point : all) radius_ = std::max(radius_, (point - target_).norm());
+    if (still_) still_->nearest = std::min(still_->nearest, 0.5 * least_depth(all));
+}
+
+// Of a container that is cut off as much is left out as can be: what stands high would come close to a camera
+// that looks down.
+void CameraPath::frame_by_itself(const Scene& scene) {
+    FramedPart part = framed_part(scene);
+    double scale = frame_part(scene, part);
+    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene));
+    while (part.cut && camera_.field_of_view > 0 && least_depth(all) < close_by * distance_) {
+        part.top *= 1.25;
+        if (part.top >= scene.container.height) part = whole_container(scene);
+        scale = frame_part(scene, part);
+    }
+    if (!part.cut || !still_) return;
+    part = show_more(scene, part, scale);
+    if (leaves_aside(scene, part)) keep_sides(scene, part);
+}
+
+// Returns pixels a metre at the middle of what is framed.
+double CameraPath::frame_part(const Scene& scene, const FramedPart& part) {
+    if (camera_.target || moves()) {
+        keep_distance(scene, part);
+        return camera_.field_of_view <= 0 ? focal_ : focal_ / distance_;
+    }
+    still_ = fit_view(camera_, framing_points(scene, camera_.azimuth, part), port_, margin_, picture_height_);
+    distance_ = still_->to_view(target_).z();
+    return still_->pixels_per_metre(target_);
+}
+
+// Where the port's width is what binds, its free height shows more of the container.
+FramedPart CameraPath::show_more(const Scene& scene, FramedPart part, double scale) {
+    double most = scene.container.height;
+    for (int i = 0; i < 20; ++i) {
+        const double middle = 0.5 * (part.top + most);
+        const bool as_large = frame_part(scene, {middle, true}) >= (1 - 1e-9) * scale;
+        (as_large ? part.top : most) = middle;
+    }
+    frame_part(scene, part);
+    return part;
+}
+
+// Whether walls above the framed part are in the picture's height, but not in its width: slanted walls are
+// wider above.
+bool CameraPath::leaves_aside(const Scene& scene, const FramedPart& part) const {
+    constexpr int heights = 64;
+    for (int i = 0; i <= heights; ++i) {
+        const double top = part.top + (scene.container.height - part.top) * i / heights;
+        for (const Vec3& point : framing_points(scene, camera_.azimuth, {top, true})) {
+            const Eigen::Vector2d seen = still_->project(point);
+            if (seen.y() >= 0 && (seen.x() < 0 || seen.x() > port_.width)) return true;
+        }
+    }
+    return false;
+}
+
+// Frames as little more as leaves no wall aside. The whole container leaves none.
+void CameraPath::keep_sides(const Scene& scene, FramedPart part) {
+    FramedPart most = whole_container(scene);
+    most.top = std::min(most.top, scene.container.height);
+    for (int i = 0; i < 20; ++i) {
+        const FramedPart middle{0.5 * (part.top + most.top), true};
+        frame_part(scene, middle);
+        (leaves_aside(scene, middle) ? part : most) = middle;
+    }
+    frame_part(scene, most);
+}
+
+// m before the eye, of the nearest point that is seen on the way.
+double CameraPath::least_depth(const std::vector<Vec3>& points) const {
+    double least = 1e300;
+    const auto take = [&](const View& view) {
+        for (const Vec3& point : points) least = std::min(least, view.to_view(point).z());
+    };
+    if (still_) {
+        take(*still_);
+        return least;
+    }
+    for (const Pose& here : samples()) {
+        View view = looking(here.azimuth, here.elevation);
+        view.eye = target_ + shift_ * view.up - distance_ * view.forward;
+        take(view);
+    }
+    return least;
+}
+
+// Through those keys that say something, from `at_first` where the first one does not; none says: no track.
+template <class Value>
+CameraPath::Track CameraPath::track(double at_first, Value value) const {
+    std::vector<double> times, values;
+    for (const CameraKey& key : camera_.keys)
+        if (const std::optional<double> here = value(key)) {
+            times.push_back(key.time);
+            values.push_back(*here);
+        }
+    if (times.empty()) return {};
+    if (times.front() > camera_.keys.front().time) {
+        times.insert(times.begin(), camera_.keys.front().time);
+        values.insert(values.begin(), at_first);
+    }
+    return MonotoneCurve(std::move(times), std::move(values));
+}
+
+void CameraPath::make_tracks() {
+    azimuth_ = track(camera_.azimuth, [](const CameraKey& key) { return key.azimuth; });
+    elevation_ = track(camera_.elevation, [](const CameraKey& key) { return key.elevation; });
+    zoom_ = track(std::log(camera_.zoom), [](const CameraKey& key) {
+        return key.zoom ? std::optional(std::log(*key.zoom)) : std::nullopt;
+    });
+    for (int axis = 0; axis < 3; ++axis) {
+        const Track along = track(target_[axis], [axis](const CameraKey& key) {
+            return key.target ? std::optional((*key.target)[axis]) : std::nullopt;
+        });
+        if (along) place_.push_back(*along);
+    }
+}
+
+CameraPath::Pose CameraPath::pose(double film_time) const {
+    const double turned =
+        camera_.orbit_time ? camera_.orbit * std::max(0.0, film_time) / *camera_.orbit_time : 0;
+    Pose pose{camera_.azimuth + std::fmod(turned, 360), camera_.elevation, camera_.zoom, target_};
+    if (azimuth_) pose.azimuth = azimuth_->at(film_time);
+    if (elevation_) pose.elevation = elevation_->at(film_time);
+    if (zoom_) pose.zoom = std::exp(zoom_->at(film_time));
+    if (!place_.empty())
+        pose.target = {place_[0].at(film_time), place_[1].at(film_time), place_[2].at(film_time)};
+    return pose;
+}
+
+void CameraPath::look_from_position() {
+    const Vec3 back = *camera_.position - target_;
+    distance_ = back.norm();
+    if (std::hypot(back.x(), back.y()) > 1e-9 * distance_)
+        camera_.azimuth = std::atan2(back.y(), back.x()) / degrees;
+    camera_.elevation = std::asin(std::clamp(back.z() / distance_, -1.0, 1.0)) / degrees;
+    focal_ = focal_length(camera_, picture_height_);
+}
+
+// Where the camera points in the course of the film, close enough for its framing.
+std::vector<CameraPath::Pose> CameraPath::samples() const {
+    std::vector<Pose> poses;
+    const double turn = std::min(std::abs(camera_.orbit), 360.0);
+    const double start = camera_.keys.empty() ? 0 : camera_.keys.front().time;
+    const double end = camera_.keys.empty() ? 0 : camera_.keys.back().time;
+    const int count = camera_.keys.empty() ? static_cast<int>(std::ceil(turn / sample_angle)) : key_samples;
+    for (int i = 0; i <= count; ++i) {
+        const double share = count > 0 ? static_cast<double>(i) / count : 0;
+        Pose here = pose(start + share * (end - start));
+        if (camera_.keys.empty()) here.azimuth = camera_.azimuth + std::copysign(share * turn, camera_.orbit);
+        poses.push_back(here);
+    }
+    return poses;
+}
+
+void CameraPath::keep_distance(const Scene& scene, const FramedPart& part) {
+    Framing framing(camera_, port_, margin_, picture_height_);
+    const Vec3 middle = framed_middle(scene);
+    for (const Pose& here : samples()) {
+        const View view = looking(here.azimuth, here.elevation);
+        for (const Vec3& point : framing_points(scene, here.azimuth, part))
+            framing.take(view, point - middle);
+    }
+    focal_ = framing.focal();
+    distance_ = framing.distance();
+    // With a target of its own the camera looks right at it.
+    shift_ = camera_.target || !place_.empty() ? 0 : framing.shift();
+}
+
+View CameraPath::at(double film_time) const {
+    if (still_) return *still_;
+    const Pose here = pose(film_time);
+    View view = looking(here.azimuth, here.elevation);
+    view.port = port_;
+    view.orthographic = camera_.field_of_view <= 0;
+    view.focal = focal_ * here.zoom;
+    view.eye = here.target + shift_ * view.up - distance_ * view.forward;
+    const double reach = radius_ + (here.target - target_).norm();
+    view.nearest = std::max(0.01 * distance_, distance_ - 2 * reach);
+    view.farthest = distance_ + 4 * reach;
+    return view;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,63 @@
+// The camera in the course of a film: standing, on an orbit, or on its way from key to key.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "render/picture/base/monotone_curve.hpp"
+#include "render/picture/base/view.hpp"
+#include "render/picture/camera/framing.hpp"
+#include "render/picture/words/layout.hpp"
+
+namespace grainreel {
+
+// An orbit that lasts as long as its film needs the film's length: does nothing where the scene gives its
+// own.
+void settle_orbit(Camera& camera, double film_seconds);
+
+class CameraPath {
+  public:
+    // A camera that moves keeps one distance, the least from which all that is framed is in the port at
+    // every moment of the way, so that the picture does not breathe. An orbit of unknown duration stands
+    // still.
+    CameraPath(const Scene& scene, const PictureLayout& layout);
+
+    // film_time: s since the first frame. In the lab's frame; a camera that follows is moved from there.
+    View at(double film_time) const;
+    bool moves() const { return camera_.moves(); }
+
+  private:
+    struct Pose {
+        double azimuth, elevation, zoom;  // degrees
+        Vec3 target;
+    };
+    using Track = std::optional<MonotoneCurve>;
+    template <class Value>
+    Track track(double at_first, Value value) const;
+    void make_tracks();
+    void look_from_position();
+    void frame_by_itself(const Scene& scene);
+    double frame_part(const Scene& scene, const FramedPart& part);
+    FramedPart show_more(const Scene& scene, FramedPart part, double scale);
+    bool leaves_aside(const Scene& scene, const FramedPart& part) const;
+    void keep_sides(const Scene& scene, FramedPart part);
+    void keep_distance(const Scene& scene, const FramedPart& part);
+    double least_depth(const std::vector<Vec3>& points) const;
+    std::vector<Pose> samples() const;
+    Pose pose(double film_time) const;
+
+    Camera camera_;
+    const Rectangle port_;
+    const int picture_height_;
+    const double margin_;  // pixels, between what is framed and the port's border
+    Vec3 target_;
+    std::optional<View> still_;         // with the plain automatic framing
+    double distance_ = 0, shift_ = 0;   // m, of the eye from the target, and of both upwards in the picture
+    double focal_ = 1;                  // pixels, without the zoom
+    double radius_ = 0;                 // m, about the target, of all that is drawn
+    Track azimuth_, elevation_, zoom_;  // the zoom by its logarithm
+    std::vector<MonotoneCurve> place_;  // x, y, z of the target
+};
+
+}  // namespace grainreel

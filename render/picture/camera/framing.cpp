@@ -1,0 +1,138 @@
+#include "render/picture/camera/framing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/plan/reach.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
+#include "render/picture/container/drawing_kit.hpp"
+#include "render/picture/container/lab_marks.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double almost_all = 0.88;  // of the container's height: so much is not worth a cut
+constexpr double steepest = 60;      // degrees, of a camera that may leave the upper part out
+
+double upward(const Scene& scene) {
+    return std::abs(scene.drive.direction.z());
+}
+
+// m, above the rim of an open top, for grains in flight: a grain that meets the rising bed leaves it at up to
+// twice the walls' speed. At most half the container, or the bed would look small.
+double room_above(const Scene& scene) {
+    const Container& container = scene.container;
+    const double gravity = scene.gravity.norm();
+    if (container.shape == Container::Shape::none || container.lid || !scene.drive.present || gravity <= 0)
+        return 0;
+    const double thrown = 2 * drive_peaks(scene.drive).speed * upward(scene);
+    const double highest = fill_height(scene, 0.55) + thrown * thrown / (2 * gravity);
+    return std::clamp(highest - container.height, 0.0, 0.5 * container.height);
+}
+
+bool looks_steeply(const Camera& camera) {
+    if (std::abs(camera.elevation) > steepest) return true;
+    return std::any_of(camera.keys.begin(), camera.keys.end(), [](const CameraKey& key) {
+        return key.elevation && std::abs(*key.elevation) > steepest;
+    });
+}
+
+// m above the floor's rest position, as drawn.
+std::optional<double> wanted_top(const Scene& scene) {
+    const Camera& camera = scene.film.camera;
+    const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset * upward(scene) : 0;
+    if (camera.frame == CameraFrame::bed) {
+        const std::optional<double> rest = resting_top(scene);
+        return rest ? std::optional(*rest + scene.film.exaggerate * stroke) : std::nullopt;
+    }
+    std::optional<double> top = camera.reach ? camera.reach : estimated_reach(scene);
+    if (top) *top += (scene.film.exaggerate - 1) * stroke + (camera.follow ? stroke : 0);
+    return top;
+}
+
+std::vector<Vec3> corners_of(const Scene& scene, const FramedPart& part) {
+    const double top = part.cut ? part.top : 1e300;
+    switch (scene.container.shape) {
+        case Container::Shape::cylinder:
+            return cylinder_corners(scene.container, top);
+        case Container::Shape::none:
+            return extent_corners(extent_of(scene));
+        case Container::Shape::wedge:
+        case Container::Shape::box:
+            break;
+    }
+    return prism_corners(scene.container, top);
+}
+
+std::vector<Vec3> tray_corners(const Scene& scene) {
+    const Container tray = tray_container(scene);
+    const bool round = tray.shape == Container::Shape::cylinder;
+    std::vector<Vec3> corners = round ? cylinder_corners(tray, 1e300) : prism_corners(tray, 1e300);
+    for (Vec3& corner : corners) corner.z() -= scene.container.tray->depth;
+    return corners;
+}
+
+// What falls through an outlet, as far as it stays in the run.
+void add_stream(const Container& container, std::vector<Vec3>& corners) {
+    const Outlet& outlet = *container.outlet;
+    const double y = outlet.half_width, x = outlet.shape == Outlet::Shape::slot ? 0.5 * container.depth : y;
+    for (const double side : {-1.0, 1.0})
+        for (const double end : {-1.0, 1.0}) corners.emplace_back(end * x, side * y, -outlet.exit_depth);
+}
+
+}  // namespace
+
+FramedPart whole_container(const Scene& scene) {
+    return {scene.container.height + room_above(scene), false};
+}
+
+FramedPart framed_part(const Scene& scene) {
+    const Container& container = scene.container;
+    const bool all = scene.film.camera.frame == CameraFrame::container ||
+                     container.shape == Container::Shape::none || looks_steeply(scene.film.camera);
+    const std::optional<double> top = all ? std::nullopt : wanted_top(scene);
+    if (!top) return whole_container(scene);
+    const double height = container.height;
+    if (*top <= almost_all * height) return {std::max(*top, drawn_thickness(container)), true};
+    return {container.lid ? height : std::clamp(*top, height, 1.5 * height), false};
+}
+
+Vec3 framed_middle(const Scene& scene) {
+    Extent extent = extent_of(scene);
+    const FramedPart part = framed_part(scene);
+    if (part.cut) extent.high.z() = part.top;
+    return extent.middle();
+}
+
+std::vector<Vec3> framing_points(const Scene& scene, double azimuth, const FramedPart& part) {
+    std::vector<Vec3> corners = corners_of(scene, part);
+    if (scene.container.tray)
+        for (const Vec3& corner : tray_corners(scene)) corners.push_back(corner);
+    else if (scene.container.outlet)
+        add_stream(scene.container, corners);
+    if (!part.cut && part.top > scene.container.height) corners.emplace_back(0, 0, part.top);
+    std::vector<Vec3> points;
+    const Vec3 stroke = drawn_stroke(scene);
+    for (const double end : {-1.0, 1.0}) {
+        for (const Vec3& corner : corners) {
+            // Where the container runs out of the picture, its stroke does not show.
+            const bool at_top = part.cut && corner.z() >= part.top;
+            points.push_back(corner + end * Vec3(stroke.x(), stroke.y(), at_top ? 0 : stroke.z()));
+        }
+        for (const LabMark& mark : lab_marks(scene, azimuth))
+            for (const Vec3& point : {mark.foot, Vec3(mark.foot + mark.along)})
+                points.push_back(point + end * stroke);
+    }
+    return points;
+}
+
+std::vector<Vec3> framing_points(const Scene& scene, double azimuth) {
+    return framing_points(scene, azimuth, framed_part(scene));
+}
+
+std::vector<Vec3> framing_points(const Scene& scene) {
+    return framing_points(scene, scene.film.camera.azimuth);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,57 @@
+// The container as a cut-away: walls of visible thickness, behind the grains where the eye looks at their
+// inner side and as bare glass edges over the grains where it looks at them from outside.
+//
+// The container is convex and the grains are inside: what lies behind the grains is painted before them, what
+// lies in front after them, and every edge stays smooth. For grains that reach through a wall or are outside,
+// WallOrder takes the painted faces and puts that right.
+#pragma once
+
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/picture/base/canvas.hpp"
+#include "render/picture/base/palette.hpp"
+#include "render/picture/base/view.hpp"
+#include "render/picture/camera/framing.hpp"
+#include "render/picture/words/layout.hpp"
+
+namespace grainreel {
+
+// m: how thick walls, floor and lid are drawn.
+double drawn_thickness(const Container& container);
+
+// The scene's camera as the film begins.
+View frame_container(const Scene& scene, const PictureLayout& layout);
+
+// Walls on one side of the grains, as painted and as faces in space.
+struct WallSide {
+    struct Face {
+        std::vector<Vec3> corners;  // m, where it is now
+        double alpha;
+    };
+    Shapes shapes;
+    std::vector<Face> faces;
+    void clear() {
+        shapes.clear();
+        faces.clear();
+    }
+};
+
+struct ContainerShapes {
+    WallSide behind, before;  // to be painted before and after the grains
+    Shapes over;              // over everything
+};
+
+// The camera, before it follows anything and now; `moves`: it does not stand all the film.
+struct Views {
+    View at_rest, now;
+    bool moves = false;
+};
+
+// The frame as it is to be shown, with the motion exaggerated. picture_height: pixels; line widths follow
+// from it.
+void draw_container(const Scene& scene, const Views& views, const Frame& frame, const Palette& palette,
+                    int picture_height, ContainerShapes& shapes);
+
+}  // namespace grainreel

@@ -1,0 +1,101 @@
+// What the drawings of wedge, box and cylinder share: pens, paints, and points that are projected on the way.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/scene/bed.hpp"
+#include "render/picture/container/container_drawing.hpp"
+
+namespace grainreel {
+
+// 0 up to -half_width, 1 from half_width on, smoothly in between.
+double smooth_step(double value, double half_width);
+
+Paint faded(const Paint& paint, double share);
+// As over a background: of one paint, and so much of the other.
+Paint blend(const Paint& one, const Paint& other, double share_of_other);
+
+// Draws shapes given in metres, in the frame of something that has moved by `offset`.
+class Sketch {
+  public:
+    Sketch(const Views& views, const Palette& colours, int picture_height, const Vec3& offset)
+        : palette(colours), pen(std::max(1.0, picture_height / 600.0)), views_(views), offset_(offset) {}
+
+    bool faces(const Vec3& point, const Vec3& normal) const {
+        return views_.now.faces(point + offset_, normal);
+    }
+    // How solid a part looks, 0 for glass: by where the eye is when everything is at rest, or a part whose
+    // plane it crosses would blink once a period. What hides what follows the present. A camera that moves
+    // sees glass become solid over some degrees.
+    double solid(const Vec3& point, const Vec3& normal) const;
+    // By how much the end of what is drawn out along x is the one at positive x that is near to the eye.
+    double positive_end_is_near() const;
+    const View& view() const { return views_.now; }
+    const Vec3& offset() const { return offset_; }
+
+    void polygon(WallSide& on, const std::vector<Vec3>& corners, const Paint& paint) const {
+        on.shapes.polygon(project(corners), paint);
+        on.faces.push_back({corners, paint.alpha});
+        for (Vec3& corner : on.faces.back().corners) corner += offset_;
+    }
+    void line(WallSide& on, const std::vector<Vec3>& points, bool closed, double width,
+              const Paint& paint) const {
+        on.shapes.line(project(points), closed, width, paint);
+    }
+    void dashed(Shapes& on, std::vector<Vec3> points, bool closed, double width, const Paint& paint) const;
+
+    // Back: the solid parts behind the grains. Front: glass over them, faint enough to hide nothing.
+    Paint cut() const { return {palette.solid, 1}; }
+    Paint inner_face() const { return {mix(palette.background, palette.solid, 0.30), 1}; }
+    Paint outer_face() const { return {mix(palette.solid, palette.background, 0.30), 1}; }
+    Paint pane() const { return {palette.solid, 0.10}; }
+    Paint edge() const { return {palette.ink, 1}; }
+    Paint far_edge() const { return {mix(palette.solid, palette.ink, 0.35), 1}; }
+    Paint glass_cut() const { return {palette.solid, 0.38}; }
+    Paint glass_face() const { return {palette.solid, 0.05}; }
+    Paint glass_edge() const { return {palette.ink, 0.45}; }
+    Paint ghost() const { return {palette.ink, 0.5}; }
+
+    const Palette& palette;
+    const double pen;  // pixels, the width of a main line
+
+  private:
+    std::vector<Pixel> project(const std::vector<Vec3>& points) const {
+        std::vector<Pixel> pixels;
+        pixels.reserve(points.size());
+        for (const Vec3& point : points) pixels.push_back(views_.now.project(point + offset_));
+        return pixels;
+    }
+    const Views& views_;
+    const Vec3 offset_;
+};
+
+// Offsets of the moving parts: the walls (with the lid), and the floor.
+struct Sketches {
+    Sketch walls, floor, lab;
+};
+
+void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
+void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
+
+// The piece of a plane that lies in the container, or in the box of what is looked at, in the place where the
+// plane is when it has moved by `offset`; m, corners in order around it. Empty when there is none.
+std::vector<Vec3> piece_of_plane(const FreeWall& wall, const Scene& scene, const Vec3& offset);
+void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sketch, ContainerShapes& shapes);
+
+// Dashed outlines over the grains: of the container's moving parts, or of a plane that moves, at rest.
+void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
+void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
+void draw_free_wall_ghost(const FreeWall& wall, const Scene& scene, const Sketch& lab, Shapes& on);
+
+// Half the width of everything drawn, at the height of the floor's top; m.
+double outer_floor_half_width(const Container& container);
+
+// Corners of the drawn container at rest, walls with thickness; of one that is cut off at `top` (m), where it
+// is higher.
+std::vector<Vec3> prism_corners(const Container& container, double top);
+std::vector<Vec3> cylinder_corners(const Container& container, double top);
+std::vector<Vec3> extent_corners(const Extent& extent);
+
+}  // namespace grainreel

@@ -1,0 +1,18 @@
+// Grains that leave the run below an outlet are gone from one frame to the next. So that they do not vanish
+// in mid-air, they fade while they fall the last part of the way.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "render/picture/base/view.hpp"
+
+namespace grainreel {
+
+// Of each row of a port so high, counted from the top: how strong grains are there, 0 to 255. Empty where all
+// are as they are: without an outlet, with a tray, and where the eye looks down so steeply that rows with
+// grains of the bed would fade too.
+std::vector<std::uint32_t> exit_fade(const Scene& scene, const View& view, int height);
+
+}  // namespace grainreel

@@ -1,0 +1,44 @@
+// The albedo of every grain: by species, or by a quantity through a colour map.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/picture/grains/colour_scale.hpp"
+#include "render/picture/grains/quantities.hpp"
+
+namespace grainreel {
+
+using Albedo = std::array<float, 3>;  // linear light
+Albedo to_albedo(const Colour& colour);
+
+// Of grains whose quantity is unknown, and of the legend's when colours say something else than the species.
+inline constexpr Colour neutral_grain{0.62, 0.62, 0.62};  // sRGB
+
+class GrainColours {
+  public:
+    explicit GrainColours(const Scene& scene);
+
+    // See Quantities.
+    void start_from(const Frame& frame) { quantities_.start_from(frame); }
+
+    // One a grain, in the frame's order.
+    const std::vector<Albedo>& of(const Frame& frame);
+    // Of all grains that it has coloured by a quantity.
+    const ClippedCount& clipped() const { return clipped_; }
+
+  private:
+    Albedo of_value(double value) const;
+
+    Quantities quantities_;
+    bool by_species_;
+    double low_ = 0, high_ = 1;  // SI
+    bool banded_ = false;
+    ClippedCount clipped_;
+    std::vector<Albedo> steps_;  // a species each; or along the colour map, or its bands
+    std::vector<Albedo> colours_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,106 @@
+#include "render/picture/grains/spheres.hpp"
+
+#include <algorithm>
+
+#include "render/picture/grains/shown_grains.hpp"
+#include "render/picture/grains/styles.hpp"
+
+namespace grainreel {
+
+SpherePainter::SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts)
+    : grain_colours_(scene),
+      glued_(scene),
+      team_(team),
+      layer_(width, height),
+      look_(scene.film.look),
+      lamp_(lamp_of(look_, scene.film.shows.colour.of_grains())) {
+    if (!ghosts) return;
+    painted_.resize(scene.species.size(), 0);
+    for (const std::size_t species : scene.film.shows.ghosts) painted_[species] = 1;
+}
+
+void SpherePainter::take(const View& view, const Frame& frame) {
+    sight_ = {view.orthographic, static_cast<float>(view.focal), 0.5f * static_cast<float>(view.port.width),
+              0.5f * static_cast<float>(view.port.height)};
+    lamp_.up[0] = static_cast<float>(view.right.z());
+    lamp_.up[1] = static_cast<float>(view.up.z());
+    lamp_.up[2] = static_cast<float>(view.forward.z());
+    spheres_.spheres.resize(frame.size());
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const Vec3 at = view.to_view(frame.position[i]);
+        spheres_.spheres[i] = {static_cast<float>(at.x()), static_cast<float>(at.y()),
+                               static_cast<float>(at.z()), static_cast<float>(frame.radius[i])};
+    }
+    spheres_.albedo = grain_colours_.of(frame);
+    open_bed(view, frame);
+    mark_rotation(view, frame);
+    mark_painted(frame);
+    add_glued(view, frame);
+}
+
+// Grains glued to walls come behind all others, so that these keep their places.
+void SpherePainter::add_glued(const View& view, const Frame& frame) {
+    for (const GluedSpheres::Seen& seen : glued_.seen(view, frame)) {
+        const Vec3 at = view.to_view(seen.centre);
+        spheres_.spheres.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()),
+                                    static_cast<float>(at.z()), static_cast<float>(seen.radius)});
+        spheres_.albedo.push_back(glued_.colour());
+        if (!spheres_.poles.empty()) spheres_.poles.push_back({});  // one colour all over
+        if (!painted_.empty()) spheres_.painted.push_back(0);
+    }
+}
+
+// The planes of the cut, which go with the container, in view coordinates.
+void SpherePainter::open_bed(const View& view, const Frame& frame) {
+    cut_.planes = 0;
+    for (const HalfSpace& kept : kept_by_cut(look_.cut, frame))
+        cut_.plane[cut_.planes++] = {static_cast<float>(kept.normal.dot(view.right)),
+                                     static_cast<float>(kept.normal.dot(view.up)),
+                                     static_cast<float>(kept.normal.dot(view.forward)),
+                                     static_cast<float>(kept.distance - kept.normal.dot(view.eye))};
+}
+
+void SpherePainter::mark_rotation(const View& view, const Frame& frame) {
+    spheres_.poles.clear();
+    if (!look_.rotation || frame.orientation.size() != frame.size()) return;
+    for (const Quaternion& turned : frame.orientation) {
+        const Vec3 pole = turned * Vec3::UnitZ();
+        spheres_.poles.push_back({static_cast<float>(pole.dot(view.right)),
+                                  static_cast<float>(pole.dot(view.up)),
+                                  static_cast<float>(pole.dot(view.forward))});
+    }
+}
+
+void SpherePainter::mark_painted(const Frame& frame) {
+    if (painted_.empty()) return;
+    spheres_.painted.clear();
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        spheres_.painted.push_back(
+            not_painted_.empty()
+                ? painted_[static_cast<std::size_t>(frame.species[i])]
+                : !std::binary_search(not_painted_.begin(), not_painted_.end(), frame.id[i]));
+}
+
+void SpherePainter::find_visible() {
+    layer_.find_visible(sight_, cut_, spheres_, team_);
+}
+
+void SpherePainter::find_order(const View& view, const ContainerShapes& walls) {
+    std::vector<WallFace> faces;
+    for (const WallSide* side : {&walls.behind, &walls.before})
+        for (const WallSide::Face& face : side->faces) {
+            faces.push_back({{}, face.alpha, side == &walls.before});
+            for (const Vec3& corner : face.corners) faces.back().corners.push_back(view.to_view(corner));
+        }
+    layer_.find_order(sight_, cut_, spheres_, faces, team_);
+}
+
+void SpherePainter::find_neighbours() {
+    layer_.find_neighbours(cut_, lamp_, spheres_, team_);
+}
+
+const Layer& SpherePainter::light() {
+    return layer_.light(sight_, cut_, lamp_, spheres_, team_);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,59 @@
+// From a frame's grains to a layer of lit spheres.
+#pragma once
+
+#include "engine/base/team.hpp"
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/picture/base/view.hpp"
+#include "render/picture/container/container_drawing.hpp"
+#include "render/picture/grains/glued_spheres.hpp"
+#include "render/picture/grains/grain_colours.hpp"
+#include "render/picture/spheres/light/sphere_layer.hpp"
+
+namespace grainreel {
+
+class SpherePainter {
+  public:
+    // width, height: pixels of the port. ghosts: paint those of the scene's ghost species alone, where
+    // nothing else stands before them; otherwise paint all grains that are taken.
+    SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts);
+
+    // Of ghosts: paint all grains but these, whatever their species. ids rise.
+    void paint_all_but(const std::vector<std::int32_t>& ids) { not_painted_ = ids; }
+
+    // See Renderer.
+    void start_from(const Frame& frame) { grain_colours_.start_from(frame); }
+
+    const ClippedCount& clipped() const { return grain_colours_.clipped(); }
+
+    // One after the other.
+    void take(const View& view, const Frame& frame);
+    void find_visible();
+    // Walls as they were painted behind and before the grains.
+    void find_order(const View& view, const ContainerShapes& walls);
+    void find_neighbours();
+    const Layer& light();
+    double seen_share(std::size_t grain) const { return layer_.visibility().seen_share(grain); }
+    // Where the layers of walls are not right, and what is left of the one before the grains.
+    const std::vector<WallPixel>& wall_pixels() const { return layer_.wall_order().pixels(); }
+
+  private:
+    void add_glued(const View& view, const Frame& frame);
+    void open_bed(const View& view, const Frame& frame);
+    void mark_rotation(const View& view, const Frame& frame);
+    void mark_painted(const Frame& frame);
+
+    GrainColours grain_colours_;
+    GluedSpheres glued_;
+    Team& team_;
+    std::vector<std::uint8_t> painted_;      // by species; empty: all of them
+    std::vector<std::int32_t> not_painted_;  // ids; empty: by species
+    SphereLayer layer_;
+    Spheres spheres_;
+    FilmLook look_;
+    Sight sight_;
+    Cut cut_;
+    Lamp lamp_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,92 @@
+#include "render/picture/grains/velocity_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/bed.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double least_grains = 3;    // fewer are no mean
+constexpr double most_cells = 20000;  // of the picture
+constexpr double pi = std::numbers::pi;
+
+// Hz: one over how long the drive's last period was.
+double periods_a_second(const Scene& scene, const Frame& frame) {
+    if (!scene.drive.changes()) return scene.drive.frequency;
+    const DriveSchedule schedule(scene.drive);
+    return 1 / (schedule.times().time(frame.cycles) - schedule.times().time(frame.cycles - 1));
+}
+
+FieldOutput resolution(const Scene& scene, double width) {
+    FieldOutput fields;
+    const Vec3 size = extent_of(scene).size();
+    fields.grid = FieldOutput::Grid::yz;
+    fields.width = width;
+    fields.cell = std::max(0.5 * width, std::sqrt(size.y() * size.z() / most_cells));
+    return fields;
+}
+
+}  // namespace
+
+FieldState field_state_of(const Scene& scene, const Frame& frame, bool period) {
+    FieldState state;
+    if (period && frame.displacement.size() != frame.size()) return state;
+    const double frequency = period ? periods_a_second(scene, frame) : 0;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        if (period && frame.displacement[i].hasNaN()) continue;
+        const double volume = 4.0 / 3 * pi * std::pow(frame.radius[i], 3);
+        const double density = scene.species[static_cast<std::size_t>(frame.species[i])].density;
+        state.grains.push_back({frame.position[i] - frame.container().place,
+                                period ? Vec3(frequency * frame.displacement[i]) : frame.velocity[i],
+                                density * volume, volume, frame.species[i], frame.radius[i]});
+    }
+    return state;
+}
+
+VelocityField::VelocityField(const Scene& scene, double width, bool period)
+    : scene_(scene), width_(width), period_(period), sums_(scene, resolution(scene, width), 1) {}
+
+void VelocityField::take(const Frame& frame) {
+    sums_.clear();
+    sums_.add(field_state_of(scene_, frame, period_), 0);
+    fields_ = sums_.mean();
+}
+
+// The kernel weighs as many grains as lie in 4 pi w^2 of the plane: the inverse of the integral of its
+// square.
+bool VelocityField::is_filled(std::size_t cell) const {
+    if (std::isnan(fields_.velocity[0][cell])) return false;
+    double grains = 0;  // a cubic metre
+    for (std::size_t s = 0; s < fields_.solid_fraction.size(); ++s)
+        grains += fields_.solid_fraction[s][cell] / (pi / 6 * mean_cube(scene_.species[s].diameter));
+    return grains * 4 * pi * width_ * width_ * sums_.grid().axes[0].cell >= least_grains;
+}
+
+std::optional<Vec3> VelocityField::at(double y, double z) const {
+    if (fields_.velocity.empty()) return std::nullopt;
+    const auto& [x_axis, y_axis, z_axis] = sums_.grid().axes;
+    const double right = (y - y_axis.low) / y_axis.cell - 0.5, up = (z - z_axis.low) / z_axis.cell - 0.5;
+    const auto j = static_cast<std::int64_t>(std::floor(right)),
+               k = static_cast<std::int64_t>(std::floor(up));
+    if (j < 0 || k < 0 || j + 1 >= y_axis.count || k + 1 >= z_axis.count) return std::nullopt;
+    Vec3 sum = Vec3::Zero();
+    double share = 0;
+    for (const std::int64_t dj : {0, 1})
+        for (const std::int64_t dk : {0, 1}) {
+            const auto cell = static_cast<std::size_t>(sums_.grid().index(0, j + dj, k + dk));
+            if (!is_filled(cell)) continue;
+            const double beside = right - static_cast<double>(j), above = up - static_cast<double>(k);
+            const double weight = (dj ? beside : 1 - beside) * (dk ? above : 1 - above);
+            for (int a = 0; a < 3; ++a)
+                sum[a] += weight * fields_.velocity[static_cast<std::size_t>(a)][cell];
+            share += weight;
+        }
+    if (share < 0.5) return std::nullopt;
+    return sum / share;
+}
+
+}  // namespace grainreel

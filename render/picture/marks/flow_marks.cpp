@@ -1,0 +1,129 @@
+#include "render/picture/marks/flow_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/bed.hpp"
+#include "render/picture/marks/arrow.hpp"
+#include "render/picture/marks/streamline.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double longest_arrow = 1.5;            // cells
+constexpr double streamline_reach = 1.5;         // distances of seeds, on either side of its own
+constexpr double slow = 0.1;                     // of the speed of full width: slower lines fade out
+constexpr double thin = 0.6, thick = 2;          // widths of lines, pens
+const double side_over_width = std::sqrt(12.0);  // of a square and of its spread along one side
+
+// As wide as the mean over an arrow's cell; no narrower than half a grain.
+double arrow_kernel(const Scene& scene) {
+    return std::max(0.5 * mean_diameter(scene), arrow_cell(scene) / side_over_width);
+}
+
+double seed_distance(const Scene& scene) {
+    return extent_of(scene).size().y() / scene.film.shows.streamlines.across;
+}
+
+double streamline_kernel(const Scene& scene) {
+    return std::max(0.75 * mean_diameter(scene), 0.5 * seed_distance(scene));
+}
+
+}  // namespace
+
+double arrow_cell(const Scene& scene) {
+    return extent_of(scene).size().y() / scene.film.shows.arrows.across;
+}
+
+double arrow_scale(const Scene& scene) {
+    return arrow_cell(scene) / scene.film.shows.arrows.speed;
+}
+
+double widest_streamline(int picture_height) {
+    return (thin + thick) * std::max(1.0, picture_height / 540.0);
+}
+
+FlowMarks::FlowMarks(const Scene& scene, const Palette& palette)
+    : scene_(scene), palette_(palette), pen_(std::max(1.0, scene.film.height / 540.0)) {
+    const FilmShows& shows = scene.film.shows;
+    if (shows.arrows.across > 0) arrows_.emplace(scene_, arrow_kernel(scene), shows.arrows.period);
+    if (shows.streamlines.across > 0)
+        streamlines_.emplace(scene_, streamline_kernel(scene), shows.streamlines.period);
+}
+
+void FlowMarks::draw(const View& view, const Frame& frame, Shapes& on) {
+    if (streamlines_) {
+        streamlines_->take(frame);
+        draw_streamlines(view, frame, on);
+    }
+    if (arrows_) {
+        arrows_->take(frame);
+        draw_arrows(view, frame, on);
+    }
+}
+
+void FlowMarks::draw_arrows(const View& view, const Frame& frame, Shapes& on) const {
+    const double side = arrow_cell(scene_), scale = arrow_scale(scene_);
+    const Extent extent = extent_of(scene_);
+    const auto upward = static_cast<int>(std::ceil(extent.size().z() / side));
+    for (int row = 0; row < upward; ++row)
+        for (int column = 0; column < scene_.film.shows.arrows.across; ++column) {
+            const double y = extent.low.y() + (column + 0.5) * side, z = extent.low.z() + (row + 0.5) * side;
+            const std::optional<Vec3> velocity = arrows_->at(y, z);
+            if (!velocity) continue;
+            Vec3 along = scale * Vec3(0, velocity->y(), velocity->z());
+            if (along.norm() > longest_arrow * side) along *= longest_arrow * side / along.norm();
+            const Vec3 middle = frame.container().place + Vec3(extent.middle().x(), y, z);
+            draw_arrow(on, view.project(middle - 0.5 * along), view.project(middle + 0.5 * along),
+                       {palette_.ink, palette_.background, 1.4 * pen_, pen_});
+        }
+}
+
+// Seeds stand still in a staggered grid, so that lines change as gently as the flow does.
+void FlowMarks::draw_streamlines(const View& view, const Frame& frame, Shapes& on) const {
+    const double side = seed_distance(scene_);
+    const Extent extent = extent_of(scene_);
+    const auto upward = static_cast<int>(std::ceil(extent.size().z() / side));
+    for (int row = 0; row < upward; ++row)
+        for (int column = 0; column < scene_.film.shows.streamlines.across; ++column)
+            draw_streamline(view, frame,
+                            {extent.low.y() + (column + (row % 2 == 0 ? 0.25 : 0.75)) * side,
+                             extent.low.z() + (row + 0.5) * side},
+                            on);
+}
+
+// Thin where it begins, with a head where it ends; wide where the flow is fast.
+void FlowMarks::draw_streamline(const View& view, const Frame& frame, const Eigen::Vector2d& seed,
+                                Shapes& on) const {
+    const double side = seed_distance(scene_), full = scene_.film.shows.streamlines.speed;
+    const PlaneVelocity velocity = [&](const Eigen::Vector2d& at) -> std::optional<Eigen::Vector2d> {
+        const std::optional<Vec3> here = streamlines_->at(at.x(), at.y());
+        if (!here) return std::nullopt;
+        return Eigen::Vector2d(here->y(), here->z());
+    };
+    const std::vector<StreamPoint> line = streamline(velocity, seed, streamline_reach * side, 0.1 * side);
+    if (line.size() < 3) return;
+    const double x = extent_of(scene_).middle().x();
+    std::vector<Pixel> points;
+    for (const StreamPoint& point : line)
+        points.push_back(view.project(frame.container().place + Vec3(x, point.at.x(), point.at.y())));
+    const auto width = [&](std::size_t k) {
+        const double speed = std::min(1.0, line[k].speed / full);
+        const double along = static_cast<double>(k + 1) / static_cast<double>(line.size());
+        return pen_ * (thin + thick * speed * along) * std::min(1.0, speed / slow);
+    };
+    const double end = width(line.size() - 1);
+    if (end < 0.1 * pen_) return;
+    for (const bool border : {true, false}) {
+        const Paint paint{border ? palette_.background : palette_.ink, 1};
+        for (std::size_t k = 1; k < points.size(); ++k)
+            on.line({points[k - 1], points[k]}, false,
+                    width(k) + (border ? std::min(1.2 * pen_, width(k)) : 0), paint);
+    }
+    draw_arrow(on, points[points.size() - 2],
+               points.back() + 2.2 * end * (points.back() - points[points.size() - 2]).normalized(),
+               {palette_.ink, palette_.background, end, 0.3 * pen_});
+}
+
+}  // namespace grainreel

@@ -1,0 +1,135 @@
+#include "render/picture/marks/marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "engine/scene/film/grain_values.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double weakest_force = 0.02;  // of the widest; weaker ones are left out
+
+// Place of a grain in the frame, whose ids rise; none when it is not there.
+std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
+    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+    if (found == frame.id.end() || *found != id) return std::nullopt;
+    return static_cast<std::size_t>(found - frame.id.begin());
+}
+
+}  // namespace
+
+bool has_marks(const FilmShows& look) {
+    return look.colour.of_field() || look.force_chains || look.trails.wanted() || look.arrows.across > 0 ||
+           look.streamlines.across > 0 || look.wall_forces.wanted || !look.highlighted.empty() ||
+           look.highlight_if.wanted();
+}
+
+double widest_force(const Scene& scene) {
+    return widest_chain_force(scene);
+}
+
+double widest_line(int picture_height) {
+    return 0.01 * picture_height;
+}
+
+Marks::Marks(const Scene& scene, const Palette& palette)
+    : scene_(scene),
+      palette_(palette),
+      pen_(std::max(1.0, scene.film.height / 540.0)),
+      flow_(scene, palette),
+      trails_(scene),
+      condition_(scene, scene.film.shows.highlight_if.of) {
+    if (scene.film.shows.colour.of_field()) field_.emplace(scene);
+    if (scene.film.shows.wall_forces.wanted) wall_forces_.emplace(scene, palette);
+}
+
+void Marks::start_from(const Frame& frame) {
+    condition_.start_from(frame);
+    if (field_) field_->start_from(frame);
+}
+
+void Marks::remember(const Frame& frame) {
+    if (scene_.film.shows.trails.wanted()) trails_.take(frame);
+}
+
+void Marks::draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
+    const FilmShows& look = scene_.film.shows;
+    if (field_) field_->draw(view, frame, on);
+    if (look.force_chains) draw_chains(view, frame, on);
+    remember(frame);
+    if (look.trails.wanted()) draw_trails(view, on);
+    flow_.draw(view, frame, on);
+    if (wall_forces_) wall_forces_->draw(view, frame, on);
+    if (!look.highlighted.empty() || look.highlight_if.wanted()) draw_rings(view, frame, seen, on);
+}
+
+void Marks::outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
+                     const Colour& colour, double strength) const {
+    on.line(points, closed, width + 2 * pen_, {palette_.background, strength});
+    on.line(points, closed, width, {colour, strength});
+}
+
+void Marks::draw_chains(const View& view, const Frame& frame, Shapes& on) const {
+    const double widest = widest_line(scene_.film.height), force = widest_force(scene_);
+    const double too_far = scene_.container.periodic_depth ? 0.5 * scene_.container.depth
+                                                           : std::numeric_limits<double>::infinity();
+    for (const Touch& touch : frame.touches) {
+        const auto first = find_grain(frame, touch.first), second = find_grain(frame, touch.second);
+        if (!first || !second || touch.force < weakest_force * force) continue;
+        const Vec3 &a = frame.position[*first], &b = frame.position[*second];
+        if (std::abs(a.x() - b.x()) > too_far) continue;
+        const double width = widest * std::min(1.0, touch.force / force);
+        on.line({view.project(a), view.project(b)}, false, width, {palette_.force, 1});
+    }
+}
+
+void Marks::draw_trails(const View& view, Shapes& on) const {
+    for (const bool outline : {true, false}) {
+        for (const auto& path : trails_.paths()) {
+            for (std::size_t k = 1; k < path.size(); ++k) {
+                // Thinner with age.
+                const double width = pen_ * (2.2 - 1.6 * path[k - 1].age);
+                on.line({view.project(path[k - 1].at), view.project(path[k].at)}, false,
+                        outline ? width + 1.4 * pen_ : width,
+                        {outline ? palette_.background : palette_.accent, 1});
+            }
+        }
+    }
+}
+
+// Those chosen by id wherever they are, those of a condition where they are seen: in a bed that is full of
+// them rings around buried grains would lie around others.
+void Marks::draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
+    constexpr double kHidden = 0.02, kPlain = 0.2;  // shares, between which a ring fades in
+    const FilmShows& look = scene_.film.shows;
+    for (const std::int32_t id : look.highlighted)
+        if (const auto grain = find_grain(frame, id))
+            draw_ring(view, frame.position[*grain], frame.radius[*grain], 1, on);
+    if (!look.highlight_if.wanted()) return;
+    const std::vector<double>& values = condition_.of(frame);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const double over = values[i] - look.highlight_if.limit;
+        if (look.highlight_if.above ? over <= 0 : over >= 0) continue;
+        const double strength = std::clamp((seen(i) - kHidden) / (kPlain - kHidden), 0.0, 1.0);
+        if (strength > 0) draw_ring(view, frame.position[i], frame.radius[i], strength, on);
+    }
+}
+
+void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, double strength,
+                      Shapes& on) const {
+    constexpr int corners = 48;
+    const Pixel middle = view.project(at);
+    const double radius = grain_radius * view.pixels_per_metre(at) + 2.5 * pen_;
+    std::vector<Pixel> ring;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2 * std::numbers::pi * k / corners;
+        ring.push_back(middle + radius * Pixel(std::cos(angle), std::sin(angle)));
+    }
+    outlined(on, ring, true, 2 * pen_, palette_.accent, strength);
+}
+
+}  // namespace grainreel

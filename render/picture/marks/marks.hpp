@@ -1,0 +1,60 @@
+// What is drawn over the grains: a field, lines of force, trails, arrows and streamlines of the flow, forces
+// on walls, rings around chosen grains.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/picture/base/canvas.hpp"
+#include "render/picture/base/palette.hpp"
+#include "render/picture/base/view.hpp"
+#include "render/picture/grains/quantities.hpp"
+#include "render/picture/marks/field_layer.hpp"
+#include "render/picture/marks/flow_marks.hpp"
+#include "render/picture/marks/trails.hpp"
+#include "render/picture/marks/wall_force_marks.hpp"
+
+namespace grainreel {
+
+bool has_marks(const FilmShows& look);
+// N of a contact whose line is as wide as lines of force get.
+double widest_force(const Scene& scene);
+double widest_line(int picture_height);  // pixels
+
+class Marks {
+  public:
+    Marks(const Scene& scene, const Palette& palette);
+
+    // See Renderer.
+    void start_from(const Frame& frame);
+    // For trails; frames that are drawn need not be remembered.
+    void remember(const Frame& frame);
+    // The share of a grain of the frame that is seen.
+    using SeenShare = std::function<double(std::size_t grain)>;
+    // Adds them to what is to be painted after the grains. Frames come in the order of time.
+    void draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
+    // How many of the field's cells lie beyond the ends of the colour bar.
+    ClippedCount clipped() const { return field_ ? field_->clipped() : ClippedCount(); }
+
+  private:
+    void draw_chains(const View& view, const Frame& frame, Shapes& on) const;
+    void draw_trails(const View& view, Shapes& on) const;
+    void draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
+    void draw_ring(const View& view, const Vec3& at, double radius, double strength, Shapes& on) const;
+    // A line on a wider one of the background's colour, so that it reads on any grain.
+    void outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
+                  const Colour& colour, double strength = 1) const;
+
+    const Scene& scene_;
+    const Palette palette_;
+    const double pen_;  // pixels
+    std::optional<FieldLayer> field_;
+    FlowMarks flow_;
+    std::optional<WallForceMarks> wall_forces_;
+    Trails trails_;
+    Quantities condition_;  // of which some grains are ringed
+};
+
+}  // namespace grainreel

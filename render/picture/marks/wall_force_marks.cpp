@@ -1,0 +1,88 @@
+#include "render/picture/marks/wall_force_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/measure/measure_table.hpp"
+#include "engine/measure/wall_faces.hpp"
+#include "engine/scene/bed.hpp"
+#include "render/picture/marks/arrow.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double usual_arrow = 0.25, longest_arrow = 0.5;  // over the container's width
+constexpr double grazing = 0.05;                           // sine of 3 degrees
+constexpr double packing = 0.55;
+constexpr double face_on = 0.7;  // cosine: of walls that are looked at, forces point at the eye
+
+// x, y and z of the last row; NaN where there is no such row or column.
+Vec3 last_vector(const Frame& frame, const std::string& name, const std::string& unit) {
+    Vec3 vector = Vec3::Constant(std::nan(""));
+    const std::vector<std::string>& columns = frame.measures->columns();
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto found = std::find(columns.begin(), columns.end(), name + "_" + "xyz"[axis] + "_" + unit);
+        if (found == columns.end()) continue;
+        vector[axis] = frame.measures
+                           ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
+                                    frame.measure_rows)
+                           .front();
+    }
+    return vector;
+}
+
+// All around a cylinder's wall: half way up the bed, where the picture has the wall's edge.
+Vec3 beside_bed(const Scene& scene, const Face& wall) {
+    return {0, wall.radius, 0.5 * fill_height(scene, packing)};
+}
+
+}  // namespace
+
+double wall_force_scale(const Scene& scene) {
+    return usual_arrow * extent_of(scene).size().y() / scene.film.shows.wall_forces.scale;
+}
+
+// A moment M = r x F leaves r open along F: r = F x M / F^2 + s F.
+std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const Vec3& moment) {
+    const double across = force.dot(plane.normal);
+    if (!(std::abs(across) >= grazing * force.norm()) || force.isZero(0)) return std::nullopt;
+    const Vec3 nearest = force.cross(moment) / force.squaredNorm();
+    return nearest + (plane.point - nearest).dot(plane.normal) / across * force;
+}
+
+WallForceMarks::WallForceMarks(const Scene& scene, const Palette& palette)
+    : scene_(scene), palette_(palette), pen_(std::max(1.0, scene.film.height / 540.0)) {
+    const std::vector<Face> faces = faces_of(scene);
+    const std::vector<std::string> names = face_names(scene);
+    for (std::size_t f = 0; f < faces.size(); ++f) walls_.push_back({faces[f], names.at(f)});
+}
+
+void WallForceMarks::draw(const View& view, const Frame& frame, Shapes& on) const {
+    if (!frame.measures || frame.measure_rows == 0) return;
+    for (const Wall& wall : walls_) draw_wall(wall, view, frame, on);
+}
+
+// Moments of the container are about its body's origin, all others about the face's own point.
+void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const {
+    const Vec3 force = last_vector(frame, wall.name + "_force", "N");
+    const Vec3 moment = last_vector(frame, wall.name + "_moment", "N.m");
+    if (!force.allFinite() || !moment.allFinite()) return;
+    Face face = wall.face;
+    const bool round = face.kind == Face::Kind::cylinder;
+    if (round && face.body.number == kTrayBody) return;  // the bed is not beside it
+    if (!round && std::abs(face.normal.dot(view.forward)) > face_on) return;
+    const bool own = face.body.number >= kFirstPlaneBody;
+    const Vec3 origin = own ? face.point : Vec3(0, 0, 0);
+    face.point -= origin;
+    const std::optional<Vec3> acts =
+        round ? std::optional(beside_bed(scene_, face)) : point_of_action(face, force, moment);
+    if (!acts) return;
+    const double longest = longest_arrow * extent_of(scene_).size().y();
+    Vec3 along = wall_force_scale(scene_) * force;
+    if (along.norm() > longest) along *= longest / along.norm();
+    const Vec3 tip = frame.body(static_cast<std::size_t>(face.body.number)).place + origin + *acts;
+    draw_arrow(on, view.project(tip - along), view.project(tip),
+               {palette_.wall_force, palette_.background, 2.4 * pen_, pen_});
+}
+
+}  // namespace grainreel

@@ -1,0 +1,270 @@
+#include "render/picture/panels/panel_words.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "render/picture/words/captions.hpp"
+
+namespace grainreel {
+namespace {
+
+// Of the picture's width.
+constexpr double longest_bar = 0.14, common_colour_bar = 0.2, common_marks = 0.17;
+constexpr int pace_lines = 4;
+
+// Only what holds for all panels; the rest is in their captions. frame: null to measure the longest.
+TextSize common_drive(const Writer& writer, const Scene& scene, const Common& common, const Frame* frame,
+                      double x, double y) {
+    if (!scene.film.word_kinds.drive) return {};
+    Frame shown = frame ? *frame : Frame();
+    if (!scene.drive.present) shown.cycles = scene.drive.ramp;  // drives that grow in times of their own
+    std::vector<std::string> lines = frame ? drive_lines(scene, shown) : longest_drive_lines(scene);
+    const bool levels = scene.gravity.norm() > 0;
+    const auto keep = [&](std::size_t from_end, bool wanted) {
+        if (!wanted) lines.erase(lines.end() - static_cast<std::ptrdiff_t>(from_end));
+    };
+    if (!scene.drive.changes()) {
+        keep(levels ? 3 : 2, common.frequency);
+        if (levels) keep(2, common.g_level);
+        keep(1, common.amplitude);
+    }
+    TextSize size;
+    for (const std::string& line : lines) {
+        const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
+        size = {std::max(size.width, part.width), size.height + part.height};
+    }
+    return size;
+}
+
+WordBlock dial(const Writer& measure, const Drive& drive) {
+    const double radius = 2.2 * measure.type.main;
+    return {dial_block(measure, drive, nullptr, radius, 0, 0), true,
+            [drive, radius](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+                dial_block(on, drive, nullptr, radius, x, y);
+                dial_block(on, drive, &frame, radius, x, y);
+            }};
+}
+
+// Those of which all panels say the same, and the others. scale: pixels a metre, 0 where panels have their
+// own.
+MarkKinds common_marks_of(const Common& common, double scale) {
+    MarkKinds kinds = common.marks;
+    kinds.arrows = kinds.arrows && scale > 0;
+    kinds.wall_forces = kinds.wall_forces && scale > 0;
+    return kinds;
+}
+MarkKinds own_marks_of(const Common& common, double scale) {
+    const MarkKinds kinds = common_marks_of(common, scale);
+    return {!kinds.arrows, !kinds.streamlines, !kinds.wall_forces,
+            !kinds.trails, !kinds.chains,      !kinds.rings};
+}
+
+WordBlock playback_block(const Writer& measure, const Film& film) {
+    const double wrap = 13 * measure.type.minor;
+    const TextSize line = measure.write(0, 0, "1 frame", measure.minor(), measure.palette.faint_ink);
+    return {
+        {wrap, 3 * line.height},
+        true,
+        [film, wrap](const Writer& on, double x, double y, const Frame& frame, const std::string& playback) {
+            on.write(x, y, playback_text(film, frame, playback), on.minor(), on.palette.faint_ink, wrap, 3);
+        }};
+}
+
+// What all scenes say at that time, in a row of its own.
+WordBlock captions_block(const Writer& measure, const Film& film, double width) {
+    constexpr int lines = 3;
+    const double inner = width - 2 * measure.type.margin;
+    double height = 0;
+    for (const FilmCaption& caption : film.captions)
+        height = std::max(
+            height,
+            write_in_middle(measure, caption.text, measure.main(), measure.palette.ink, inner, lines).height);
+    return {{inner, height},
+            true,
+            [captions = film.captions, inner](const Writer& on, double x, double y, const Frame& frame,
+                                              const std::string&) {
+                for (const FilmCaption& caption : captions)
+                    if (shows_caption(caption, frame.time))
+                        on.write(x, y, caption.text, {on.main().size, on.main().bold, true}, on.palette.ink,
+                                 inner, lines);
+            }};
+}
+
+}  // namespace
+
+std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
+                                     const Common& common, double scale, double width) {
+    Scene scene = panels.front().scene;
+    scene.drive.present = common.clock;
+    const WordKinds& kinds = scene.film.word_kinds;
+    std::vector<WordBlock> blocks;
+    if (common.captions) blocks.push_back(captions_block(measure, scene.film, width));
+    blocks.push_back({clock_block(measure, scene, widest_frame(), 0, 0), true,
+                      [scene](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+                          clock_block(on, scene, frame, x, y);
+                      }});
+    if (common.clock && kinds.dial) blocks.push_back(dial(measure, scene.drive));
+    if (common.frequency || common.g_level || common.amplitude) {
+        blocks.push_back(
+            {common_drive(measure, scene, common, nullptr, 0, 0),
+             scene.drive.changes() || drive_lines_change(scene.drive),
+             [scene, common](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+                 common_drive(on, scene, common, &frame, x, y);
+             }});
+    }
+    if (common.exaggerated && scene.film.exaggerate != 1) {
+        blocks.push_back({exaggeration_block(measure, scene.film, 0, 0), false,
+                          [film = scene.film](const Writer& on, double x, double y, const Frame&,
+                                              const std::string&) { exaggeration_block(on, film, x, y); }});
+    }
+    if (common.playback && kinds.playback) blocks.push_back(playback_block(measure, scene.film));
+    if (common.species) {
+        blocks.push_back({legend_block(measure, scene, 0, 0, 0), false,
+                          [scene](const Writer& on, double x, double y, const Frame&, const std::string&) {
+                              legend_block(on, scene, x, y, 0);
+                          }});
+    }
+    if (common.colours && has_colour_bar(scene.film)) {
+        const double wide = common_colour_bar * width;
+        blocks.push_back({colour_bar_block(measure, scene, 0, 0, wide), false,
+                          [scene, wide](const Writer& on, double x, double y, const Frame&,
+                                        const std::string&) { colour_bar_block(on, scene, x, y, wide); }});
+    }
+    const double wrap = std::max(common_marks * width, 15 * measure.type.minor);
+    const Scene marked = marked_by(scene, common_marks_of(common, scale));
+    const double pixels = std::max(scale, 1.0);
+    if (const TextSize size = marks_block(measure, marked, pixels, 0, 0, wrap); size.height > 0) {
+        blocks.push_back(
+            {size, false,
+             [marked, pixels, wrap](const Writer& on, double x, double y, const Frame&, const std::string&) {
+                 marks_block(on, marked, pixels, x, y, wrap);
+             }});
+    }
+    if (scale > 0 && kinds.scale) {
+        // As wide as it may get: the row it stands in must not depend on the scale.
+        const double longest = longest_bar * width;
+        blocks.push_back({{longest, scale_block(measure, scale, 0, 0, longest).height},
+                          false,
+                          [scale, longest](const Writer& on, double x, double y, const Frame&,
+                                           const std::string&) { scale_block(on, scale, x, y, longest); }});
+    }
+    std::erase_if(blocks, [](const WordBlock& block) { return block.size.height <= 0; });
+    return blocks;
+}
+
+double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width) {
+    if (blocks.empty()) return 0;
+    const double inner = width - 2 * type.margin, gap = 2 * type.gap;
+    double y = 0.5 * type.margin;
+    for (std::size_t first = 0; first < blocks.size();) {
+        double used = blocks[first].size.width, height = blocks[first].size.height;
+        std::size_t next = first + 1;
+        for (; next < blocks.size() && used + gap + blocks[next].size.width <= inner; ++next) {
+            used += gap + blocks[next].size.width;
+            height = std::max(height, blocks[next].size.height);
+        }
+        // The row stands in the middle, its blocks a little apart where there is room.
+        const auto gaps = static_cast<double>(next - first - 1);
+        const double more = gaps > 0 ? std::min((inner - used) / gaps, 3 * type.main) : 0;
+        double x = type.margin + 0.5 * (inner - used - gaps * more);
+        for (; first < next; ++first) {
+            blocks[first].x = x;
+            blocks[first].y = y;
+            x += blocks[first].size.width + gap + more;
+        }
+        y += height + type.gap;
+    }
+    return y - type.gap + 0.5 * type.margin;
+}
+
+double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width) {
+    double height = 0;
+    for (const Panel& panel : panels)
+        for (const std::string& note : longest_notes(panel.scene))
+            height = std::max(height, note_block(measure, note, 0, 0, width, note_lines(panel.scene)).height);
+    return height;
+}
+
+double pace_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,
+                   double width) {
+    double height = 0;
+    if (common.playback) return height;
+    for (const Panel& panel : panels) {
+        if (!panel.scene.film.word_kinds.playback) continue;
+        for (const std::string& words : panel.playback)
+            height = std::max(height, pace_block(measure, words, width).height);
+    }
+    return height;
+}
+
+TextSize pace_block(const Writer& writer, const std::string& words, double width) {
+    return write_in_middle(writer, words, writer.minor(), writer.palette.faint_ink, width, pace_lines);
+}
+
+TextSize write_in_middle(const Writer& writer, const std::string& text, const TextStyle& style,
+                         const Colour& colour, double width, int lines) {
+    return writer.write(0, 0, text, {style.size, style.bold, true}, colour, width, lines);
+}
+
+TextSize caption_block(const Writer& writer, const std::string& caption, double width) {
+    TextSize size;
+    for (std::size_t from = 0; from <= caption.size();) {
+        const std::size_t to = std::min(caption.find('\n', from), caption.size());
+        const std::string line = caption.substr(from, to - from);
+        const TextStyle style = from == 0 ? writer.strong() : writer.main();
+        const TextSize part =
+            writer.write(0, size.height, line, {style.size, style.bold, true}, writer.palette.ink, width, 3);
+        size = {std::max(size.width, part.width), size.height + part.height};
+        from = to + 1;
+    }
+    return size;
+}
+
+namespace {
+
+// Of a panel's width, for a scale bar and for a colour bar.
+constexpr double longest_own_bar = 0.3, own_colour_bar = 0.7;
+
+double own_bar_height(const Writer& measure, const Panel& panel, const Common& common) {
+    if (common.colours) return 0;
+    return colour_bar_block(measure, panel.scene, 0, 0, 1000).height;
+}
+
+}  // namespace
+
+double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common, bool scales,
+                   double width) {
+    double row = 0, bar = 0, marks = 0;
+    for (const Panel& panel : panels) {
+        if (scales && panel.scene.film.word_kinds.scale)
+            row = std::max(row, scale_block(measure, 1, 0, 0, 100).height);
+        if (!common.species) row = std::max(row, legend_block(measure, panel.scene, 0, 0, 0).height);
+        bar = std::max(bar, own_bar_height(measure, panel, common));
+        const Scene marked = marked_by(panel.scene, own_marks_of(common, scales ? 0 : 1));
+        marks = std::max(marks, marks_block(measure, marked, 1, 0, 0, width).height);
+    }
+    return row + bar + marks;
+}
+
+void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, bool bar,
+               double width) {
+    const Writer measure{nullptr, writer.type, writer.palette};
+    const double longest = longest_own_bar * width, gap = 3 * writer.type.gap;
+    const bool scales = bar && panel.scene.film.word_kinds.scale;
+    const TextSize legend = common.species ? TextSize{} : legend_block(measure, panel.scene, 0, 0, 0);
+    const TextSize length = scales ? scale_block(measure, scale, 0, 0, longest) : TextSize{};
+    const double both = legend.width + length.width + (legend.width > 0 && length.width > 0 ? gap : 0);
+    double y = 0;
+    if (own_bar_height(measure, panel, common) > 0)
+        y = colour_bar_block(writer, panel.scene, 0.5 * (1 - own_colour_bar) * width, 0,
+                             own_colour_bar * width)
+                .height;
+    const double x = 0.5 * (width - both);
+    if (!common.species) legend_block(writer, panel.scene, x, y, 0);
+    if (scales) scale_block(writer, scale, x + both - length.width, y, longest);
+    y += std::max(legend.height, length.height);
+    marks_block(writer, marked_by(panel.scene, own_marks_of(common, bar ? 0 : 1)), scale, 0, y, width);
+}
+
+}  // namespace grainreel

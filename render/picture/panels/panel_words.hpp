@@ -1,0 +1,54 @@
+// The words around panels that stand side by side: blocks that flow in rows, some of which change with time.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "render/picture/base/picture.hpp"
+#include "render/picture/panels/panels.hpp"
+#include "render/picture/words/writer.hpp"
+
+namespace grainreel {
+
+struct WordBlock {
+    using Draw =
+        std::function<void(const Writer&, double x, double y, const Frame&, const std::string& playback)>;
+    TextSize size;
+    bool changes = false;
+    Draw draw;
+    double x = 0, y = 0;  // pixels, of the top left corner; where flow() has put it
+};
+
+// Captions of time, clock, dial, playback, drive, legend, colour bar, what marks mean, and scale bar, as far
+// as they are common. scale: pixels a metre; 0 where panels have their own.
+std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
+                                     const Common& common, double scale, double width);
+
+// Puts blocks in rows across the width; returns the height they take, margins included.
+double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width);
+
+// Height of the live words under panels of this width; 0 for none.
+double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width);
+
+// Height of what is said of time over each panel; 0 where it is common.
+double pace_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,
+                   double width);
+// What is said of time over one of them.
+TextSize pace_block(const Writer& writer, const std::string& words, double width);
+// A panel's caption: its first line strong, others below it.
+TextSize caption_block(const Writer& writer, const std::string& caption, double width);
+// In the middle of the width, each of its lines by itself.
+TextSize write_in_middle(const Writer& writer, const std::string& text, const TextStyle& style,
+                         const Colour& colour, double width, int lines);
+
+// Height of a legend, a scale bar, a colour bar and the meaning of marks that belong to one panel alone;
+// `scales`: bars for each.
+double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common, bool scales,
+                   double width);
+// scale: pixels a metre in the panel. bar: with a scale bar.
+void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, bool bar,
+               double width);
+
+}  // namespace grainreel

@@ -1,0 +1,42 @@
+// Draws several scenes at one moment: a panel each, in one scale, with captions, under a common title and
+// above a common clock, legend and scale bar.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/picture/base/picture.hpp"
+#include "render/picture/gl/provider.hpp"
+#include "render/picture/panels/panels.hpp"
+
+namespace grainreel {
+
+// Of these panels in a picture of the film's size; without places when it is too small.
+PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film);
+
+class SideBySide {
+  public:
+    // film: size, title and background of the whole, or that it has none. Each panel has an OpenGL context of
+    // its own: construct, use and destroy on one thread. Throws RunError when one is not to be had.
+    SideBySide(const std::vector<Panel>& panels, const Film& film, int raster_threads, gl::Provider provider);
+    ~SideBySide();
+
+    // One frame a panel, in their order; the clock shows that of the frame `clock`. segment: of the film, for
+    // what the panels say of time. film_time: s since the film's first frame, where cameras that move are.
+    const Picture& draw(const std::vector<FramePtr>& frames, std::size_t segment = 0, std::size_t clock = 0,
+                        double film_time = 0);
+
+    const PanelLayout& layout() const;
+    std::string colour_note() const;  // as of Renderer, of all panels
+    std::string gl_description() const;
+    std::string gl_note() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel

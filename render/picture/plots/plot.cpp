@@ -1,0 +1,232 @@
+#include "render/picture/plots/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "engine/measure/column_axis.hpp"
+#include "engine/measure/measure_table.hpp"
+#include "engine/measure/no_value.hpp"
+#include "engine/scene/film/grain_values.hpp"
+#include "render/picture/plots/axis_drawing.hpp"
+#include "render/picture/plots/ticks.hpp"
+#include "render/picture/text/text.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int most_ticks = 4;
+constexpr double least_room = 1e-12;  // above and below values that are all alike
+
+}  // namespace
+
+void Plot::Slice::add(double value) {
+    if (count++ == 0) first = low = high = value;
+    last = value;
+    low = std::min(low, value);
+    high = std::max(high, value);
+}
+
+PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot) {
+    PlotFrame frame;
+    frame.column = plot.column;
+    frame.label = plot.label;
+    frame.dimension = plot.dimension;
+    frame.time = {0, scene.run.duration};
+    frame.range = plot.range;
+    frame.smooth = plot.period;
+    const ColumnAxis axis = axis_of_column(scene, plot.column);
+    frame.from_zero = axis.from_zero;
+    frame.expected = axis.expected;
+    return frame;
+}
+
+Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette)
+    : frame_(frame),
+      type_(type),
+      palette_(palette),
+      axes_(blank_surface({0, 0, frame.width, frame.height}, palette.background, 0)) {
+    const double words = line_height(type.minor);
+    double end = 0;
+    for (const TimeTick& tick : time_ticks()) end = measure_text(tick.text, {type.minor, false}).width;
+    left_ = std::ceil(measure_text("−0.00", {type.minor, false}).width + 0.6 * type.minor);
+    right_ = std::floor(frame.width - std::max(0.5 * end, 0.4 * type.main));
+    const std::string longest = frame.dimension == Dimension::number ? frame.label : frame.label + " (mmm)";
+    top_ = std::ceil(
+        measure_text(longest, {type.main, false}, frame.width, title_lines(frame.height, type)).height +
+        0.6 * type.minor);
+    bottom_ = std::floor(frame.height - 2 * words - 0.35 * type.minor);
+    forget();
+}
+
+std::vector<Plot::TimeTick> Plot::time_ticks() const {
+    const double unit = short_run() ? 1e-3 : 1;
+    const std::vector<double> times = round_ticks(frame_.time[0] / unit, frame_.time[1] / unit, most_ticks);
+    std::vector<TimeTick> ticks;
+    for (const double time : times)
+        ticks.push_back({time * unit, tick_text(time, times.size() > 1 ? times[1] - times[0] : 1)});
+    return ticks;
+}
+
+void Plot::forget() {
+    rows_ = 0;
+    period_.clear();
+    any_ = false;
+    gap_ = true;
+    limits_ = frame_.range.value_or(std::array<double, 2>{0, 1});
+    slices_.assign(static_cast<std::size_t>(std::max(1.0, right_ - left_)) + 1, {});
+}
+
+double Plot::x_of(double time) const {
+    return left_ + (time - frame_.time[0]) / (frame_.time[1] - frame_.time[0]) * (right_ - left_);
+}
+
+double Plot::y_of(double value) const {
+    const auto& [low, high] = span();
+    const double share = (value - low) / (high - low);
+    return bottom_ - std::clamp(share, 0.0, 1.0) * (bottom_ - top_);
+}
+
+bool Plot::take(const Frame& frame) {
+    if (!frame.measures || (frame.measures == table_ && frame.measure_rows == rows_)) return false;
+    if (frame.measures != table_ || frame.measure_rows < rows_) forget();
+    table_ = frame.measures;
+    const std::vector<std::string>& columns = frame.measures->columns();
+    const auto column = [&](const std::string& name) {
+        const auto found = std::find(columns.begin(), columns.end(), name);
+        GRAINREEL_CHECK(found != columns.end());
+        return frame.measures->values(static_cast<std::size_t>(found - columns.begin()), rows_,
+                                      frame.measure_rows);
+    };
+    const std::vector<double> times = column("time_s");
+    std::vector<double> values = column(frame_.column);
+    if (frame_.smooth) {
+        const std::vector<double> cycles = column("cycles");
+        for (std::size_t i = 0; i < times.size(); ++i) values[i] = mean_of_period(cycles[i], values[i]);
+    }
+    for (std::size_t i = 0; i < times.size(); ++i) add(times[i], values[i]);
+    rows_ = frame.measure_rows;
+    return true;
+}
+
+// Of this row and those since a period ago, without the one of then. None before a period has passed.
+double Plot::mean_of_period(double cycles, double value) {
+    constexpr double hair = 1e-3;  // of a period: rows are whole steps
+    period_.push_back({cycles, value});
+    while (period_.front()[0] <= cycles - 1 + hair) period_.pop_front();
+    double sum = 0, count = 0;
+    for (const auto& [at, one] : period_)
+        if (std::isfinite(one)) sum += one, ++count;
+    return cycles >= 1 - hair && count > 0 ? sum / count : kNoValue;
+}
+
+void Plot::add(double time, double value) {
+    const bool after_gap = gap_;
+    gap_ = !std::isfinite(value);
+    if (gap_) return;
+    if (!frame_.range) widen(value);
+    last_ = {time, value};
+    any_ = true;
+    const double at =
+        std::clamp(std::floor(x_of(time) - left_), 0.0, static_cast<double>(slices_.size()) - 1);
+    Slice& slice = slices_[static_cast<std::size_t>(at)];
+    if (slice.count == 0) slice.after_gap = after_gap;
+    slice.add(value);
+}
+
+void Plot::widen(double value) {
+    if (any_ && value >= limits_[0] && value <= limits_[1]) return;
+    const double low = any_ ? std::min(limits_[0], value) : value;
+    const double high = any_ ? std::max(limits_[1], value) : value;
+    // The first value alone: room for a change by a tenth.
+    const double room = any_ ? 0 : std::max(0.1 * std::abs(value), least_room);
+    const std::array<double, 2> wide =
+        round_limits(frame_.from_zero ? 0 : low - room, high + room, most_ticks + 1);
+    limits_ = {any_ ? std::min(limits_[0], wide[0]) : wide[0],
+               any_ ? std::max(limits_[1], wide[1]) : wide[1]};
+}
+
+void Plot::draw_axes() {
+    const CairoContext on(cairo_create(axes_.get()));
+    fill_surface(on.get(), palette_.background, 0);
+    const TextStyle minor{type_.minor, false};
+    const double pen = std::max(1.0, type_.main / 20), tick = 0.3 * type_.minor;
+    const auto& [low, high] = span();
+    const double largest = std::max({std::abs(low), std::abs(high), frame_.expected});
+    const std::string unit = fitting_unit(largest, frame_.dimension);
+    const double size = unit_size(unit, frame_.dimension);
+    const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
+    draw_title(on.get(), title, frame_.width, frame_.height, type_, palette_.ink);
+
+    // As many as stand above each other.
+    const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);
+    // Zeros alone span nothing that has a unit.
+    const bool zeros = high - low < 10 * least_room && low <= 0 && high >= 0;
+    const AxisTicks ticks =
+        zeros ? AxisTicks{{0}, 1} : axis_ticks(low / size, high / size, fit, most_ticks + 1);
+    for (const double value : ticks.at) {
+        const double y = y_of(value * size);
+        cairo_set_line_width(on.get(), 0.7 * pen);
+        cairo_set_source_rgba(on.get(), palette_.ink.red, palette_.ink.green, palette_.ink.blue, 0.15);
+        draw_line(on.get(), left_, y, right_, y);
+        const std::string text = tick_text(value, ticks.distance);
+        const TextSize words = measure_text(text, minor);
+        draw_text(on.get(), left_ - tick - words.width, y - 0.5 * words.height, text, minor,
+                  palette_.faint_ink);
+    }
+    set_colour(on.get(), palette_.faint_ink);
+    cairo_set_line_width(on.get(), pen);
+    draw_line(on.get(), left_, top_, left_, bottom_);
+    draw_line(on.get(), left_, bottom_, right_, bottom_);
+    double below = 0;
+    for (const TimeTick& at : time_ticks()) {
+        const double x = x_of(at.time);
+        set_colour(on.get(), palette_.faint_ink);
+        draw_line(on.get(), x, bottom_, x, bottom_ + tick);
+        const TextSize words = measure_text(at.text, minor);
+        draw_text(on.get(), x - 0.5 * words.width, bottom_ + tick, at.text, minor, palette_.faint_ink);
+        below = words.height;
+    }
+    const std::string name = short_run() ? "time (ms)" : "time (s)";
+    draw_text(on.get(), right_ - measure_text(name, minor).width, bottom_ + tick + below, name, minor,
+              palette_.faint_ink);
+    drawn_ = span();
+}
+
+void Plot::draw_curve(cairo_t* on) const {
+    cairo_new_path(on);
+    for (std::size_t i = 0; i < slices_.size(); ++i) {
+        const Slice& slice = slices_[i];
+        if (slice.count == 0) continue;
+        const double x = left_ + static_cast<double>(i) + 0.5;
+        if (slice.after_gap) cairo_move_to(on, x, y_of(slice.first));
+        for (const double value : {slice.first, slice.low, slice.high, slice.last})
+            cairo_line_to(on, x, y_of(value));
+    }
+    set_colour(on, palette_.ink);
+    cairo_set_line_width(on, std::max(1.0, type_.main / 14));
+    cairo_set_line_join(on, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke(on);
+}
+
+void Plot::draw(cairo_t* on, int x, int y) {
+    if (drawn_ != span()) draw_axes();
+    cairo_save(on);
+    cairo_translate(on, x, y);
+    cairo_set_source_surface(on, axes_.get(), 0, 0);
+    cairo_paint(on);
+    draw_curve(on);
+    if (!gap_) {
+        set_colour(on, palette_.accent);
+        cairo_new_path(on);
+        cairo_arc(on, x_of(last_[0]), y_of(last_[1]), std::max(2.5, 0.18 * type_.main), 0,
+                  2 * std::numbers::pi);
+        cairo_fill(on);
+    }
+    cairo_restore(on);
+}
+
+}  // namespace grainreel

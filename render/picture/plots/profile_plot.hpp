@@ -1,0 +1,56 @@
+// A profile of the picture's moment, beside the grains: over the height, which then is the upright axis, or
+// over the width. By species, each in its colour, or a mean velocity.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/measure/fields/coarse_graining.hpp"
+#include "engine/measure/fields/profile.hpp"
+#include "render/picture/plots/side_plot.hpp"
+#include "render/picture/plots/ticks.hpp"
+
+namespace grainreel {
+
+class ProfilePlot final : public SidePlot {
+  public:
+    // width, height: pixels.
+    ProfilePlot(const Scene& scene, const FilmPlot& plot, int width, int height, const TypeScale& type,
+                const Palette& palette);
+
+    // The axes stay as they are; only the curves follow the frames.
+    bool take(const Frame& frame) override;
+    std::optional<std::array<double, 2>> limits() const override { return range_; }
+    void show(const std::array<double, 2>& limits) override { range_ = limits; }
+    void draw(cairo_t* on, int x, int y) override;
+
+    // Pixels from the plot's corner, of a value at a place (m).
+    std::array<double, 2> pixel_of(double value, double place) const;
+
+  private:
+    struct Axis {
+        std::array<double, 2> span;  // SI
+        std::string name;            // with the unit
+        double unit = 1;             // SI
+    };
+    Axis place_axis() const;
+    Axis value_axis() const;
+    void draw_upright_axis(cairo_t* on, const Axis& axis) const;
+    void draw_lying_axis(cairo_t* on, const Axis& axis) const;
+    void draw_curve(cairo_t* on, const std::vector<double>& values, const Colour& colour) const;
+
+    const Scene scene_;
+    const FilmPlot plot_;
+    const int width_, height_;
+    const TypeScale type_;
+    const Palette palette_;
+    std::array<double, 2> places_;        // m, of the axis of places
+    std::array<double, 2> range_;         // SI, of the axis of values
+    double left_, right_, top_, bottom_;  // of the box, pixels
+    CoarseGraining sums_;
+    std::vector<std::vector<double>> curves_;  // a value a place
+};
+
+}  // namespace grainreel

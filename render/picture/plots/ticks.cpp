@@ -1,0 +1,58 @@
+#include "render/picture/plots/ticks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainreel {
+namespace {
+
+// The smallest 1, 2 or 5 times a power of ten that is not below `least`.
+double round_step(double least) {
+    const double decade = std::pow(10, std::floor(std::log10(least)));
+    for (const double factor : {1.0, 2.0, 5.0})
+        if (factor * decade >= least * (1 - 1e-9)) return factor * decade;
+    return 10 * decade;
+}
+
+constexpr double hair = 1e-9;  // of a step, for rounding
+
+}  // namespace
+
+std::vector<double> round_ticks(double low, double high, int most) {
+    double step = round_step((high - low) / most);
+    while (std::floor(high / step + hair) - std::ceil(low / step - hair) + 1 > most)
+        step = round_step(1.5 * step);
+    std::vector<double> ticks;
+    for (double k = std::ceil(low / step - hair); k <= high / step + hair; ++k) ticks.push_back(k * step);
+    return ticks;
+}
+
+AxisTicks axis_ticks(double low, double high, int most, int finest) {
+    for (int many = most; many <= std::max(most, finest); ++many) {
+        const std::vector<double> ticks = round_ticks(low, high, many);
+        if (ticks.size() < 2) continue;
+        if (many == most) return {ticks, ticks[1] - ticks[0]};
+        return {{ticks.front(), ticks.back()}, ticks[1] - ticks[0]};
+    }
+    return {round_ticks(low, high, most), high - low};
+}
+
+std::array<double, 2> round_limits(double low, double high, int most) {
+    const double least = std::max({high - low, 1e-6 * std::max(std::abs(low), std::abs(high)), 1e-30});
+    double step = round_step(least / (most - 1));
+    const auto floor_of = [&] { return std::floor(low / step + hair); };
+    const auto ceiling_of = [&] { return std::ceil(high / step - hair); };
+    while (ceiling_of() - floor_of() + 1 > most) step = round_step(1.5 * step);
+    const double from = floor_of(), to = std::max(ceiling_of(), from + 1);
+    return {from * step, to * step};
+}
+
+std::string tick_text(double value, double distance) {
+    const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(distance) - hair)), 0, 9);
+    const double shown = std::abs(value) < 1e-6 * distance ? 0 : value;
+    return (shown < 0 ? "−" : "") + fmt::format("{:.{}f}", std::abs(shown), decimals);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,39 @@
+#include "render/picture/spheres/lay_over.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/picture/spheres/lay_over.cpp"
+#include "engine/vector/targets.hpp"
+//
+#include "render/picture/spheres/pixel.hpp"
+#include "render/picture/spheres/pixels-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+void lay(std::uint32_t* below, const std::uint32_t* top, int count, std::uint32_t strength) {
+    const hn::ScalableTag<std::uint32_t> d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    int x = 0;
+    for (; x + lanes <= count; x += lanes) {
+        auto above = hn::LoadU(d, top + x);
+        if (hn::AllTrue(d, hn::Eq(above, hn::Zero(d)))) continue;
+        if (strength != 255) above = scaled_all(d, above, hn::Set(d, strength));
+        hn::StoreU(over_all(d, above, hn::LoadU(d, below + x)), d, below + x);
+    }
+    for (; x < count; ++x) below[x] = over(scaled(top[x], strength), below[x]);
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grainreel {
+
+HWY_EXPORT(lay);
+
+void lay_over(std::uint32_t* below, const std::uint32_t* top, int count, std::uint32_t strength) {
+    HWY_DYNAMIC_DISPATCH(lay)(below, top, count, strength);
+}
+
+}  // namespace grainreel
+#endif

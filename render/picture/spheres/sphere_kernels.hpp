@@ -1,0 +1,81 @@
+// What is done to many pixels at once: the hot loops of drawing, compiled for each instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "render/picture/spheres/light/lamp.hpp"
+#include "render/picture/spheres/sphere.hpp"
+
+namespace grainreel {
+
+// Rows of the picture that a sphere is drawn into. Rows may be read and written up to 15 pixels past
+// their end.
+struct DepthRows {
+    const float* slope_x;  // of the columns' middles
+    float* depth;          // z of what is nearest so far
+    std::uint32_t* seen;   // its number
+    std::size_t stride;
+    int first_row;  // of the picture, that `depth` and `seen` begin with
+};
+
+// Sixteen pixels on edges, and who may be seen there.
+constexpr int kPointBlock = 16, kCandidates = 4;
+// Eight points in each, at the places of Direct3D's standard multisample pattern, in sixteenths of a pixel.
+constexpr int kPoints = 8;
+constexpr float kPointX[kPoints] = {1, -1, 5, -3, -5, -7, 3, 7};
+constexpr float kPointY[kPoints] = {-3, 3, 1, -5, 5, -1, 7, -7};
+constexpr float kNoGrain = 1e30f;  // m: depth where none is met
+struct alignas(64) EdgeBlock {
+    float x[kPointBlock], y[kPointBlock];  // pixels, of the middle
+    ViewSphere candidate[kCandidates][kPointBlock];
+    // Out: share of the pixel that shows each, and the mean place of the points that do, against the middle.
+    float share[kCandidates][kPointBlock];
+    float mean_x[kCandidates][kPointBlock], mean_y[kCandidates][kPointBlock];
+    float nearest[kPoints][kPointBlock];  // m, depth of what is seen at a point
+    int candidates = 0;                   // used, in the pixel that has most; unused ones have radius < 0
+};
+
+// A grain near another one, from whose centre x, y, z are counted.
+struct Neighbour {
+    float x, y, z, radius;
+    float inverse_radius, square;  // 1/m, m2
+    float weight;                  // 0 to 1: fades out at the end of its reach
+    float unused = 0;
+};
+
+struct NeighbourSpan {
+    const Neighbour* first = nullptr;
+    int count = 0;
+};
+
+struct LitGrain {
+    ViewSphere sphere;
+    float albedo[3];            // linear
+    float pole[3] = {0, 0, 0};  // unit axis of a two-tone grain; 0 for plain ones
+    NeighbourSpan occluders, casters;
+};
+
+// Points of one grain, any number; rooms for a multiple of 16 each.
+struct LitPoints {
+    const float *x, *y;         // pixels
+    float *red, *green, *blue;  // out: linear
+    int count;
+};
+
+struct SphereKernels {
+    void (*draw)(const Sight&, const Cut&, const DepthRows&, const ViewSphere&, const PixelBox&,
+                 std::uint32_t number);
+    // The largest depth in a box.
+    float (*farthest)(const DepthRows&, const PixelBox&);
+    // Bits of a row of `count` pixels, 64 to a word, the first the lowest: set where a pixel differs from the
+    // one before it; or from one of its four neighbours. Pixels past the row's ends are read, see Visibility.
+    void (*mark_changes)(const std::uint32_t* row, int count, std::uint64_t* bits);
+    void (*mark_edges)(const std::uint32_t* row, const std::uint32_t* above, const std::uint32_t* below,
+                       int count, std::uint64_t* bits);
+    void (*settle)(const Sight&, const Cut&, EdgeBlock&);
+    void (*light)(const Sight&, const Cut&, const Lamp&, const LitGrain&, const LitPoints&);
+};
+const SphereKernels& sphere_kernels();
+
+}  // namespace grainreel

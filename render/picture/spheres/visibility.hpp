@@ -1,0 +1,73 @@
+// Which grain is seen in the middle of each pixel: exact spheres, met by the pixel's line of sight.
+//
+// This runs on the processor's vector units, not in OpenGL: the depth of a sphere is known only pixel by
+// pixel, which costs a software rasteriser its early depth test. docs/notes/rendering.md has the
+// measurements.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/team.hpp"
+#include "render/picture/spheres/row_bits.hpp"
+#include "render/picture/spheres/sphere.hpp"
+
+namespace grainreel {
+
+class Visibility {
+  public:
+    // Pixels, >= 1.
+    Visibility(int width, int height);
+
+    // Numbers are indices + 1. The team's size does not show in the result.
+    void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team);
+
+    // Of a row from the top: number of the grain seen, or 0. One pixel before the first and 16 after the last
+    // may be read; those next to the row repeat its ends.
+    const std::uint32_t* row(int y) const {
+        return seen_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
+    }
+    // Indices of the grains that are seen at all, rising.
+    const std::vector<std::uint32_t>& shown() const { return shown_; }
+    // The pixels that a sphere covers, of this picture.
+    PixelBox bounds(const Sight& sight, const ViewSphere& sphere) const;
+    // The pixels that a grain may be seen in; none for one that is cut away.
+    const PixelBox& box(std::size_t grain) const { return box_[grain]; }
+    // The share of a grain's outline that shows it.
+    double seen_share(std::size_t grain) const;
+    int width() const { return width_; }
+    int height() const { return height_; }
+
+  private:
+    static constexpr int kPad = 16, kBand = 32, kTile = 32;  // pixels
+    struct Worker {
+        std::vector<float> depth;
+        std::vector<float> far;              // a tile: nothing behind it can be seen
+        std::vector<int> drawn;              // a tile: grains since `far` was found
+        std::vector<std::uint32_t> seen_in;  // a grain: the last band in which it was seen
+        std::vector<std::uint32_t> shown;
+        RowBits changes;
+    };
+
+    void place(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team);
+    void sort_nearest_first(const std::vector<ViewSphere>& spheres);
+    void fill_bands();
+    void draw_band(int band, Worker& worker, const Sight& sight, const Cut& cut,
+                   const std::vector<ViewSphere>& spheres);
+    bool hidden(Worker& worker, int band, const PixelBox& box, float nearest, const struct DepthRows& rows);
+    void note_shown(int band, Worker& worker);
+    void collect_shown(std::size_t count);
+    int bands() const { return (height_ + kBand - 1) / kBand; }
+
+    const int width_, height_;
+    const std::size_t stride_;
+    std::vector<std::uint32_t> seen_;
+    std::vector<float> slope_x_;
+    std::vector<PixelBox> box_;
+    std::vector<std::uint32_t> order_;
+    std::vector<std::vector<std::uint32_t>> band_;  // grains in it, nearest first
+    std::vector<Worker> workers_;
+    std::vector<std::uint32_t> shown_;
+};
+
+}  // namespace grainreel

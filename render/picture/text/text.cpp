@@ -1,0 +1,148 @@
+#include "render/picture/text/text.hpp"
+
+#include <fontconfig/fontconfig.h>
+#include <pango/pangocairo.h>
+#include <pango/pangofc-fontmap.h>
+
+#include <algorithm>
+
+namespace grainreel {
+namespace {
+
+struct Unref {
+    void operator()(gpointer object) const { g_object_unref(object); }
+};
+using Layout = std::unique_ptr<PangoLayout, Unref>;
+
+struct FreeOptions {
+    void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
+};
+
+struct DestroyConfig {
+    void operator()(FcConfig* config) const { FcConfigDestroy(config); }
+};
+using Config = std::unique_ptr<FcConfig, DestroyConfig>;
+
+// The two files that all words are written with, where distributions have them; null when they are not there.
+Config own_fonts() {
+    for (const std::string folder :
+         {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu-sans-fonts/", "/usr/share/fonts/TTF/",
+          "/usr/share/fonts/dejavu/"}) {
+        Config config(FcConfigCreate());
+        const auto add = [&](const char* name) {
+            const std::string file = folder + name;
+            return FcConfigAppFontAddFile(config.get(), reinterpret_cast<const FcChar8*>(file.c_str())) ==
+                   FcTrue;
+        };
+        if (add("DejaVuSans.ttf") && add("DejaVuSans-Bold.ttf")) return config;
+    }
+    return nullptr;
+}
+
+// One a thread, as font maps want it; to make one costs more than to write a word with it. `own`: of the
+// fonts by file, so that words do not depend on what else is installed; else of all the system's.
+PangoContext* make_context(bool own) {
+    const std::unique_ptr<PangoFontMap, Unref> map(
+        pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
+    if (const Config config = own ? own_fonts() : nullptr)
+        pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map.get()), config.get());
+    PangoContext* made = pango_font_map_create_context(map.get());
+    const std::unique_ptr<cairo_font_options_t, FreeOptions> options(cairo_font_options_create());
+    cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+    cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+    pango_cairo_context_set_font_options(made, options.get());
+    pango_context_set_round_glyph_positions(made, FALSE);
+    return made;
+}
+using Context = std::unique_ptr<PangoContext, Unref>;
+PangoContext* own_context() {
+    thread_local const Context context(make_context(true));
+    return context.get();
+}
+PangoContext* system_context() {
+    thread_local const Context context(make_context(false));
+    return context.get();
+}
+
+Layout layout_in(PangoContext* context, const std::string& text, const TextStyle& style, double wrap,
+                 int lines) {
+    Layout layout(pango_layout_new(context));
+    PangoFontDescription* font = pango_font_description_new();
+    pango_font_description_set_family(font, "DejaVu Sans");
+    pango_font_description_set_weight(font, style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+    pango_font_description_set_absolute_size(font, style.size * PANGO_SCALE);
+    pango_layout_set_font_description(layout.get(), font);
+    pango_font_description_free(font);
+    pango_layout_set_text(layout.get(), text.c_str(), static_cast<int>(text.size()));
+    if (style.centred) pango_layout_set_alignment(layout.get(), PANGO_ALIGN_CENTER);
+    if (wrap > 0) {
+        pango_layout_set_width(layout.get(), static_cast<int>(wrap * PANGO_SCALE));
+        pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
+        pango_layout_set_height(layout.get(), -lines);
+        pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_END);
+    }
+    return layout;
+}
+
+constexpr double least_shrink = 0.7;  // of letters, before a word breaks
+
+// The size at which the longest word is no wider than the lines, if that is not much smaller.
+double size_for_words(const std::string& text, const TextStyle& style, double wrap) {
+    const double longest = longest_word(text, style);
+    if (wrap <= 0 || longest <= wrap || longest * least_shrink > wrap) return style.size;
+    return 0.999 * style.size * wrap / longest;
+}
+
+// Letters that the fonts by file lack, as in a title in Chinese, come from the system's.
+Layout make_layout(const std::string& text, const TextStyle& style, double wrap, int lines) {
+    Layout layout = layout_in(own_context(), text, style, wrap, lines);
+    if (pango_layout_get_unknown_glyphs_count(layout.get()) == 0) return layout;
+    return layout_in(system_context(), text, style, wrap, lines);
+}
+
+Layout make_wrapped(const std::string& text, const TextStyle& style, double wrap, int lines) {
+    if (wrap <= 0) return make_layout(text, style, 0, 1);
+    TextStyle fitting = style;
+    fitting.size = size_for_words(text, style, wrap);
+    return make_layout(text, fitting, wrap, lines);
+}
+
+TextSize size_of(PangoLayout* layout) {
+    PangoRectangle logical;
+    pango_layout_get_extents(layout, nullptr, &logical);
+    return {static_cast<double>(logical.width) / PANGO_SCALE,
+            static_cast<double>(logical.height) / PANGO_SCALE};
+}
+
+}  // namespace
+
+bool has_fonts_for(const std::string& text) {
+    const TextStyle style;
+    return pango_layout_get_unknown_glyphs_count(make_layout(text, style, 0, 1).get()) == 0;
+}
+
+double longest_word(const std::string& text, const TextStyle& style) {
+    double longest = 0;
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find(' ', from), text.size());
+        longest = std::max(longest, measure_text(text.substr(from, to - from), style).width);
+        from = to + 1;
+    }
+    return longest;
+}
+
+TextSize measure_text(const std::string& text, const TextStyle& style, double wrap, int lines) {
+    return size_of(make_wrapped(text, style, wrap, lines).get());
+}
+
+TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
+                   const Colour& colour, double wrap, int lines) {
+    const Layout layout = make_wrapped(text, style, wrap, lines);
+    cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
+    cairo_move_to(on, x, y);
+    pango_cairo_show_layout(on, layout.get());
+    return size_of(layout.get());
+}
+
+}  // namespace grainreel

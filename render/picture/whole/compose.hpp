@@ -1,0 +1,33 @@
+// Lays the grains over what is behind them, the ground and the background, and under what is before them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/team.hpp"
+#include "render/picture/base/picture.hpp"
+#include "render/picture/base/view.hpp"
+#include "render/picture/container/ground.hpp"
+#include "render/picture/spheres/layer.hpp"
+
+namespace grainreel {
+
+// All of the port's size; colours multiplied by alpha.
+struct Layers {
+    std::uint32_t background;
+    const Ground* ground;  // may be null
+    const Layer& behind;
+    const Layer& grains;
+    const Layer* ghosts;  // laid over the grains at a part of their strength; may be null
+    const Layer& before;
+    const Layer* marks;                           // over all others; may be null
+    const std::vector<std::uint32_t>& strengths;  // of grains, 0 to 255, by row; empty: full
+};
+
+// The result goes into the port's part of the picture.
+void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team);
+
+// From colours multiplied by their alpha, as layers have them, to plain ones, as pictures have them.
+void divide_by_alpha(Picture& picture, const Rectangle& port);
+
+}  // namespace grainreel

@@ -1,0 +1,321 @@
+#include "render/picture/whole/renderer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "render/picture/camera/camera_path.hpp"
+#include "render/picture/camera/exaggeration.hpp"
+#include "render/picture/container/container_drawing.hpp"
+#include "render/picture/container/exit_fade.hpp"
+#include "render/picture/container/ground.hpp"
+#include "render/picture/container/side_layer.hpp"
+#include "render/picture/grains/shown_grains.hpp"
+#include "render/picture/grains/spheres.hpp"
+#include "render/picture/marks/marks.hpp"
+#include "render/picture/spheres/pixel.hpp"
+#include "render/picture/whole/compose.hpp"
+#include "render/picture/whole/exposure.hpp"
+#include "render/picture/words/overlay.hpp"
+
+namespace grainreel {
+namespace {
+
+// Adds up where the time of one frame goes; does nothing without a place to put it.
+class Stopwatch {
+  public:
+    Stopwatch(const gl::Functions& gl, DrawTimes* times) : gl_(gl), times_(times) {}
+    // Everything since the last call, or since the watch was made, belongs to `stage`.
+    void lap(double DrawTimes::*stage) {
+        if (!times_) return;
+        gl_.Finish();
+        const auto now = std::chrono::steady_clock::now();
+        times_->*stage += std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+    }
+
+  private:
+    const gl::Functions& gl_;
+    DrawTimes* times_;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::uint32_t background(const Colour& colour, bool transparent) {
+    const auto byte = [](double value) { return static_cast<std::uint32_t>(std::lround(255 * value)); };
+    if (transparent) return 0;
+    return byte(colour.red) | byte(colour.green) << 8 | byte(colour.blue) << 16 | 0xff000000u;
+}
+
+void copy(const Picture& from, const Rectangle& part, Picture& to) {
+    for (int y = part.y; y < part.y + part.height; ++y)
+        std::copy_n(from.pixel(part.x, y), 4 * part.width, to.pixel(part.x, y));
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+    Impl(const Scene& s, const PictureLayout& plan, int raster_threads, gl::Provider provider)
+        : scene(s),
+          palette(palette_of(s.film)),
+          layout(plan),
+          port(layout.port),
+          path(s, layout),
+          overlay(scene, palette, layout, path.at(0)),
+          context(gl::make_context(provider, raster_threads)),
+          shape_painter(context->gl()),
+          behind(context->gl(), port),
+          before(context->gl(), port),
+          team(raster_threads),
+          shown(s, s.film.shows.hidden),
+          solid(s, s.film.shows.ghosts),
+          beside_cut(ShownGrains::beside_cut(s)),
+          marks(scene, palette),
+          sphere_painter(s, port.width, port.height, team, false),
+          words(s.film.width, s.film.height) {
+        if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
+        // What grains fall through is no ground.
+        const bool falls_through = s.container.outlet && !s.container.tray;
+        if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none &&
+            !falls_through)
+            ground.emplace(scene, port);
+    }
+
+    // What is deleted belongs to the context that is current.
+    ~Impl() {
+        try {
+            context->make_current();
+        } catch (const RunError&) {
+            // Then nothing is current, and what it owns goes with it.
+        }
+    }
+
+    Scene scene;
+    Palette palette;
+    PictureLayout layout;
+    const Rectangle port;
+    const CameraPath path;
+    Exaggeration exaggeration{scene.film.exaggerate};
+    Overlay overlay;
+    std::unique_ptr<gl::Context> context;
+    ShapePainter shape_painter;
+    SideLayer behind, before;
+    std::optional<SideLayer> marks_alone;  // where grains hide parts of the walls before them
+    std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;  // of `before`: pixels as they were
+    std::optional<Ground> ground;
+    Team team;
+    // Of all: those that are not hidden; of these: those that are not ghosts, and those that marks go by.
+    ShownGrains shown, solid, beside_cut;
+    Marks marks;
+    SpherePainter sphere_painter;
+    std::optional<SpherePainter> ghost_painter;
+    std::optional<Exposure> exposure;
+    bool started = false;  // the film: where grains were then is known
+    ContainerShapes shapes;
+    View eye;
+    std::vector<PointForce> point_forces;
+    Picture words;    // beside the port, from picture to picture
+    Picture picture;  // of draw() without a place to draw into
+
+    void draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
+              DrawTimes* times);
+    void copy_words(Picture& into) const;
+    void draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch);
+    void draw_moment(const Frame& frame, const Frame* marked, const View& view, Picture& into,
+                     Stopwatch& watch);
+    const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
+    const Layer* draw_before();
+    void start_from(const Frame& frame);
+    void point_out(PointedOut what);
+    // Without grains that the cut takes away, which leave no marks. A copy is made only if there are any.
+    const Frame& to_be_marked(const Frame& frame) {
+        return has_marks(scene.film.shows) ? beside_cut.of(frame) : frame;
+    }
+};
+
+void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
+                          DrawTimes* times) {
+    context->make_current();
+    Stopwatch watch(context->gl(), times);
+    const View view = path.at(film_time);
+    if (!started) start_from(frame);
+    overlay.write(words, frame, playback, view);
+    copy_words(into);
+    watch.lap(&DrawTimes::overlay);
+    if (frame.exposed.empty())
+        draw_moment(frame, nullptr, view, into, watch);
+    else
+        draw_exposed(frame, view, into, watch);
+    overlay.lay_over(into);
+    watch.lap(&DrawTimes::overlay);
+}
+
+void Renderer::Impl::start_from(const Frame& frame) {
+    const Frame& start = exaggeration.shown(frame);
+    sphere_painter.start_from(start);
+    marks.start_from(start);
+    if (ghost_painter) ghost_painter->start_from(start);
+    started = true;
+}
+
+// All but these grains are ghosts.
+void Renderer::Impl::point_out(PointedOut what) {
+    point_forces = std::move(what.forces);
+    if (what.grains.empty()) return;
+    context->make_current();
+    if (!ghost_painter) ghost_painter.emplace(scene, port.width, port.height, team, true);
+    ghost_painter->paint_all_but(what.grains);
+    solid = ShownGrains::only(scene, std::move(what.grains));
+}
+
+// Where it has been drawn before, most of the words are there.
+void Renderer::Impl::copy_words(Picture& into) const {
+    const bool fits = into.width == words.width && into.height == words.height;
+    if (!fits) into = words;
+    if (layout.plates) {
+        into.still = 0;
+        return;
+    }
+    if (fits && into.still == overlay.still()) {
+        for (const Rectangle& part : overlay.moving()) copy(words, part, into);
+        return;
+    }
+    copy(words, layout.first, into);
+    copy(words, layout.second, into);
+    into.still = overlay.still();
+    into.moving = overlay.moving();
+    into.moving.push_back(port);
+}
+
+// Marks are those of the frame itself, in every moment.
+void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch) {
+    if (!exposure) exposure.emplace(port);
+    const Frame marked = to_be_marked(shown.of(exaggeration.shown(frame)));
+    for (const FramePtr& moment : frame.exposed) {
+        draw_moment(*moment, &marked, view, into, watch);
+        exposure->add(into);
+    }
+    draw_moment(frame, &marked, view, into, watch);
+    exposure->add(into);
+    exposure->develop(into);
+    watch.lap(&DrawTimes::readback);
+}
+
+// marked: whose marks are drawn; the frame's own when null.
+void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, const View& view,
+                                 Picture& into, Stopwatch& watch) {
+    const Frame& frame = exaggeration.shown(true_frame);
+    eye = scene.film.camera.follow ? view.moved_by(frame.container().place) : view;
+    const Frame& all = shown.of(frame);
+    const Frame& opaque = ghost_painter ? solid.of(all) : all;
+    draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
+    watch.lap(&DrawTimes::walls);
+    if (ground) ground->update(opaque, eye);
+    watch.lap(&DrawTimes::shadow);
+    const Layer& walls_behind = behind.draw(shape_painter, shapes.behind.shapes);
+    watch.lap(&DrawTimes::walls);
+    const Layer& grains = draw_grains(sphere_painter, opaque, watch);
+    const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, all, watch) : nullptr;
+    const SpherePainter& of_all = ghost_painter ? *ghost_painter : sphere_painter;
+    const auto seen = [&](std::size_t i) { return marked ? 1 : of_all.seen_share(beside_cut.place(i)); };
+    marks.draw(eye, marked ? *marked : to_be_marked(all), seen, shapes.over);
+    draw_point_forces(eye.moved_by(true_frame.container().place - frame.container().place), point_forces,
+                      palette, std::max(1.0, scene.film.height / 540.0), shapes.over);
+    const Layer* marked_alone = draw_before();
+    compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
+             walls_behind, grains, ghosts, before.layer(), marked_alone, exit_fade(scene, eye, port.height)},
+            port, into, team);
+    for (const auto& [place, pixel] : covered) *place = pixel;
+    covered.clear();
+    if (scene.film.transparent) divide_by_alpha(into, port);
+    watch.lap(&DrawTimes::readback);
+}
+
+// Walls before the grains, less what grains hide of them, with the marks over them; where grains hide some,
+// the marks are a layer of their own, which it gives back.
+const Layer* Renderer::Impl::draw_before() {
+    const std::vector<WallPixel>& pixels = sphere_painter.wall_pixels();
+    const bool bared = std::any_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.bared > 0; });
+    if (!bared) shapes.before.shapes.append(shapes.over);
+    before.draw(shape_painter, shapes.before.shapes);
+    if (!bared) return nullptr;
+    for (const WallPixel& pixel : pixels) {
+        std::uint32_t& place = before.layer().row(pixel.y)[pixel.x];
+        covered.emplace_back(&place, place);
+        place = faded(place, 1 - pixel.bared);
+    }
+    if (shapes.over.vertices().empty()) return nullptr;
+    if (!marks_alone) marks_alone.emplace(context->gl(), port);
+    return &marks_alone->draw(shape_painter, shapes.over);
+}
+
+const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const {
+    painter.take(eye, frame);
+    watch.lap(&DrawTimes::upload);
+    painter.find_visible();
+    painter.find_order(eye, shapes);
+    watch.lap(&DrawTimes::spheres);
+    painter.find_neighbours();
+    watch.lap(&DrawTimes::occlusion);
+    const Layer& layer = painter.light();
+    watch.lap(&DrawTimes::shading);
+    return layer;
+}
+
+Renderer::Renderer(const Scene& scene, int raster_threads, gl::Provider provider)
+    : Renderer(scene, plan_layout(scene), raster_threads, provider) {}
+Renderer::Renderer(const Scene& scene, const PictureLayout& layout, int raster_threads, gl::Provider provider)
+    : impl_(std::make_unique<Impl>(scene, layout, raster_threads, provider)) {}
+
+Renderer::~Renderer() = default;
+
+const Picture& Renderer::draw(const Frame& frame, const std::string& playback, double film_time) {
+    draw_into(impl_->picture, frame, playback, film_time);
+    return impl_->picture;
+}
+
+void Renderer::draw_into(Picture& picture, const Frame& frame, const std::string& playback,
+                         double film_time) {
+    impl_->draw(frame, playback, film_time, picture, nullptr);
+}
+
+std::string Renderer::colour_note() const {
+    const GrainColouring& colour = impl_->scene.film.shows.colour;
+    const SpherePainter& of_all = impl_->ghost_painter ? *impl_->ghost_painter : impl_->sphere_painter;
+    if (colour.of_grains()) return clipped_words(colour, of_all.clipped(), "grains");
+    return colour.of_field() ? clipped_words(colour, impl_->marks.clipped(), "layer") : "";
+}
+
+DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) {
+    DrawTimes times;
+    impl_->draw(frame, playback, 0, impl_->picture, &times);
+    return times;
+}
+
+const View& Renderer::view() const {
+    return impl_->eye;
+}
+
+void Renderer::start_from(const Frame& frame) {
+    impl_->start_from(frame);
+}
+
+void Renderer::point_out(PointedOut what) {
+    impl_->point_out(std::move(what));
+}
+
+void Renderer::remember(const Frame& frame) {
+    impl_->marks.remember(impl_->to_be_marked(impl_->shown.of(impl_->exaggeration.shown(frame))));
+}
+
+std::string Renderer::gl_description() const {
+    return impl_->context->description();
+}
+
+std::string Renderer::gl_note() const {
+    return impl_->context->note();
+}
+
+}  // namespace grainreel

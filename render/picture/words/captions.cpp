@@ -1,0 +1,207 @@
+#include "render/picture/words/captions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/measure_table.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive/grown_share.hpp"
+#include "engine/scene/film/live_text.hpp"
+
+namespace grainreel {
+namespace {
+
+struct Unit {
+    double size;
+    const char* name;
+};
+
+Unit length_unit(double metres) {
+    if (metres >= 1) return {1, "m"};
+    if (metres >= 0.1) return {0.01, "cm"};
+    if (metres >= 0.001) return {0.001, "mm"};
+    return {1e-6, "µm"};
+}
+
+std::vector<std::string> vibration_lines(double frequency, double amplitude, double gravity) {
+    std::vector<std::string> lines = {"f = " + frequency_text(frequency)};
+    const double omega = 2 * std::numbers::pi * frequency;
+    if (gravity > 0) lines.push_back(fmt::format("Γ = {:.3g}", amplitude * omega * omega / gravity));
+    lines.push_back("a = " + length_text(amplitude));
+    return lines;
+}
+
+// Of the drive while it grows: with as many decimals as what it grows to.
+double rounded_as(double value, double full) {
+    if (full <= 0) return value;
+    const double digit = std::pow(10, std::floor(std::log10(full)) - 2);
+    return std::round(value / digit) * digit;
+}
+
+std::vector<std::string> growing_lines(const Scene& scene, double share) {
+    const Drive& drive = scene.drive;
+    const double gravity = scene.gravity.norm(), level = drive.g_level(gravity);
+    std::vector<std::string> lines = {"f = " + frequency_text(drive.frequency)};
+    if (gravity > 0) lines.push_back(fmt::format("Γ = {:.3g}", rounded_as(share * level, level)));
+    lines.push_back("a = " + length_text(rounded_as(share * drive.amplitude, drive.amplitude)));
+    return lines;
+}
+
+std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravity) {
+    std::vector<std::string> lines = vibration_lines(now.frequency, now.amplitude, gravity);
+    if (now.kind == DriveStage::Kind::rest) lines.assign({"at rest"});
+    if (now.kind != DriveStage::Kind::taps) return lines;
+    lines.front() = "taps of " + frequency_text(now.frequency);
+    lines.back() = fmt::format("every {:.3g} s", now.interval);
+    return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> drive_lines(const Scene& scene, const Frame& frame) {
+    const double cycles = frame.time < 0 ? -1 : std::max(0.0, frame.cycles);
+    const double share = grown_share(scene.drive, cycles);
+    const DriveSchedule::Now now = drive_now(scene.drive, std::max(0.0, cycles));
+    if (share < 1) return growing_lines(scene, share);
+    return stage_lines(now, scene.gravity.norm());
+}
+
+bool drive_lines_change(const Drive& drive) {
+    return drive.present && (drive.changes() || drive.ramp > 0);
+}
+
+std::vector<std::string> longest_drive_lines(const Scene& scene) {
+    const double gravity = scene.gravity.norm();
+    std::vector<std::string> longest = vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity);
+    const auto take = [&](const std::vector<std::string>& lines) {
+        for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
+            if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
+    };
+    // No share has longer numbers than these.
+    if (scene.drive.ramp > 0)
+        for (const double share : {0.888, 0.0888}) take(growing_lines(scene, share));
+    if (!scene.drive.changes()) return longest;
+    const DriveSchedule schedule(scene.drive);
+    for (const PeriodStretch& stretch : schedule.times().stretches())
+        take(stage_lines(schedule.now(stretch.cycles), gravity));
+    // In a change numbers have three digits, whatever they begin and end with.
+    take({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
+    return longest;
+}
+
+std::string shown_title(const Film& film) {
+    return film.word_kinds.title ? film.title : std::string();
+}
+
+std::string length_text(double metres) {
+    const Unit unit = length_unit(metres * 1.0000001);
+    return fmt::format("{:.3g} {}", metres / unit.size, unit.name);
+}
+
+std::string frequency_text(double hertz) {
+    return hertz >= 1000 ? fmt::format("{:.3g} kHz", hertz / 1000) : fmt::format("{:.3g} Hz", hertz);
+}
+
+std::string time_text(double seconds, double duration) {
+    const Unit unit = duration < 0.1 ? Unit{0.001, "ms"} : Unit{1, "s"};
+    // A minus as wide as a digit, and no "-0.000".
+    const double value = seconds / unit.size, shown = std::abs(value) < 0.0005 ? 0 : value;
+    return fmt::format("t = {}{:.3f} {}", shown < 0 ? "−" : "", std::abs(shown), unit.name);
+}
+
+std::string diameter_text(const SizeSpread& diameter) {
+    if (diameter.kind == SizeSpread::Kind::fixed || diameter.smallest == diameter.largest)
+        return length_text(diameter.largest);
+    const Unit unit = length_unit(diameter.largest * 1.0000001);
+    return fmt::format("{:.3g}–{:.3g} {}", diameter.smallest / unit.size, diameter.largest / unit.size,
+                       unit.name);
+}
+
+double round_length(double longest) {
+    const double decade = std::pow(10, std::floor(std::log10(longest)));
+    for (const double step : {5.0, 2.0})
+        if (step * decade <= longest) return step * decade;
+    return decade;
+}
+
+ShownCycle shown_cycle(const Frame& frame) {
+    // Frames of slow motion land on steps, often a hair before a period's end: the cycle goes with the
+    // rounding.
+    const double rounded = std::round(100 * frame.phase) / 100;
+    const double cycles = frame.cycles + (rounded - frame.phase);
+    return {std::max(0LL, static_cast<long long>(std::floor(cycles + 1e-6))), rounded < 1 ? rounded : 0};
+}
+
+std::string playback_text(const Film& film, const Frame& frame, const std::string& playback) {
+    if (!film.word_kinds.playback) return "";
+    if (frame.time >= 0) return playback;
+    return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;
+}
+
+namespace {
+
+// Parts of a note with an empty line between them.
+std::string joined(const std::string& one, const std::string& other) {
+    return one.empty() || other.empty() ? one + other : one + "\n\n" + other;
+}
+
+std::string mass_text(double kilograms) {
+    if (kilograms >= 0.9995) return fmt::format("{:.3g} kg", kilograms);
+    return kilograms >= 0.9995e-3 ? fmt::format("{:.3g} g", 1e3 * kilograms)
+                                  : fmt::format("{:.3g} mg", 1e6 * kilograms);
+}
+
+// Of how many only where all are there from the start: of grains that are fed, some are yet to come.
+std::string outflow_text(const Scene& scene, const FlowedOut& out) {
+    const std::int64_t all = scene.grains();
+    const std::string grains = scene.grains_at_start() == all ? fmt::format("{} of {} out", out.grains, all)
+                                                              : fmt::format("{} out", out.grains);
+    return fmt::format("{}\n{} out", grains, mass_text(out.mass));
+}
+
+std::string caption_at(const Film& film, double time) {
+    if (!film.word_kinds.captions) return {};
+    for (const FilmCaption& caption : film.captions)
+        if (shows_caption(caption, time)) return caption.text;
+    return {};
+}
+
+}  // namespace
+
+std::string note_text(const Scene& scene, const Frame& frame) {
+    const std::string text =
+        live_text(scene.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
+            if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
+            const std::vector<std::string>& columns = frame.measures->columns();
+            const auto found = std::find(columns.begin(), columns.end(), name);
+            GRAINREEL_CHECK(found != columns.end());
+            return frame.measures
+                ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
+                         frame.measure_rows)
+                .front();
+        });
+    const bool flows = scene.film.word_kinds.counts && frame.flowed_out && frame.flowed_out->grains > 0;
+    const std::string out = flows ? outflow_text(scene, *frame.flowed_out) : "";
+    return joined(joined(out, text), caption_at(scene.film, frame.time));
+}
+
+std::vector<std::string> longest_notes(const Scene& scene) {
+    const std::string text =
+        live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
+    const FlowedOut most{scene.grains(), 0.888};
+    const WordKinds& kinds = scene.film.word_kinds;
+    const bool flows = scene.film.shows.outflow && kinds.counts;
+    const std::string always = joined(flows ? outflow_text(scene, most) : "", text);
+    std::vector<std::string> notes;
+    if (!always.empty()) notes.push_back(always);
+    if (!kinds.captions) return notes;
+    for (const FilmCaption& caption : scene.film.captions) notes.push_back(joined(always, caption.text));
+    return notes;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,63 @@
+// The words around the picture, in gutters that no grain is drawn in, or on plates over it. What never
+// changes is drawn once, and of the rest only what has changed since the frame before.
+#pragma once
+
+#include <cairo.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/picture/base/picture.hpp"
+#include "render/picture/plots/side_plot.hpp"
+#include "render/picture/text/cairo_surface.hpp"
+#include "render/picture/words/layout.hpp"
+#include "render/picture/words/numbers_plan.hpp"
+#include "render/picture/words/writer.hpp"
+
+namespace grainreel {
+
+class Overlay {
+  public:
+    Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
+
+    // Writes the gutters into the picture: all of them the first time, then only what changes; or the plates,
+    // which lay_over() puts into it. view: before it follows anything.
+    void write(Picture& picture, const Frame& frame, const std::string& playback, const View& view);
+    // After the picture was drawn: the plates, if there are any.
+    void lay_over(Picture& picture) const;
+
+    // As Picture has them; of the gutters.
+    std::uint64_t still() const { return still_number_; }
+    std::vector<Rectangle> moving() const;
+
+  private:
+    CairoSurface blank(const Rectangle& part, const std::vector<Rectangle>& plates) const;
+    void draw_still(const View& view);
+    void draw_still_numbers(const View& view);
+    void make_plots();
+    // A part of a gutter's surface where it belongs in the picture.
+    void put(cairo_surface_t* from, const Rectangle& part, const Rectangle& gutter, Picture& picture) const;
+    // Draws over the still part inside a rectangle of the second gutter, and puts it into the picture.
+    template <class Draw>
+    void renew(Picture& picture, const Rectangle& part, const Draw& draw);
+    void renew_plots(Picture& picture, const Frame& frame);
+
+    const Scene& scene_;
+    const Palette palette_;
+    const PictureLayout layout_;
+    const TypeScale type_;
+    const NumbersPlan plan_;
+    const std::vector<Rectangle> first_plates_, second_plates_;  // from the gutters' corners
+    CairoSurface first_, still_, second_;
+    std::vector<std::unique_ptr<SidePlot>> plots_;
+    View drawn_for_;
+    bool written_ = false;
+    std::uint64_t still_number_ = 0;
+    // What is in the picture now.
+    std::string clock_, caption_, note_, drive_;
+    double angle_ = 0, stroke_ = 0;
+};
+
+}  // namespace grainreel

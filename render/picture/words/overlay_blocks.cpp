@@ -1,0 +1,250 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "render/picture/container/lab_marks.hpp"
+#include "render/picture/words/captions.hpp"
+#include "render/picture/words/writer.hpp"
+
+namespace grainreel {
+namespace {
+
+void set_colour(const Writer& writer, const Colour& colour) {
+    cairo_set_source_rgb(writer.on, colour.red, colour.green, colour.blue);
+}
+
+void stroke_line(const Writer& writer, double x0, double y0, double x1, double y1, double width) {
+    cairo_set_line_width(writer.on, width);
+    cairo_move_to(writer.on, x0, y0);
+    cairo_line_to(writer.on, x1, y1);
+    cairo_stroke(writer.on);
+}
+
+void dot(const Writer& writer, double x, double y, double radius) {
+    cairo_new_path(writer.on);
+    cairo_arc(writer.on, x, y, radius, 0, 2 * std::numbers::pi);
+    cairo_fill(writer.on);
+}
+
+// An arrow about (x, y) along (dx, dy), which is half its length; pixels. The head is drawn at the far end,
+// or at both.
+void arrow(const Writer& writer, double x, double y, double dx, double dy, bool both) {
+    const double length = std::hypot(dx, dy), width = std::max(1.0, writer.type.main / 12);
+    const double head = 3.2 * width;
+    stroke_line(writer, x - dx, y - dy, x + dx, y + dy, width);
+    if (length < 1) return;
+    for (const double end : {1.0, -1.0}) {
+        if (end < 0 && !both) break;
+        const double ux = end * dx / length, uy = end * dy / length;
+        const double tip_x = x + end * dx + ux * head * 0.4, tip_y = y + end * dy + uy * head * 0.4;
+        cairo_move_to(writer.on, tip_x, tip_y);
+        cairo_line_to(writer.on, tip_x - 1.5 * head * ux - 0.6 * head * uy,
+                      tip_y - 1.5 * head * uy + 0.6 * head * ux);
+        cairo_line_to(writer.on, tip_x - 1.5 * head * ux + 0.6 * head * uy,
+                      tip_y - 1.5 * head * uy - 0.6 * head * ux);
+        cairo_close_path(writer.on);
+        cairo_fill(writer.on);
+    }
+}
+
+// As draw_lab_marks() has it beside the floor.
+void lab_mark_sample(const Writer& writer, double x, double y, double reach) {
+    const double pen = std::max(1.0, writer.type.main / 16), bar = x, low = 0.8 * reach;
+    set_colour(writer, writer.palette.faint_ink);
+    stroke_line(writer, bar, y - low, bar, y + low, pen);
+    for (const double level : {-1.0, 0.0, 1.0})
+        stroke_line(writer, bar - (level == 0 ? 0.9 : 0.5) * reach, y + level * low, bar, y + level * low,
+                    pen);
+    set_colour(writer, writer.palette.accent);
+    cairo_move_to(writer.on, bar, y);
+    cairo_line_to(writer.on, bar + 0.85 * reach, y - 0.4 * reach);
+    cairo_line_to(writer.on, bar + 0.85 * reach, y + 0.4 * reach);
+    cairo_close_path(writer.on);
+    cairo_fill(writer.on);
+}
+
+// A direction that the camera looks along: a ring with the arrow's tip in it, or with its feathers.
+void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
+    const double radius = 0.42 * writer.type.main, width = std::max(1.0, writer.type.main / 12);
+    cairo_new_path(writer.on);
+    cairo_arc(writer.on, x, y, radius, 0, 2 * std::numbers::pi);
+    cairo_set_line_width(writer.on, width);
+    cairo_stroke(writer.on);
+    if (towards_eye) return dot(writer, x, y, 0.3 * radius);
+    const double reach = radius / std::numbers::sqrt2;
+    stroke_line(writer, x - reach, y - reach, x + reach, y + reach, width);
+    stroke_line(writer, x - reach, y + reach, x + reach, y - reach, width);
+}
+
+}  // namespace
+
+TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
+    const std::string title = shown_title(scene.film);
+    if (title.empty()) return {};
+    return writer.write(x, y, title, writer.title(), writer.palette.ink, wrap, 6);
+}
+
+TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest) {
+    const double length = round_length(longest / scale), pixels = length * scale;
+    const double tick = 0.35 * writer.type.main, width = std::max(1.5, writer.type.main / 11);
+    if (writer.on) {
+        set_colour(writer, writer.palette.ink);
+        stroke_line(writer, x, y + 0.5 * tick, x + pixels, y + 0.5 * tick, width);
+        for (const double end : {x + 0.5 * width, x + pixels - 0.5 * width})
+            stroke_line(writer, end, y, end, y + tick, width);
+    }
+    const TextSize label =
+        writer.write(x, y + 1.3 * tick, length_text(length), writer.main(), writer.palette.ink);
+    return {std::max(pixels, label.width), 1.3 * tick + label.height};
+}
+
+TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view, double x, double y) {
+    const double reach = 0.75 * writer.type.main, row = 2.2 * writer.type.main,
+                 indent = 1.5 * writer.type.main;
+    TextSize size;
+    if (!scene.film.word_kinds.arrows) return size;
+    // sample(x, y) draws about its middle.
+    const auto entry = [&](const std::string& label, const auto& sample) {
+        const double middle = y + size.height + 0.5 * row;
+        if (writer.on) sample(x + 0.5 * indent, middle);
+        const double half_line = 0.5 * measure_text(label, writer.minor()).height;
+        const TextSize text = writer.write(x + indent + 0.4 * writer.type.gap, middle - half_line, label,
+                                           writer.minor(), writer.palette.faint_ink);
+        size.width = std::max(size.width, indent + 0.4 * writer.type.gap + text.width);
+        size.height += row;
+    };
+    const auto direction = [&](const Vec3& along, bool both) {
+        return [&, along, both](double at_x, double at_y) {
+            set_colour(writer, both ? writer.palette.accent : writer.palette.ink);
+            const double across = along.dot(view->right), up = along.dot(view->up);
+            if (std::hypot(across, up) < 0.2)
+                arrow_on_end(writer, at_x, at_y, both || along.dot(view->forward) < 0);
+            else
+                arrow(writer, at_x, at_y, reach * across, -reach * up, both);
+        };
+    };
+    if (scene.gravity.norm() > 0) entry("gravity", direction(scene.gravity.normalized(), false));
+    if (!scene.drive.present) return size;
+    entry(scene.drive.moves == Drive::Moves::floor ? "floor vibrates" : "vibration",
+          direction(scene.drive.direction, true));
+    if (has_lab_marks(scene))
+        entry("floor", [&](double at_x, double at_y) { lab_mark_sample(writer, at_x, at_y, reach); });
+    return size;
+}
+
+TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, double x, double y) {
+    if (!scene.film.axes) return {};
+    const double reach = 1.6 * writer.type.main, side = 2 * reach + 2 * writer.type.minor;
+    if (!writer.on || !view) return {side, side + writer.type.gap};
+    const double cx = x + 0.5 * side, cy = y + 0.5 * side, pen = std::max(1.0, writer.type.main / 12);
+    std::vector<std::pair<Vec3, const char*>> axes = {
+        {Vec3::UnitX(), "x"}, {Vec3::UnitY(), "y"}, {Vec3::UnitZ(), "z"}};
+    // The farthest first, so that it is the nearest one that is whole.
+    std::sort(axes.begin(), axes.end(), [&](const auto& a, const auto& b) {
+        return a.first.dot(view->forward) > b.first.dot(view->forward);
+    });
+    for (const auto& [axis, name] : axes) {
+        const double dx = axis.dot(view->right), dy = -axis.dot(view->up);
+        set_colour(writer,
+                   mix(writer.palette.ink, writer.palette.background, 0.25 * (1 + axis.dot(view->forward))));
+        stroke_line(writer, cx, cy, cx + reach * dx, cy + reach * dy, 1.6 * pen);
+        dot(writer, cx + reach * dx, cy + reach * dy, 2 * pen);
+        // Beyond the tip, also of an axis that points at the eye.
+        const double seen = std::max(std::hypot(dx, dy), 1e-9), away = reach * seen + 0.8 * writer.type.minor;
+        const TextSize letter = measure_text(name, writer.minor());
+        writer.write(cx + away * dx / seen - 0.5 * letter.width, cy + away * dy / seen - 0.5 * letter.height,
+                     name, writer.minor(), writer.palette.ink);
+    }
+    return {side, side + writer.type.gap};
+}
+
+TextSize drive_block(const Writer& writer, const Scene& scene, const Frame* frame, double x, double y) {
+    if (!scene.drive.present) return {};
+    TextSize size;
+    std::vector<std::string> lines;
+    if (scene.film.word_kinds.drive) lines = frame ? drive_lines(scene, *frame) : longest_drive_lines(scene);
+    for (const std::string& line : lines) {
+        const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
+        size.width = std::max(size.width, part.width);
+        size.height += part.height;
+    }
+    if (scene.film.exaggerate == 1) return size;
+    if (!lines.empty()) size.height += 0.5 * writer.type.gap;
+    const TextSize note = exaggeration_block(writer, scene.film, x, y + size.height);
+    return {std::max(size.width, note.width), size.height + note.height};
+}
+
+TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y) {
+    TextSize size;
+    if (film.exaggerate == 1) return size;
+    for (const std::string& line :
+         {std::string("wall motion"), fmt::format("drawn {:.3g}×", film.exaggerate)}) {
+        const TextSize part =
+            writer.write(x, y + size.height, line, {writer.type.minor, true}, writer.palette.accent);
+        size = {std::max(size.width, part.width), size.height + part.height};
+    }
+    return size;
+}
+
+namespace {
+
+std::int64_t count_in_tray(const Frame& frame) {
+    const double floor = frame.floor().place.z();
+    return std::count_if(frame.position.begin(), frame.position.end(),
+                         [&](const Vec3& at) { return at.z() < floor; });
+}
+
+// Time first, then the lines below it.
+std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
+    const WordKinds& kinds = scene.film.word_kinds;
+    std::vector<std::string> lines;
+    if (kinds.time) lines.push_back(time_text(frame.time, scene.run.duration));
+    const bool cycle = kinds.cycle && scene.drive.present;
+    if (cycle && frame.time < 0) {
+        lines.emplace_back("before the drive");
+    } else if (cycle) {
+        const ShownCycle shown = shown_cycle(frame);
+        lines.push_back(fmt::format("cycle {}", shown.cycle));
+        lines.push_back(fmt::format("phase {:.2f}", shown.phase));
+    }
+    if (scene.container.tray && kinds.counts)
+        lines.push_back(fmt::format("{} of {} in the tray", count_in_tray(frame), frame.size()));
+    return lines;
+}
+
+}  // namespace
+
+std::string clock_words(const Scene& scene, const Frame& frame) {
+    return fmt::format("{}", fmt::join(clock_lines(scene, frame), "\n"));
+}
+
+TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y) {
+    TextSize size;
+    for (const std::string& line : clock_lines(scene, frame)) {
+        const bool time = size.height == 0 && scene.film.word_kinds.time;
+        const TextSize part = writer.write(x, y + size.height, line, time ? writer.strong() : writer.minor(),
+                                           time ? writer.palette.ink : writer.palette.faint_ink);
+        size = {std::max(size.width, part.width), size.height + part.height};
+    }
+    return size;
+}
+
+TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap,
+                    int most) {
+    TextSize size;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t to = std::min(text.find('\n', from), text.size());
+        const std::string line = to > from ? text.substr(from, to - from) : " ";
+        const TextSize one =
+            writer.write(x, y + size.height, line, writer.main(), writer.palette.ink, wrap, most);
+        size.width = std::max(size.width, one.width);
+        size.height += one.height;
+        from = to + 1;
+    }
+    return size;
+}
+
+}  // namespace grainreel
