@@ -6,9 +6,9 @@
 
 #include "engine/scene/scene.hpp"
 #include "render/picture/base/monotone_curve.hpp"
+#include "render/picture/base/picture_layout.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/framing.hpp"
-#include "render/picture/words/layout.hpp"
 
 namespace grainreel {
 
@@ -59,5 +59,8 @@ class CameraPath {
     Track azimuth_, elevation_, zoom_;  // the zoom by its logarithm
     std::vector<MonotoneCurve> place_;  // x, y, z of the target
 };
+
+// The scene's camera as the film begins.
+View frame_container(const Scene& scene, const PictureLayout& layout);
 
 }  // namespace grainreel

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
-#include "render/picture/words/layout.hpp"
+#include "render/picture/base/picture_layout.hpp"
 
 namespace grainreel {
 

@@ -15,9 +15,9 @@
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture_layout.hpp"
 #include "render/picture/plots/side_plot.hpp"
 #include "render/picture/text/cairo_surface.hpp"
-#include "render/picture/words/layout.hpp"
 
 namespace grainreel {
 

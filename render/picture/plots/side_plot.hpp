@@ -10,7 +10,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/picture/words/layout.hpp"
+#include "render/picture/base/picture_layout.hpp"
 
 namespace grainreel {
 
