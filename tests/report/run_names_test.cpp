@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/file/reader.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/file/reader.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {

@@ -10,8 +10,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/file/reader.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/text/toml_text.hpp"
 
