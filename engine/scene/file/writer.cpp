@@ -1,7 +1,6 @@
 #include "engine/scene/file/writer.hpp"
 
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/film/film_keys.hpp"
 
 namespace grainreel {
 
@@ -18,8 +17,7 @@ std::string resolved_scene(const Scene& scene, const Plan& plan) {
     write_drive(out, scene);
     write_start(out, scene);
     write_run(out, scene, plan);
-    write_film(out, scene);
-    return out.take();
+    return out.take() + scene.film_text;
 }
 
 }  // namespace grainreel

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/view.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -32,7 +32,7 @@ Frame widest_frame();
 // As film.words has it. Gutters are as wide as their words need, and at most about a third of the picture
 // each: left and right, or above and below, whichever leaves the container larger. Words shrink to their
 // least size, four fifths, before any is left out.
-PictureLayout plan_layout(const Scene& scene);
+PictureLayout plan_layout(const FilmedScene& scene);
 // The container has the whole picture, and there are no words.
 PictureLayout bare_layout(const Film& film);
 
