@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/film_limits.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -31,7 +32,7 @@ FilmRun::FilmRun(const FilmRequest& request, RunListener& listener) : request_(r
 
 FilmRun::~FilmRun() = default;
 
-void FilmRun::check_film(const Scene& scene, std::int64_t frames) const {
+void FilmRun::check_film(const FilmedScene& scene, std::int64_t frames) const {
     if (request_.to_stdout && !(request_.film && scene.film.format == FilmFormat::y4m))
         throw UserError("--out -: stdout takes a film in y4m alone; add --format y4m, or name a folder");
     if (request_.film) check_max_size(scene, frames);
@@ -132,7 +133,7 @@ void FilmRun::begin_record(const std::vector<std::string>& warnings) {
     write_run_json(folder_->path() / "run.json", record_);
 }
 
-void FilmRun::open_film(const Scene& scene, DrawerMaker draw) {
+void FilmRun::open_film(const FilmedScene& scene, DrawerMaker draw) {
     if (!wants_pictures()) return;
     FilmOptions film;
     film.folder = folder_->path();

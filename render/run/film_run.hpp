@@ -12,13 +12,13 @@
 #include "engine/files/log.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_json.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/run/film_request.hpp"
 #include "render/run/first_failure.hpp"
 #include "render/run/listener.hpp"
 #include "render/run/stage_times.hpp"
 #include "render/run/thread_plan.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -58,7 +58,7 @@ class FilmRun {
 
     bool wants_pictures() const { return request_.film || request_.frames; }
     // What scene and options ask of the film's file. Throws UserError.
-    void check_film(const Scene& scene, std::int64_t frames) const;
+    void check_film(const FilmedScene& scene, std::int64_t frames) const;
     // To be called when all that the user gave has been accepted.
     void make_folder(RunFolderRequest request);
     // From here a mistake is a failure, and what there is stays, also at a second signal.
@@ -66,7 +66,7 @@ class FilmRun {
     // Shows the warnings and writes run.json for the first time.
     void begin_record(const std::vector<std::string>& warnings);
     // draw: what makes pictures; none for the Renderer.
-    void open_film(const Scene& scene, DrawerMaker draw = {});
+    void open_film(const FilmedScene& scene, DrawerMaker draw = {});
     std::string film_files_text() const;  // "movie.mp4 (4 frames), poster.png, "
     std::string page_text() const;        // ", report.html"; empty without a page
 

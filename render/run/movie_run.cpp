@@ -7,18 +7,19 @@
 #include "engine/base/team.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/run/segregation_text.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 namespace {
 
-Pictures schedule(const Scene& scene, const Plan& plan, bool wanted) {
+Pictures schedule(const FilmedScene& scene, const Plan& plan, bool wanted) {
     if (!wanted) return {};
     const bool may_leave_out = true;
     return {instants_of(scene, plan.clock, plan.steps), scene.film.segments, may_leave_out};
 }
 
-ThreadPlan threads_for(const Scene& scene, bool film) {
+ThreadPlan threads_for(const FilmedScene& scene, bool film) {
     const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
     return plan_threads(processors, film, scene.grains());
 }
@@ -37,7 +38,8 @@ Progress::Stage stage_of(const PackingProgress& packing) {
 
 }  // namespace
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan)
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+                   const Plan& plan)
     : FilmRun(request, listener),
       pictures_(schedule(scene, plan, wants_pictures())),
       run_(scene, plan, threads_for(scene, wants_pictures()).engine) {
@@ -46,8 +48,8 @@ MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scen
     make_folder({scene.name, request.base, request.out, request.force});
 }
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
-                   ResumePoint point, std::shared_ptr<FolderLock> lock)
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+                   const Plan& plan, ResumePoint point, std::shared_ptr<FolderLock> lock)
     : FilmRun(request, listener),
       pictures_(schedule(scene, plan, wants_pictures())),
       run_(scene, plan, std::move(point)) {
@@ -79,7 +81,7 @@ bool MovieRun::work() {
 }
 
 void MovieRun::describe() {
-    const Scene& scene = run_.scene();
+    const FilmedScene& scene = run_.scene();
     std::vector<std::string> warnings = run_.plan().warnings;
     if (wants_pictures()) {
         for (const std::vector<std::string>& found :
@@ -119,7 +121,7 @@ bool MovieRun::pack() {
 }
 
 void MovieRun::take(const Taken& picture) {
-    const Scene& scene = run_.scene();
+    const FilmedScene& scene = run_.scene();
     const auto timer = times_.during("waiting for the film");
     const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(picture.segment));
     const FilmSegment pace = played(spanning(rule, picture.periods), scene.film.rate, run_.plan().clock);
@@ -182,7 +184,7 @@ void MovieRun::report_written() {
 }
 
 void MovieRun::report_segregation() {
-    const Scene& scene = run_.scene();
+    const FilmedScene& scene = run_.scene();
     const RunFiles& files = *run_.files();
     if (scene.species.size() < 2 || !files.last_measures()) return;
     const LateMeans& late = files.late_measures();

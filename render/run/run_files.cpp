@@ -6,12 +6,13 @@
 #include "engine/scene/bed.hpp"
 #include "render/run/moments/key_moments.hpp"
 #include "render/run/resume/kept_files.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 namespace {
 
-std::vector<std::string> species_names(const Scene& scene) {
+std::vector<std::string> species_names(const FilmedScene& scene) {
     std::vector<std::string> names;
     for (const Species& species : scene.species) names.push_back(species.name);
     return names;
@@ -19,7 +20,7 @@ std::vector<std::string> species_names(const Scene& scene) {
 
 }  // namespace
 
-TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::string& version) {
+TrajectoryInfo trajectory_info(const FilmedScene& scene, const Plan& plan, const std::string& version) {
     TrajectoryInfo info;
     info.title = scene.title;
     info.program_version = version;
@@ -35,7 +36,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
     return info;
 }
 
-double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pictures) {
+double film_moments_bytes(const FilmedScene& scene, const Plan& plan, std::int64_t pictures) {
     constexpr double most_bytes = 100e6, bytes_a_grain = 68;
     if (!scene.output.trajectory) return 0;
     const double bytes = bytes_a_grain * static_cast<double>(pictures) * static_cast<double>(plan.capacity);
@@ -54,7 +55,7 @@ void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
     }
 }
 
-RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+RunFiles::RunFiles(const std::filesystem::path& folder, const FilmedScene& scene, const Plan& plan,
                    const Simulation& simulation, const std::string& program_version)
     : folder_(folder),
       info_(trajectory_info(scene, plan, program_version)),
@@ -74,7 +75,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
         contacts_.emplace(folder / "contacts.nc", scene.title, program_version, info_.facts);
 }
 
-RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const FilmedScene& scene, const Plan& plan,
                    const Simulation& simulation, const std::string& program_version)
     : folder_(folder),
       info_(trajectory_info(scene, plan, program_version)),

@@ -15,9 +15,9 @@
 #include "engine/measure/measure_table.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/run/late_means.hpp"
 #include "render/run/moments/outflow_record.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -25,21 +25,22 @@ namespace grainreel {
 inline constexpr const char* kFilmMoments = "film_moments.nc";
 
 // What its files of moments say of a run.
-TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::string& program_version);
+TrajectoryInfo trajectory_info(const FilmedScene& scene, const Plan& plan,
+                               const std::string& program_version);
 
 // Bytes of that file for so many pictures; 0 where the scene keeps none.
-double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t pictures);
+double film_moments_bytes(const FilmedScene& scene, const Plan& plan, std::int64_t pictures);
 
 class RunFiles {
   public:
     // With room for all grains that the plan expects. Throws RunError when a file cannot be made.
-    RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+    RunFiles(const std::filesystem::path& folder, const FilmedScene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version);
     // Likewise, of a run that goes on in its folder from where the simulation is: what its files have of that
     // step and later ones is cut off first. ready_files() has looked at them. Throws UserError where they
     // lack something of what was before.
     struct GoesOn {};
-    RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+    RunFiles(GoesOn, const std::filesystem::path& folder, const FilmedScene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version);
 
     using Contacts = std::vector<Simulation::ContactRecord>;

@@ -13,6 +13,7 @@
 #include "engine/start/grain_table.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/run/moments/key_moments.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -30,10 +31,10 @@ bool give_second_name(const std::filesystem::path& file, const std::filesystem::
 
 }  // namespace
 
-SceneRun::SceneRun(const Scene& scene, const Plan& plan, int threads)
+SceneRun::SceneRun(const FilmedScene& scene, const Plan& plan, int threads)
     : scene_(scene), plan_(plan), simulation_(scene, plan, threads) {}
 
-SceneRun::SceneRun(const Scene& scene, const Plan& plan, ResumePoint point)
+SceneRun::SceneRun(const FilmedScene& scene, const Plan& plan, ResumePoint point)
     : scene_(scene),
       plan_(plan),
       simulation_(std::move(point.simulation)),

@@ -13,7 +13,6 @@
 #include "engine/plan/plan.hpp"
 #include "engine/replay/checkpoint_ring.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/run/checkpoint_pace.hpp"
 #include "render/run/first_failure.hpp"
 #include "render/run/frames/frame_source.hpp"
@@ -27,15 +26,16 @@
 #include "render/run/resume/resume_point.hpp"
 #include "render/run/run_files.hpp"
 #include "render/run/stage_times.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class SceneRun final : public FrameSource {
   public:
     // Throws UserError for what scene or plan get wrong; nothing is on disk then.
-    SceneRun(const Scene& scene, const Plan& plan, int threads);
+    SceneRun(const FilmedScene& scene, const Plan& plan, int threads);
     // A run that goes on in its folder. It is packed.
-    SceneRun(const Scene& scene, const Plan& plan, ResumePoint point);
+    SceneRun(const FilmedScene& scene, const Plan& plan, ResumePoint point);
 
     // Writes scene.toml there; the other files follow with start(). The lock outlives the run; from here
     // pack() and next() throw RunError soon after the folder is gone.
@@ -54,7 +54,7 @@ class SceneRun final : public FrameSource {
     // Before start(): key moments are kept with their contacts. A run that goes on does what it did.
     void keep_key_moments() { keys_wanted_ = true; }
 
-    const Scene& scene() const override { return scene_; }
+    const FilmedScene& scene() const override { return scene_; }
     Supply supply() const override { return {true, true, true, scene_.keeps_orientations()}; }
     Span span() const override;
     std::vector<Frame> moments(const Pictures& pictures) const override;
@@ -104,7 +104,7 @@ class SceneRun final : public FrameSource {
     void open_files(const std::vector<Shot>& shots);
     std::filesystem::path path_of(const char* file) const { return folder_->folder() / file; }
 
-    Scene scene_;
+    FilmedScene scene_;
     Plan plan_;
     Simulation simulation_;
     const FolderLock* folder_ = nullptr;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/measure/segregation/big_and_small.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -16,7 +17,7 @@ constexpr double wide_apart = 0.25;
 
 }  // namespace
 
-std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to,
+std::string segregation_text(const FilmedScene& scene, const Measures& from, const Measures& to,
                              const std::string& over) {
     const BigAndSmall kinds = big_and_small(scene.species);
     const std::string &big = scene.species[kinds.big].name, &small = scene.species[kinds.small].name;

@@ -4,14 +4,14 @@
 #include <string>
 
 #include "engine/measure/measures.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // Of a scene with two species or more. to: means over the rows that `over` names. Indices that are not
 // defined at the start and then are left out; empty where none is. Where the two that are 1 in a mixture
 // disagree, it says so.
-std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to,
+std::string segregation_text(const FilmedScene& scene, const Measures& from, const Measures& to,
                              const std::string& over);
 
 }  // namespace grainreel

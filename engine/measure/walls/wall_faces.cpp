@@ -9,7 +9,7 @@
 #include <set>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/film/measure_columns.hpp"
+#include "engine/scene/measure_columns.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

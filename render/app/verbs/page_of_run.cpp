@@ -4,6 +4,7 @@
 #include "engine/files/trajectory.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/run/frames/recorded_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -32,9 +33,9 @@ bool kept_moments(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<PlannedScene> planned_scene(const Scene& scene) {
+std::optional<PlannedScene> planned_scene(const FilmedScene& scene) {
     try {
-        Plan plan = make_plan(scene);
+        Plan plan = plan_with_film(scene);
         PlanWords words = plan_words(scene, plan);
         return PlannedScene{std::move(plan), std::move(words.lines), std::move(words.contacts)};
     } catch (const UserError&) {

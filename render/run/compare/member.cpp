@@ -6,10 +6,11 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-Member::Member(const Scene& scene, const Plan& plan, int threads) {
+Member::Member(const FilmedScene& scene, const Plan& plan, int threads) {
     auto run = std::make_unique<SceneRun>(scene, plan, threads);
     run_ = run.get();
     source_ = std::move(run);

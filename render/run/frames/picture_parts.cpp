@@ -5,6 +5,7 @@
 #include "render/film/sampling/sampler.hpp"
 #include "render/run/moments/displacement.hpp"
 #include "render/run/moments/period_means.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -20,7 +21,7 @@ Frame places_of(const Frame& frame) {
     return places;
 }
 
-PictureParts::PictureParts(const Scene& scene, const Clock& clock, std::int64_t first)
+PictureParts::PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first)
     : shows_(scene.film.shows),
       clock_(clock),
       first_(first),

@@ -10,7 +10,7 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -38,7 +38,7 @@ class PartSupply {
 class PictureParts {
   public:
     // Of the scene the film counts. first: the first step that is to be had.
-    PictureParts(const Scene& scene, const Clock& clock, std::int64_t first);
+    PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first);
 
     struct Moment {
         std::int64_t step = 0;

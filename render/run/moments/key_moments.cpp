@@ -1,4 +1,5 @@
 #include "render/run/moments/key_moments.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ constexpr int last_periods = 2, phases = 8;    // of the drive, and moments in e
 constexpr int between = 12;
 
 // What matters most comes first.
-std::vector<std::int64_t> wanted_steps(const Scene& scene, const Plan& plan, std::int64_t first) {
+std::vector<std::int64_t> wanted_steps(const FilmedScene& scene, const Plan& plan, std::int64_t first) {
     const std::int64_t last = plan.steps;
     std::vector<std::int64_t> steps{first, last};
     for (const FilmCaption& caption : scene.film.captions)
@@ -27,7 +28,7 @@ std::vector<std::int64_t> wanted_steps(const Scene& scene, const Plan& plan, std
 
 }  // namespace
 
-std::set<std::int64_t> key_steps(const Scene& scene, const Plan& plan, std::int64_t first) {
+std::set<std::int64_t> key_steps(const FilmedScene& scene, const Plan& plan, std::int64_t first) {
     std::set<std::int64_t> steps;
     const auto most = static_cast<std::size_t>(
         most_bytes / (bytes_a_grain * static_cast<double>(std::max<std::int64_t>(1, plan.capacity))));

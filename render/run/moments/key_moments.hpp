@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -16,6 +16,6 @@ inline constexpr const char *kKeyMoments = "key_moments.nc", *kKeyContacts = "ke
 
 // Their steps, from `first` to the plan's last. The more grains, the fewer, so that both files together take
 // 40 MB or so; none where a single moment takes more.
-std::set<std::int64_t> key_steps(const Scene& scene, const Plan& plan, std::int64_t first);
+std::set<std::int64_t> key_steps(const FilmedScene& scene, const Plan& plan, std::int64_t first);
 
 }  // namespace grainreel

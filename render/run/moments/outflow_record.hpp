@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class OutflowRecord {
   public:
-    explicit OutflowRecord(const Scene& scene);
+    explicit OutflowRecord(const FilmedScene& scene);
 
     // The whole rows of a run's file; none when there is no such file. Throws UserError when the file is no
     // outflow.csv of this scene.
-    static std::optional<OutflowRecord> read(const std::filesystem::path& file, const Scene& scene);
+    static std::optional<OutflowRecord> read(const std::filesystem::path& file, const FilmedScene& scene);
 
     // A grain that left, in the order of time (s). radius: m.
     void add(double time, std::int32_t species, double radius);

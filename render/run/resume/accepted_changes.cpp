@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -47,7 +48,8 @@ void check_can_change(const std::string& key) {
 }
 
 // The words of a caption. "Γ" and friction are what people know; of pairs that change alike it says so once.
-std::string words_for(const Scene& before, const Scene& after, const std::vector<AcceptedChange>& changes) {
+std::string words_for(const FilmedScene& before, const FilmedScene& after,
+                      const std::vector<AcceptedChange>& changes) {
     std::vector<std::string> parts;
     const auto add = [&](const std::string& part) {
         if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
@@ -71,7 +73,7 @@ std::string words_for(const Scene& before, const Scene& after, const std::vector
 }
 
 // Captions do not overlap: the one that is there then ends, and the next one comes when it did.
-void add_caption(Scene& scene, double time, const std::string& text) {
+void add_caption(FilmedScene& scene, double time, const std::string& text) {
     std::vector<FilmCaption>& captions = scene.film.captions;
     const auto next = std::find_if(captions.begin(), captions.end(),
                                    [&](const FilmCaption& caption) { return caption.from >= time; });
@@ -87,8 +89,9 @@ void add_caption(Scene& scene, double time, const std::string& text) {
 
 }  // namespace
 
-std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkpoint, const Scene& scene,
-                                             const Plan& plan, const std::vector<std::string>& accepted) {
+std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkpoint,
+                                             const FilmedScene& scene, const Plan& plan,
+                                             const std::vector<std::string>& accepted) {
     std::vector<AcceptedChange> changes;
     const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
     if (!label) return changes;
@@ -119,9 +122,9 @@ Assignments undone(const std::vector<AcceptedChange>& changes) {
     return sets;
 }
 
-Scene changed_at(double time, const Scene& before, const Scene& after,
-                 const std::vector<AcceptedChange>& changes) {
-    Scene scene = after;
+FilmedScene changed_at(double time, const FilmedScene& before, const FilmedScene& after,
+                       const std::vector<AcceptedChange>& changes) {
+    FilmedScene scene = after;
     const bool drive = std::any_of(changes.begin(), changes.end(),
                                    [](const AcceptedChange& change) { return is_of_drive(change.key); });
     if (drive) {
@@ -142,7 +145,7 @@ Scene changed_at(double time, const Scene& before, const Scene& after,
     return scene;
 }
 
-void check_overlap_stays(const Scene& scene, const Plan& before, const Plan& after) {
+void check_overlap_stays(const FilmedScene& scene, const Plan& before, const Plan& after) {
     const double limit = std::max(scene.run.overlap, before.expected_overlap);
     if (after.expected_overlap <= limit * (1 + 1e-9)) return;
     throw UserError(

@@ -12,6 +12,7 @@
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/plan/rhythm.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -73,13 +74,13 @@ std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
     return steps;
 }
 
-bool keeps_fields(const Scene& scene) {
-    const std::vector<std::string>& wanted = scene.output.instruments;
+bool keeps_fields(const FilmedScene& scene) {
+    const std::vector<std::string> wanted = scene.instruments();
     return scene.output.fields.wanted() ||
            std::find(wanted.begin(), wanted.end(), observers::WallForces::instrument) != wanted.end();
 }
 
-void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& plan) {
+void check_files_of_run(const fs::path& run, const FilmedScene& scene, const Plan& plan) {
     const auto need = [&](const char* name, bool wanted) {
         if (wanted && !is_there(run / name))
             throw UserError(fmt::format("{}: is missing, so the run cannot go on; run its scene.toml again",
@@ -104,7 +105,7 @@ std::int64_t reached_step(const fs::path& run, std::int64_t last_checkpoint) {
     return rows.empty() ? last_checkpoint : std::max(last_checkpoint, rows.back());
 }
 
-bool files_reach(const fs::path& run, const Scene& scene, const Plan& plan, std::int64_t first,
+bool files_reach(const fs::path& run, const FilmedScene& scene, const Plan& plan, std::int64_t first,
                  std::int64_t step) {
     if (scene.output.fields.wanted() && !has_all_fields(run / "fields.nc", plan, first, step)) return false;
     if (plan.trajectory_every > 0 && scene.output.contacts && !has_all_contacts(run, step)) return false;

@@ -15,6 +15,7 @@
 #include "render/run/moments/outflow_record.hpp"
 #include "render/run/resume/kept_files.hpp"
 #include "render/run/run_files.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -24,7 +25,7 @@ namespace {
 
 class Ready {
   public:
-    Ready(const fs::path& run, const Scene& scene, const Plan& plan, const Simulation& simulation,
+    Ready(const fs::path& run, const FilmedScene& scene, const Plan& plan, const Simulation& simulation,
           const std::string& version, FormerRun& former)
         : run_(run),
           scene_(scene),
@@ -113,7 +114,7 @@ class Ready {
     }
 
     const fs::path& run_;
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const Plan& plan_;
     const Simulation& simulation_;
     const TrajectoryInfo info_;
@@ -122,7 +123,7 @@ class Ready {
 
 }  // namespace
 
-ReadyFiles ready_files(const fs::path& run, const Scene& scene, const Plan& plan,
+ReadyFiles ready_files(const fs::path& run, const FilmedScene& scene, const Plan& plan,
                        const Simulation& simulation, std::optional<std::size_t> pictures,
                        const std::string& program_version, FormerRun& former) {
     Ready ready(run, scene, plan, simulation, program_version, former);

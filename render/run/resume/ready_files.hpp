@@ -9,7 +9,7 @@
 #include "engine/files/former_run.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -22,7 +22,7 @@ struct ReadyFiles {
 // where it will be cut. A file that has not enough places for the grains that are to come is written again
 // with more. pictures: how many moments of the film are kept; none where its file is left alone. Throws
 // UserError for a file with which the run cannot go on.
-ReadyFiles ready_files(const std::filesystem::path& run, const Scene& scene, const Plan& plan,
+ReadyFiles ready_files(const std::filesystem::path& run, const FilmedScene& scene, const Plan& plan,
                        const Simulation& simulation, std::optional<std::size_t> pictures,
                        const std::string& program_version, FormerRun& former);
 

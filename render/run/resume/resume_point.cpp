@@ -16,6 +16,7 @@
 #include "render/film/sampling/timeline.hpp"
 #include "render/run/resume/kept_files.hpp"
 #include "render/run/run_files.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -33,8 +34,8 @@ bool is_of_single_moments(const Film& film) {
 
 // The first step before `end` at which the film that is to be made and the pictures whose moments were kept
 // differ; `end` when there is none. A locked picture may have been left out.
-std::int64_t film_agrees_until(const Scene& scene, const Plan& plan, const std::vector<std::int64_t>& kept,
-                               std::int64_t first, std::int64_t end) {
+std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
+                               const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t end) {
     const std::vector<Instant> instants = instants_of(scene, plan.clock, plan.steps);
     std::size_t k = 0;
     for (const Shot& shot : shots_at(instants, scene.film.segments, plan.clock, plan.steps)) {
@@ -58,7 +59,7 @@ bool may_change(const std::string& key) {
 }
 
 // What is measured and kept must be what it was, for the files go on.
-void check_same_files(const std::string& then, const Scene& scene, const Plan& plan) {
+void check_same_files(const std::string& then, const FilmedScene& scene, const Plan& plan) {
     for (const KeyDifference& difference : differences_of_table(then, scene_to_keep(scene, plan), "output")) {
         if (may_change(difference.key)) continue;
         throw UserError(
@@ -77,7 +78,7 @@ struct Limits {
 
 // Whether the run had come to its end there, and is longer now. Its last record of fields may have been cut
 // short then, and what was gathered of it is gone.
-bool is_former_end(const KeptCheckpoint& one, const CheckpointLabel& label, const Scene& scene,
+bool is_former_end(const KeptCheckpoint& one, const CheckpointLabel& label, const FilmedScene& scene,
                    const Plan& plan) {
     for (const KeyDifference& difference :
          differences_of_table(label.scene, scene_to_keep(scene, plan), "run"))
@@ -86,8 +87,8 @@ bool is_former_end(const KeptCheckpoint& one, const CheckpointLabel& label, cons
     return false;
 }
 
-std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, const Plan& plan, int threads,
-                                 std::optional<UserError>& mistake) {
+std::optional<Simulation> usable(const KeptCheckpoint& one, const FilmedScene& scene, const Plan& plan,
+                                 int threads, std::optional<UserError>& mistake) {
     try {
         if (const auto label = label_of_checkpoint(one.file)) {
             check_same_files(label->scene, scene, plan);
@@ -123,13 +124,13 @@ std::string why_held_back(const KeptCheckpoint& one, const KeptCheckpoint& last,
 
 }  // namespace
 
-bool has_film(const Scene& scene, const fs::path& run) {
+bool has_film(const FilmedScene& scene, const fs::path& run) {
     const std::string name = film_file_name(scene.film.format);
     return (!name.empty() && (is_there(run / name) || is_there(run / (name + ".part")))) ||
            is_there(run / "movie.work") || is_there(run / "frames") || is_there(run / kFilmMoments);
 }
 
-ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::path& run, bool film,
+ResumePoint find_resume_point(const FilmedScene& scene, const Plan& plan, const fs::path& run, bool film,
                               int threads) {
     const std::vector<KeptCheckpoint> kept = kept_checkpoints(run);
     if (kept.empty())

@@ -8,7 +8,7 @@
 #include "engine/files/run_json.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -30,10 +30,10 @@ struct ResumePoint {
 //
 // scene, plan: how the run is to go on. Throws UserError where there is no such checkpoint, and where the
 // scene was changed.
-ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const std::filesystem::path& run,
+ResumePoint find_resume_point(const FilmedScene& scene, const Plan& plan, const std::filesystem::path& run,
                               bool film, int threads);
 
 // Whether the run's folder has a film, or the beginning of one.
-bool has_film(const Scene& scene, const std::filesystem::path& run);
+bool has_film(const FilmedScene& scene, const std::filesystem::path& run);
 
 }  // namespace grainreel

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/scene/chapters/words.hpp"
-#include "engine/scene/film/film_shows.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/scene/film_shows.hpp"
 
 namespace grainreel {
 

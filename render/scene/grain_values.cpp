@@ -1,4 +1,4 @@
-#include "engine/scene/film/grain_values.hpp"
+#include "render/scene/grain_values.hpp"
 
 #include <algorithm>
 #include <cmath>

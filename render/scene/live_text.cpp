@@ -1,4 +1,4 @@
-#include "engine/scene/film/live_text.hpp"
+#include "render/scene/live_text.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
-#include "engine/scene/film/grain_values.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {
