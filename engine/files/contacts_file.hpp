@@ -13,7 +13,7 @@
 #include "engine/files/file_facts.hpp"
 #include "engine/files/netcdf/kept_records.hpp"
 #include "engine/frame.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 
 namespace grainreel {
 

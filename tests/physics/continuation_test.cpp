@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/file/writer.hpp"
 #include "engine/scene/keys/keys.hpp"

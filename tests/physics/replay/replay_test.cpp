@@ -1,5 +1,5 @@
 // Moments of a run that are brought back from its checkpoints.
-#include "engine/replay/replay.hpp"
+#include "engine/run/replay/replay.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/replay/checkpoint_ring.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/file/writer.hpp"
 #include "tests/cli/small_scene.hpp"
