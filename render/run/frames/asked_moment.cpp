@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/nearest_image.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/files/trajectory.hpp"
 #include "engine/questions/displacement.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/state/container_faces.hpp"
