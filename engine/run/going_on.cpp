@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/wall_faces.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation_impl.hpp"
 #include "engine/start/restart.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "engine/measure/energy/energy.hpp"
 #include "engine/measure/segregation/segregation.hpp"
-#include "engine/measure/wall_faces.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation_impl.hpp"
 #include "engine/start/held_histories.hpp"
 #include "engine/start/latches.hpp"

@@ -15,6 +15,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/contact_force.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/contact_record.hpp"
 #include "engine/step/traffic.hpp"
 
 namespace grainreel {
@@ -87,13 +88,7 @@ class Simulation {
     std::uint64_t state_hash() const;  // of every bit that decides the future
 
     // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.
-    struct ContactRecord {
-        std::int32_t first, second;  // ids; second is -1 - face for a wall
-        double normal;               // N, >= 0
-        Vec3 tangential;             // N, on `second`
-        Vec3 point;                  // m
-        bool operator==(const ContactRecord&) const = default;
-    };
+    using ContactRecord = grainreel::ContactRecord;
     std::vector<ContactRecord> contacts() const;
     // All contacts that touch now, with what they do to the grains; in the same order.
     std::vector<ContactForce> contact_forces() const;

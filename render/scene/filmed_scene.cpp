@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/plan/warnings.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/scene/colours.hpp"
 #include "render/scene/keys/film_keys.hpp"

@@ -6,6 +6,7 @@
 #include "engine/frame.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
+#include "engine/measure/observers.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel::test {

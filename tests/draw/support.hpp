@@ -9,6 +9,7 @@
 
 #include "engine/frame.hpp"
 #include "render/picture/base/canvas.hpp"
+#include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/picture/words/layout.hpp"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/scene/file/writer.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 

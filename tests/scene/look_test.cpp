@@ -8,8 +8,8 @@
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/scene/grain_values.hpp"
 #include "tests/scene/scene_text.hpp"

@@ -1,4 +1,4 @@
-#include "engine/scene/file/writer.hpp"
+#include "engine/plan/resolved_scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/study/study_text.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/plan/plan.hpp"
+#include "engine/scene/chapters/reasons.hpp"
 #include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/key_parts.hpp"
 #include "engine/scene/scene.hpp"
@@ -23,10 +23,10 @@ void list_species(keys::Keys& all);
 void read_species(Document& document, Scene& scene, TableReader* further);
 void write_species(SceneText& out, const Scene& scene);
 
-// Written with the stiffness that the plan chose.
+// Written with the reasons for each stiffness.
 void list_contact(keys::Keys& all);
 void read_contact(Document& document, Scene& scene);  // after the species
-void write_contact(SceneText& out, const Scene& scene, const Plan& plan);
+void write_contact(SceneText& out, const Scene& scene, const Reasons& reasons);
 
 void list_container(keys::Keys& all);
 void read_container(Document& document, Scene& scene);
@@ -53,10 +53,10 @@ void list_start(keys::Keys& all);
 void read_start(Document& document, Scene& scene);  // after container and grains
 void write_start(SceneText& out, const Scene& scene);
 
-// [run] and [output]. Written with what the plan chose where the scene leaves it open.
+// [run] and [output]. Written with the reason for the step.
 void list_run(keys::Keys& all);
 void read_run(Document& document, Scene& scene);  // after the contacts
-void write_run(SceneText& out, const Scene& scene, const Plan& plan);
+void write_run(SceneText& out, const Scene& scene, const Reasons& reasons);
 
 // [output.fields].
 void list_fields(keys::Keys& all);

@@ -7,7 +7,7 @@
 
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/lattice_speed.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "render/app/estimate/engine_cost.hpp"
 #include "render/app/estimate/film_probe.hpp"
 #include "render/app/estimate/speed_cache.hpp"

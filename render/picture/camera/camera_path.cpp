@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
-#include "render/picture/container/container_drawing.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -220,6 +219,10 @@ View CameraPath::at(double film_time) const {
     view.nearest = std::max(0.01 * distance_, distance_ - 2 * reach);
     view.farthest = distance_ + 4 * reach;
     return view;
+}
+
+View frame_container(const FilmedScene& scene, const PictureLayout& layout) {
+    return CameraPath(scene, layout).at(0);
 }
 
 }  // namespace grainreel

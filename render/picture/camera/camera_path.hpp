@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "render/picture/base/monotone_curve.hpp"
+#include "render/picture/base/picture_layout.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/framing.hpp"
-#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -59,5 +59,8 @@ class CameraPath {
     Track azimuth_, elevation_, zoom_;  // the zoom by its logarithm
     std::vector<MonotoneCurve> place_;  // x, y, z of the target
 };
+
+// The scene's camera as the film begins.
+View frame_container(const FilmedScene& scene, const PictureLayout& layout);
 
 }  // namespace grainreel

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/floor_opening.hpp"
 #include "render/picture/container/lab_marks.hpp"
@@ -43,10 +42,6 @@ void draw_at(const Container& container, const Sketches& sketches, ContainerShap
 }
 
 }  // namespace
-
-View frame_container(const FilmedScene& scene, const PictureLayout& layout) {
-    return CameraPath(scene, layout).at(0);
-}
 
 void draw_container(const FilmedScene& scene, const Views& views, const Frame& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes) {

@@ -12,17 +12,12 @@
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/camera/framing.hpp"
-#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // m: how thick walls, floor and lid are drawn.
 double drawn_thickness(const Container& container);
-
-// The scene's camera as the film begins.
-View frame_container(const FilmedScene& scene, const PictureLayout& layout);
 
 // Walls on one side of the grains, as painted and as faces in space.
 struct WallSide {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/picture/container/container_drawing.hpp"
+#include "render/picture/camera/camera_path.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/scene/filmed_scene.hpp"
 

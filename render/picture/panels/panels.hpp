@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/picture/words/layout.hpp"
+#include "render/picture/base/picture_layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/picture/container/container_drawing.hpp"
+#include "render/picture/camera/camera_path.hpp"
 #include "render/picture/panels/panel_plots.hpp"
 #include "render/picture/panels/panel_words.hpp"
 #include "render/picture/text/cairo_surface.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "render/picture/container/container_drawing.hpp"
+#include "render/picture/camera/camera_path.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/first_gutter.hpp"
@@ -27,18 +27,6 @@ Frame widest_frame() {
     frame.cycles = 88888;
     frame.phase = 0.88;
     return frame;
-}
-
-// By the height, but in very narrow pictures by the width.
-TypeScale type_scale(const Film& film, double shrink) {
-    const double height = film.height, width = film.width;
-    TypeScale type{};
-    type.main = std::max(10.0, shrink * std::min(0.0265 * height, 0.05 * width));
-    type.minor = std::max(10.0, shrink * std::min(0.0195 * height, 0.037 * width));
-    type.title = std::max(11.0, shrink * std::min((width < height ? 0.029 : 0.034) * height, 0.055 * width));
-    type.gap = 0.6 * type.main;
-    type.margin = std::max(4.0, 0.03 * std::min(width, height));
-    return type;
 }
 
 namespace {
@@ -188,13 +176,6 @@ PictureLayout plan_layout(const FilmedScene& scene) {
     layout.plates =
         words == WordPlace::plates || (words == WordPlace::automatic && scene.film.camera.framed_by_user());
     if (layout.plates) layout.port = bare_layout(scene.film).port;
-    return layout;
-}
-
-PictureLayout bare_layout(const Film& film) {
-    PictureLayout layout;
-    layout.type = type_scale(film);
-    layout.port = {0, 0, film.width, film.height};
     return layout;
 }
 

@@ -10,7 +10,7 @@
 #include "engine/files/fields_file.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/trajectory.hpp"
-#include "engine/measure/observers/walls/wall_forces.hpp"
+#include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/plan/rhythm.hpp"
 #include "render/scene/filmed_scene.hpp"
 

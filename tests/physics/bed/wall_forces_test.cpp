@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/measure/columns.hpp"
-#include "engine/measure/wall_faces.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "tests/cli/small_scene.hpp"

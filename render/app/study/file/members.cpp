@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/scene/read_scene.hpp"

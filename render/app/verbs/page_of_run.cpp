@@ -1,4 +1,4 @@
-#include "render/app/report/page_of_run.hpp"
+#include "render/app/verbs/page_of_run.hpp"
 
 #include "engine/base/error.hpp"
 #include "engine/files/trajectory.hpp"

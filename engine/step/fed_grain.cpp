@@ -1,4 +1,4 @@
-#include "engine/start/fed_grain.hpp"
+#include "engine/step/fed_grain.hpp"
 
 #include "engine/base/random.hpp"
 #include "engine/scene/diameters.hpp"

@@ -14,7 +14,7 @@
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
-#include "engine/measure/wall_faces.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
 
 namespace grainreel::observers {
 

@@ -1,4 +1,4 @@
-#include "engine/measure/wall_faces.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
 
 #include <fmt/format.h>
 
