@@ -123,10 +123,10 @@ KeptRecords ContactsWriter::kept_of(const std::filesystem::path& path, std::size
     return NetcdfFile::kept_of(path, reader.rows_of_first(frames));
 }
 
-void ContactsWriter::write(std::int64_t frame, const std::vector<Simulation::ContactRecord>& contacts) {
+void ContactsWriter::write(std::int64_t frame, const std::vector<ContactRecord>& contacts) {
     if (contacts.empty()) return;
     std::vector<Row> rows;
-    for (const Simulation::ContactRecord& c : contacts)
+    for (const ContactRecord& c : contacts)
         rows.push_back({static_cast<std::int32_t>(frame), c.first, c.second, static_cast<float>(c.normal),
                         floats(c.tangential), floats(c.point)});
     using Int = std::array<int, 1>;

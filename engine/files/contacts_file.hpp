@@ -13,7 +13,7 @@
 #include "engine/files/file_facts.hpp"
 #include "engine/files/netcdf/kept_records.hpp"
 #include "engine/frame.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/state/contact_record.hpp"
 
 namespace grainreel {
 
@@ -32,7 +32,7 @@ class ContactsWriter {
 
     // The rows are in the file when this returns. Throws RunError when they could not be written; those of
     // the frames before stay readable.
-    void write(std::int64_t frame, const std::vector<Simulation::ContactRecord>& contacts);
+    void write(std::int64_t frame, const std::vector<ContactRecord>& contacts);
 
   private:
     struct Impl;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/wall_faces.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
 
 namespace grainreel {
 namespace {

@@ -7,9 +7,16 @@
 namespace grainreel {
 namespace {
 
+template <class T>
+ObserverColumns columns_of() {
+    ObserverColumns known{nullptr, &T::columns};
+    if constexpr (requires { T::instrument; }) known.instrument = T::instrument;
+    return known;
+}
+
 template <class... Each>
-std::vector<ObserverEntry> entries_of(ObserverList<Each...>) {
-    return {entry_of<Each>()...};
+std::vector<ObserverColumns> columns_of_all(ObserverList<Each...>) {
+    return {columns_of<Each>()...};
 }
 
 std::string names_of(const std::vector<MeasureColumn>& columns) {
@@ -29,21 +36,21 @@ Scene scene_of_names() {
     return scene;
 }
 
-std::string instrument_of(const ObserverEntry& entry) {
+std::string instrument_of(const ObserverColumns& entry) {
     return entry.instrument == nullptr ? "" : fmt::format(" (instrument `{}`)", entry.instrument);
 }
 
 }  // namespace
 
-const std::vector<ObserverEntry>& all_observers() {
-    static const std::vector<ObserverEntry> all = entries_of(RowObservers());
+const std::vector<ObserverColumns>& observer_columns() {
+    static const std::vector<ObserverColumns> all = columns_of_all(RowObservers());
     return all;
 }
 
 std::vector<MeasureColumn> measure_columns(const Scene& scene) {
     std::vector<MeasureColumn> columns;
-    for (const ObserverEntry& entry : all_observers())
-        for (ColumnGroup& group : entry.columns(scene))
+    for (const ObserverColumns& entry : observer_columns())
+        for (ColumnGroup& group : entry.groups(scene))
             for (MeasureColumn& column : group.columns) {
                 if (entry.instrument != nullptr) column.instrument = entry.instrument;
                 columns.push_back(std::move(column));
@@ -53,15 +60,15 @@ std::vector<MeasureColumn> measure_columns(const Scene& scene) {
 
 Measurable measurable_in(const Scene& scene) {
     Measurable all{measure_columns(scene), {}};
-    for (const ObserverEntry& entry : all_observers())
+    for (const ObserverColumns& entry : observer_columns())
         if (entry.instrument != nullptr) all.instruments.push_back(entry.instrument);
     return all;
 }
 
 std::string column_table_markdown() {
     std::string text = "| column | unit | what it is |\n|---|---|---|\n";
-    for (const ObserverEntry& entry : all_observers())
-        for (const ColumnGroup& group : entry.columns(scene_of_names()))
+    for (const ObserverColumns& entry : observer_columns())
+        for (const ColumnGroup& group : entry.groups(scene_of_names()))
             text += fmt::format("| {} | {} | {}{} |\n", names_of(group.columns), group.unit, group.about,
                                 instrument_of(entry));
     return text;

@@ -1,15 +1,21 @@
-// What all observers of observer_list.hpp give, without a state.
+// What all observers of observer_list.hpp give, without a state and without the step loop: what is known
+// where a scene is read or a frame is drawn.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "engine/measure/observer.hpp"
+#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
+struct ObserverColumns {
+    const char* instrument;  // that a scene asks for by name; null: none
+    std::vector<ColumnGroup> (*groups)(const Scene& scene);
+};
 // In the order of their columns.
-const std::vector<ObserverEntry>& all_observers();
+const std::vector<ObserverColumns>& observer_columns();
 
 // The columns of all of them, those of instruments that the scene does not ask for among them.
 std::vector<MeasureColumn> measure_columns(const Scene& scene);

@@ -1,7 +1,7 @@
 // What measures: an observer sees the state and changes nothing.
 //
-// An observer is a class in a file of engine/measure/observers, and a name in observer_list.hpp. Besides what
-// is virtual here it has
+// An observer is a class in a file NAME_observer.hpp, beside the formula that it uses, and a name in
+// observer_list.hpp. Besides what is virtual here it has
 //     static std::vector<ColumnGroup> columns(const Scene& scene);
 // which says what it gives, without a state: the scene's reader knows columns from it. An observer that is
 // made only where the scene asks for it (output.instruments, or a plot or live word of its columns) also has
@@ -23,7 +23,7 @@
 #include "engine/base/clock.hpp"
 #include "engine/measure/field.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/film/measure_columns.hpp"
+#include "engine/scene/measure_columns.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/drive_pose.hpp"

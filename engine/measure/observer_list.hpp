@@ -1,34 +1,35 @@
-// Every observer of measures.csv, in the order of the columns. A new one is its file and its name here.
+// Every observer of measures.csv, in the order of the columns. A new one is a file NAME_observer.hpp beside
+// its formula, and its include and its name here.
 //
-// Both libraries read this list: grainreel_scene, which knows the columns where a scene is read, takes only
-// columns() from it, and grainreel_core makes the observers.
+// Two files read this list. columns.cpp takes only what is static of each, so it needs no step loop;
+// observer_list.cpp makes them.
 #pragma once
 
-#include "engine/measure/observers/bed/bed_motion.hpp"
-#include "engine/measure/observers/bed/bed_periods.hpp"
-#include "engine/measure/observers/bed/bed_shape.hpp"
-#include "engine/measure/observers/bed/fabric.hpp"
-#include "engine/measure/observers/bed/intruder.hpp"
-#include "engine/measure/observers/centre_of_mass.hpp"
-#include "engine/measure/observers/coarse_grained_fields.hpp"
-#include "engine/measure/observers/contact_number.hpp"
-#include "engine/measure/observers/drive_now.hpp"
-#include "engine/measure/observers/energies.hpp"
-#include "engine/measure/observers/energy_shares.hpp"
-#include "engine/measure/observers/floor_position.hpp"
-#include "engine/measure/observers/flow/convection.hpp"
-#include "engine/measure/observers/flow/outflow.hpp"
-#include "engine/measure/observers/largest_overlap.hpp"
-#include "engine/measure/observers/segregation/big_above_small.hpp"
-#include "engine/measure/observers/segregation/big_at_walls.hpp"
-#include "engine/measure/observers/segregation/big_in_quarters.hpp"
-#include "engine/measure/observers/segregation/height_difference.hpp"
-#include "engine/measure/observers/segregation/mixing.hpp"
-#include "engine/measure/observers/segregation/unlike.hpp"
-#include "engine/measure/observers/species_places.hpp"
-#include "engine/measure/observers/surface/bed_surface.hpp"
-#include "engine/measure/observers/times.hpp"
-#include "engine/measure/observers/walls/wall_forces.hpp"
+#include "engine/measure/bed/bed_motion_observer.hpp"
+#include "engine/measure/bed/bed_periods_observer.hpp"
+#include "engine/measure/bed/bed_shape_observer.hpp"
+#include "engine/measure/bed/centre_of_mass_observer.hpp"
+#include "engine/measure/bed/contact_number_observer.hpp"
+#include "engine/measure/bed/fabric_observer.hpp"
+#include "engine/measure/bed/intruder_observer.hpp"
+#include "engine/measure/bed/largest_overlap_observer.hpp"
+#include "engine/measure/bed/species_places_observer.hpp"
+#include "engine/measure/drive/drive_now_observer.hpp"
+#include "engine/measure/drive/floor_position_observer.hpp"
+#include "engine/measure/drive/times_observer.hpp"
+#include "engine/measure/energy/energies_observer.hpp"
+#include "engine/measure/energy/energy_shares_observer.hpp"
+#include "engine/measure/fields/coarse_graining_observer.hpp"
+#include "engine/measure/flow/convection_observer.hpp"
+#include "engine/measure/flow/outflow_observer.hpp"
+#include "engine/measure/segregation/big_above_small_observer.hpp"
+#include "engine/measure/segregation/big_at_walls_observer.hpp"
+#include "engine/measure/segregation/big_in_quarters_observer.hpp"
+#include "engine/measure/segregation/height_difference_observer.hpp"
+#include "engine/measure/segregation/mixing_observer.hpp"
+#include "engine/measure/segregation/unlike_neighbours_observer.hpp"
+#include "engine/measure/surface/surface_observer.hpp"
+#include "engine/measure/walls/wall_forces_observer.hpp"
 
 namespace grainreel {
 

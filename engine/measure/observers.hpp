@@ -15,6 +15,9 @@ namespace grainreel {
 // Shows all contacts of a moment to `see`.
 using ShowContacts = std::function<void(const std::function<void(const ContactView&)>& see)>;
 
+// Those of observer_list.hpp, in the order of their columns.
+const std::vector<ObserverEntry>& all_observers();
+
 class Observers {
   public:
     // Makes those of `table` that are always made, and those of the instruments that scene.output names.

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/wall_faces.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
 #include "engine/questions/forces.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/state/container_faces.hpp"

@@ -183,8 +183,8 @@ AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
                name.find("centre_") != std::string::npos;
     };
     std::map<std::string, std::string> labels, abouts;
-    for (const ObserverEntry& entry : all_observers())
-        for (const ColumnGroup& group : entry.columns(s.scene))
+    for (const ObserverColumns& entry : observer_columns())
+        for (const ColumnGroup& group : entry.groups(s.scene))
             for (const MeasureColumn& column : group.columns) {
                 labels[column.name] = column.label;
                 abouts[column.name] = in_short(group.about);

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 

@@ -10,9 +10,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/grain_table.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/start/fed_grain.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/step/fed_grain.hpp"
 
 namespace grainreel {
 

@@ -23,7 +23,7 @@ constexpr const char* kDamaged = "is damaged, or of another version of grainreel
 // What a scene that an earlier version kept means today: keys that it did not know have their defaults.
 std::string meant_today(const fs::path& checkpoint, const std::string& kept) {
     try {
-        const Scene scene = scene_of_checkpoint(checkpoint, {});
+        const Scene scene = scene_of_checkpoint(checkpoint);
         return scene_to_keep(scene, make_plan(scene));
     } catch (const UserError&) {
         return kept;

@@ -58,26 +58,33 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
     return make_plan(started_from(scene, kept.front().file));
 }
 
-Scene scene_of_checkpoint(const fs::path& checkpoint, const Assignments& sets) {
+CheckpointScene scene_in_checkpoint(const fs::path& checkpoint) {
     const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
     if (!label)
         throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
                                     checkpoint.string()));
     // It does not say how its grains came to be; they are in it.
     const std::string name = checkpoint.string();
-    Assignments all{{"start.method=file", name},
-                    {"start.file=" + fs::absolute(checkpoint).string(), name},
-                    {"start.keep_clock=true", name}};
-    all.insert(all.end(), sets.begin(), sets.end());
-    return read_scene_text(label->scene, checkpoint, all, measurable_in);
+    return {{label->scene, checkpoint},
+            {{"start.method=file", name},
+             {"start.file=" + fs::absolute(checkpoint).string(), name},
+             {"start.keep_clock=true", name}}};
+}
+
+Scene scene_of_checkpoint(const fs::path& checkpoint) {
+    const auto [text, sets] = scene_in_checkpoint(checkpoint);
+    Scene scene;
+    read_scene_into(scene, text, sets, measurable_in);
+    return scene;
 }
 
 Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {
-    Scene scene = scene_of_checkpoint(checkpoint, {});
+    Scene scene = scene_of_checkpoint(checkpoint);
     // Instruments and fields see the run and change nothing of it.
     scene.output.instruments.clear();
+    scene.wishes = {};
     scene.output.fields = {};
-    return Simulation::at_checkpoint(scene, make_plan(scene), checkpoint, threads);
+    return Simulation::at_checkpoint(scene, make_plan(scene), checkpoint, threads, false, true);
 }
 
 Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,

@@ -11,6 +11,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/simulation/simulation.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 
@@ -23,9 +24,14 @@ using ReplayWatcher = std::function<bool(double done)>;
 // UserError where there is no checkpoint.
 Plan plan_of_run(const Scene& scene, const std::filesystem::path& run);
 
-// The scene as it was used, with changes; it starts from the checkpoint. Throws UserError where the file is
-// none.
-Scene scene_of_checkpoint(const std::filesystem::path& checkpoint, const Assignments& sets);
+// The text of the scene as it was used, and what makes it start from the checkpoint. Whoever reads it adds
+// own changes. Throws UserError where the file is none.
+struct CheckpointScene {
+    NamedText text;
+    Assignments sets;
+};
+CheckpointScene scene_in_checkpoint(const std::filesystem::path& checkpoint);
+Scene scene_of_checkpoint(const std::filesystem::path& checkpoint);
 
 // A run with the scene that a checkpoint of it holds, as it was used; instruments and fields are left out.
 // Throws UserError where the checkpoint cannot be used.

@@ -10,7 +10,7 @@
 #include "engine/files/fields_file.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/trajectory.hpp"
-#include "engine/measure/observers/walls/wall_forces.hpp"
+#include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/plan/rhythm.hpp"
 
 namespace grainreel {
@@ -74,7 +74,7 @@ std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
 }
 
 bool keeps_fields(const Scene& scene) {
-    const std::vector<std::string>& wanted = scene.output.instruments;
+    const std::vector<std::string> wanted = scene.instruments();
     return scene.output.fields.wanted() ||
            std::find(wanted.begin(), wanted.end(), observers::WallForces::instrument) != wanted.end();
 }

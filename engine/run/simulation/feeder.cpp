@@ -7,8 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
-#include "engine/start/fed_grain.hpp"
 #include "engine/start/free_places.hpp"
+#include "engine/step/fed_grain.hpp"
 
 namespace grainreel {
 namespace {

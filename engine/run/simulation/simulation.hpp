@@ -15,6 +15,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation/contact_force.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/contact_record.hpp"
 #include "engine/step/traffic.hpp"
 
 namespace grainreel {
@@ -47,10 +48,11 @@ class Simulation {
     Simulation(const Scene& scene, const Plan& plan, int threads);
     // The run of the scene as a checkpoint of it has it, which may be its last step. Takes the place of the
     // scene's own start and of pack(). Throws UserError where the checkpoint cannot be used, or is of another
-    // run. may_change: the scene may be another one from then on, which the caller has checked.
+    // run. may_change: the scene may be another one from then on, which the caller has checked. replays: it
+    // has orientations where the checkpoint has them, whatever the scene says.
     static Simulation at_checkpoint(const Scene& scene, const Plan& plan,
                                     const std::filesystem::path& checkpoint, int threads,
-                                    bool may_change = false);
+                                    bool may_change = false, bool replays = false);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
@@ -86,13 +88,7 @@ class Simulation {
     std::uint64_t state_hash() const;  // of every bit that decides the future
 
     // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.
-    struct ContactRecord {
-        std::int32_t first, second;  // ids; second is -1 - face for a wall
-        double normal;               // N, >= 0
-        Vec3 tangential;             // N, on `second`
-        Vec3 point;                  // m
-        bool operator==(const ContactRecord&) const = default;
-    };
+    using ContactRecord = grainreel::ContactRecord;
     std::vector<ContactRecord> contacts() const;
     // All contacts that touch now, with what they do to the grains; in the same order.
     std::vector<ContactForce> contact_forces() const;

@@ -1,10 +1,10 @@
 // The chapters of a scene. Each adds its keys to the list of all, reads them and writes them back. The
-// chapters of [film] are in engine/scene/film/film_keys.hpp. Internal to the reader and the writer.
+// chapters of [film] are in render/scene/keys. Internal to the reader and the writer.
 #pragma once
 
 #include <string>
 
-#include "engine/plan/plan.hpp"
+#include "engine/scene/chapters/reasons.hpp"
 #include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/key_parts.hpp"
 #include "engine/scene/scene.hpp"
@@ -12,19 +12,21 @@
 
 namespace grainreel {
 
+class TableReader;
+
 // Title and gravity, above all tables.
 void list_top_level(keys::Keys& all);
 void read_top_level(Document& document, Scene& scene);
 void write_top_level(SceneText& out, const Scene& scene);
 
 void list_species(keys::Keys& all);
-void read_species(Document& document, Scene& scene);
+void read_species(Document& document, Scene& scene, TableReader* further);
 void write_species(SceneText& out, const Scene& scene);
 
-// Written with the stiffness that the plan chose.
+// Written with the reasons for each stiffness.
 void list_contact(keys::Keys& all);
 void read_contact(Document& document, Scene& scene);  // after the species
-void write_contact(SceneText& out, const Scene& scene, const Plan& plan);
+void write_contact(SceneText& out, const Scene& scene, const Reasons& reasons);
 
 void list_container(keys::Keys& all);
 void read_container(Document& document, Scene& scene);
@@ -51,17 +53,15 @@ void list_start(keys::Keys& all);
 void read_start(Document& document, Scene& scene);  // after container and grains
 void write_start(SceneText& out, const Scene& scene);
 
-// [run] and [output]. Written with what the plan chose where the scene leaves it open.
+// [run] and [output]. Written with the reason for the step.
 void list_run(keys::Keys& all);
 void read_run(Document& document, Scene& scene);  // after the contacts
-void write_run(SceneText& out, const Scene& scene, const Plan& plan);
+void write_run(SceneText& out, const Scene& scene, const Reasons& reasons);
 
 // [output.fields].
 void list_fields(keys::Keys& all);
 void read_fields(Document& document, Scene& scene);  // after drive and run, and the count of fed grains
 void write_fields(SceneText& out, const Scene& scene);
-
-void read_film(Document& document, Scene& scene);  // after drive and run
 
 // Gives empty space the size of what happens in it, when all else is read.
 void size_empty_space(Scene& scene);

@@ -191,31 +191,21 @@ void read_exception(Document& document, const Scene& scene, const std::string& t
     contact.grain[b * count + a] = contact.grain[a * count + b];
 }
 
-// The stiffness that was used, and why if the scene does not say it.
-std::optional<double> used(SceneText& out, const char* glued, bool said, const PairPlan& plan) {
-    const bool hertz = plan.model.normal == NormalForce::hertz;
-    if (!said)
-        out.remark(fmt::format("{}{}", glued, hertz ? "modulus" : "stiffness"),
-                   fmt::format("chosen for: {}", plan.stiffness_reason));
-    return hertz ? plan.modulus : plan.loading_stiffness;
+// Above the stiffness of that kind of contact, where there is one.
+void put_reason(SceneText& out, const std::string& key, const std::vector<std::string>& reasons,
+                std::size_t kind) {
+    if (kind < reasons.size() && !reasons[kind].empty())
+        out.remark(key, fmt::format("chosen for: {}", reasons[kind]));
 }
 
-// glued: of the contacts with those of the two that are glued to walls; null: none are.
-void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, const PairPlan& plan,
-                const PairPlan* glued, const Partners& partners) {
+const char* stiffness_key(const PairContact& pair) {
+    return pair.normal == NormalLaw::hertz ? "modulus" : "stiffness";
+}
+
+void write_pair(SceneText& out, const Scene& scene, const PairContact& pair, const Partners& partners) {
     out.element("contact.pair");
     partners_table().write(out, scene, partners);
-    PairContact chosen = pair;
-    chosen.stiffness = used(out, "", pair.stiffness.has_value(), plan);
-    if (glued) chosen.glued_stiffness = used(out, "glued_", pair.glued_stiffness || pair.stiffness, *glued);
-    contact_table().write(out, scene, chosen);
-}
-
-// The contact of grains of one species with glued grains of the other.
-const PairPlan* glued_plan(const Scene& scene, const Plan& plan, std::size_t a, std::size_t b) {
-    if (plan.glued.empty()) return nullptr;
-    const std::size_t glued = scene.container.wall_grains->species;
-    return a == glued ? &plan.glued[b] : b == glued ? &plan.glued[a] : nullptr;
+    contact_table().write(out, scene, pair);
 }
 
 }  // namespace
@@ -255,15 +245,19 @@ void read_contact(Document& document, Scene& scene) {
     if (!contact.rubs()) contact.arms = LeverArms::contact_plane;
 }
 
-void write_contact(SceneText& out, const Scene& scene, const Plan& plan) {
+void write_contact(SceneText& out, const Scene& scene, const Reasons& reasons) {
     out.table("contact");
     common_table().write(out, scene, scene.contact);
     const std::size_t count = scene.species.size();
     for (std::size_t a = 0; a < count; ++a) {
-        for (std::size_t b = a; b < count; ++b)
-            write_pair(out, scene, scene.between(a, b), plan.between(a, b), glued_plan(scene, plan, a, b),
-                       {a, b});
-        write_pair(out, scene, scene.contact.wall[a], plan.wall[a], nullptr, {a, count});
+        for (std::size_t b = a; b < count; ++b) {
+            const PairContact& pair = scene.between(a, b);
+            put_reason(out, stiffness_key(pair), reasons.grain, a * count + b);
+            put_reason(out, fmt::format("glued_{}", stiffness_key(pair)), reasons.glued, a * count + b);
+            write_pair(out, scene, pair, {a, b});
+        }
+        put_reason(out, stiffness_key(scene.contact.wall[a]), reasons.wall, a);
+        write_pair(out, scene, scene.contact.wall[a], {a, count});
     }
 }
 

@@ -135,7 +135,7 @@ const KeyTable<Output>& output_table() {
             [](Document& document, const Scene&, const std::string& path, O& into) {
                 into.instruments = document.name_list(path);
             },
-            [](const O& from, const Scene&) { return names_text(from.instruments); })
+            [](const O&, const Scene& scene) { return names_text(scene.instruments()); })
             .written_at(1),
     };
     return table;
@@ -160,18 +160,12 @@ void read_run(Document& document, Scene& scene) {
     output_table().read(document, scene, "output", scene.output);
 }
 
-void write_run(SceneText& out, const Scene& scene, const Plan& plan) {
-    Run run = scene.run;
-    run.step = plan.clock.step;
+void write_run(SceneText& out, const Scene& scene, const Reasons& reasons) {
     out.table("run");
-    if (!scene.run.step) out.remark("step", fmt::format("chosen for: {}", plan.step_reason));
-    run_table().write(out, scene, run);
-
-    Output output = scene.output;
-    if (plan.trajectory_periods == 0) output.trajectory_interval = plan.trajectory_every * plan.clock.step;
-    if (plan.measures_periods == 0) output.measures_interval = plan.measures_every * plan.clock.step;
+    if (!reasons.step.empty()) out.remark("step", fmt::format("chosen for: {}", reasons.step));
+    run_table().write(out, scene, scene.run);
     out.table("output");
-    output_table().write(out, scene, output);
+    output_table().write(out, scene, scene.output);
     write_fields(out, scene);
 }
 

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "engine/plan/plan.hpp"
+#include "engine/scene/chapters/reasons.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
-// Every value as resolved, in SI, also what the plan chose (stiffness of every pair, step). read_scene gives
-// the same Scene back, bit by bit, with the plan's choices filled in; make_plan then gives the same Plan.
-std::string resolved_scene(const Scene& scene, const Plan& plan);
+// Every value as resolved, in SI. read_scene gives the same Scene back, bit by bit. Values that have a reason
+// get it as a comment.
+std::string written_scene(const Scene& scene, const Reasons& reasons = {});
 
 }  // namespace grainreel

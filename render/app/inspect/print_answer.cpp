@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/film/grain_values.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {

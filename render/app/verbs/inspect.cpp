@@ -193,10 +193,11 @@ class Inspect final : public Verb {
     Answer single_answer(MomentFinder& finder, const Record& record, Reporter& reporter) {
         const ChosenMoment chosen = snapshot_of(finder, record, reporter);
         const Snapshot& snapshot = chosen.snapshot;
-        Answer answer = answer_of(finder, snapshot, reporter);
+        Answer answer = answer_of(finder, record.scene(), snapshot, reporter);
         answer.moment = chosen.about;
         if (!picture_.empty())
-            draw_answer(snapshot, marks_of(snapshot, answer), film_time(snapshot), picture_, gl_);
+            draw_answer(snapshot, record.scene(), marks_of(snapshot, answer), film_time(record.scene()),
+                        picture_, gl_);
         return answer;
     }
 
@@ -243,9 +244,9 @@ class Inspect final : public Verb {
     bool asks_for_forces() const { return wall_ || largest_overlap_; }
 
     // s of the film; a camera that moves is somewhere else at each.
-    double film_time(const Snapshot& snapshot) const {
+    double film_time(const FilmedScene& scene) const {
         if (film_time_) return *film_time_;
-        return moment_.frame ? static_cast<double>(*moment_.frame) / snapshot.scene.film.rate : 0;
+        return moment_.frame ? static_cast<double>(*moment_.frame) / scene.film.rate : 0;
     }
 
     bool asks_nothing() const {
@@ -348,7 +349,7 @@ class Inspect final : public Verb {
             else if (histogram)
                 named("--histogram", [&] { return histogram->add(snapshot); });
             else
-                mean.add(answer_of(finder, snapshot, reporter), snapshot.frame.time);
+                mean.add(answer_of(finder, record.scene(), snapshot, reporter), snapshot.frame.time);
         });
         if (moments == 0)
             throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
@@ -367,7 +368,8 @@ class Inspect final : public Verb {
         return answer;
     }
 
-    Answer answer_of(MomentFinder& finder, const Snapshot& snapshot, Reporter& reporter) const {
+    Answer answer_of(MomentFinder& finder, const FilmedScene& scene, const Snapshot& snapshot,
+                     Reporter& reporter) const {
         if (wall_) return named("--wall", [&] { return wall_answer(snapshot, *wall_, limit_); });
         if (largest_overlap_) return largest_overlap_answer(snapshot, limit_);
         if (grain_) return named("--grain", [&] { return grain_answer(snapshot, *grain_); });
@@ -380,7 +382,8 @@ class Inspect final : public Verb {
             });
         if (!pixel_.empty())
             return named("--pixel", [&] {
-                Answer there = PixelPicker(snapshot, film_time(snapshot)).at(pixel_[0], pixel_[1], through_);
+                Answer there =
+                    PixelPicker(snapshot, scene, film_time(scene)).at(pixel_[0], pixel_[1], through_);
                 if (there.tables[0].rows.empty())
                     throw UserError(fmt::format("nothing is at {:g},{:g}", pixel_[0], pixel_[1]));
                 return there;

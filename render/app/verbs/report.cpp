@@ -9,9 +9,9 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/report/page_of_run.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/report/share_watcher.hpp"
+#include "render/app/verbs/page_of_run.hpp"
 #include "render/app/verbs/verb.hpp"
 
 namespace grainreel {

@@ -24,4 +24,7 @@ struct Picture {
     }
 };
 
+// From colours multiplied by their alpha, as layers have them, to plain ones, as pictures have them.
+void divide_by_alpha(Picture& picture, const Rectangle& port);
+
 }  // namespace grainreel

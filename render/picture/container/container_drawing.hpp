@@ -9,20 +9,15 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/camera/framing.hpp"
-#include "render/picture/words/layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // m: how thick walls, floor and lid are drawn.
 double drawn_thickness(const Container& container);
-
-// The scene's camera as the film begins.
-View frame_container(const Scene& scene, const PictureLayout& layout);
 
 // Walls on one side of the grains, as painted and as faces in space.
 struct WallSide {
@@ -51,7 +46,7 @@ struct Views {
 
 // The frame as it is to be shown, with the motion exaggerated. picture_height: pixels; line widths follow
 // from it.
-void draw_container(const Scene& scene, const Views& views, const Frame& frame, const Palette& palette,
+void draw_container(const FilmedScene& scene, const Views& views, const Frame& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes);
 
 }  // namespace grainreel

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/film/grain_values.hpp"
 #include "render/picture/grains/colour_map.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {

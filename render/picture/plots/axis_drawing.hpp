@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "render/picture/base/picture_layout.hpp"
 #include "render/picture/text/text.hpp"
-#include "render/picture/words/layout.hpp"
 
 namespace grainreel {
 

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 
-#include "render/picture/whole/compose.hpp"
-
 namespace grainreel {
 
 CairoSurface blank_surface(const Rectangle& part, const Colour& colour, double alpha) {

@@ -27,7 +27,4 @@ struct Layers {
 // The result goes into the port's part of the picture.
 void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team);
 
-// From colours multiplied by their alpha, as layers have them, to plain ones, as pictures have them.
-void divide_by_alpha(Picture& picture, const Rectangle& port);
-
 }  // namespace grainreel

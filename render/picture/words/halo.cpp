@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/picture/whole/compose.hpp"
-
 namespace grainreel {
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
-#include "render/picture/words/layout.hpp"
+#include "render/picture/base/picture_layout.hpp"
 
 namespace grainreel {
 

@@ -1,39 +1,17 @@
-// Who gets which part of the picture: gutters for words, the rest for the container.
+// Gutters for words, planned from what the scene's words need.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
-#include "render/picture/base/view.hpp"
+#include "render/picture/base/picture_layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-// Sizes of letters and gaps, pixels.
-struct TypeScale {
-    double main, minor, title, gap, margin;
-};
-// Main text at least 2.5 % and minor text 1.8 % of the picture's height; both times `shrink`, but never below
-// 10 pixels.
-TypeScale type_scale(const Film& film, double shrink = 1);
-
-struct PictureLayout {
-    bool stacked = false;               // gutters above and below instead of left and right
-    TypeScale type{};                   // of the words
-    Rectangle first;                    // left or top: title, legend, scale
-    Rectangle second;                   // right or bottom: time, drive, playback
-    Rectangle port;                     // the container
-    bool plates = false;                // the port is the whole picture, and words lie over it
-    std::vector<std::string> left_out;  // words that there is no room for
-};
 // A frame whose words are as long as they get.
 Frame widest_frame();
 // As film.words has it. Gutters are as wide as their words need, and at most about a third of the picture
 // each: left and right, or above and below, whichever leaves the container larger. Words shrink to their
 // least size, four fifths, before any is left out.
-PictureLayout plan_layout(const Scene& scene);
-// The container has the whole picture, and there are no words.
-PictureLayout bare_layout(const Film& film);
+PictureLayout plan_layout(const FilmedScene& scene);
 
 }  // namespace grainreel

@@ -14,6 +14,7 @@
 #include "engine/state/container_faces.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -21,7 +22,7 @@ namespace {
 
 // m/s2, of each grain of `now`, from its places now and a step later: x' = x + dt v + dt^2 a / 2 with
 // velocity Verlet, x' = x + dt (v + dt a) with leapfrog. Empty with other integrators.
-std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Frame& later, double step) {
+std::vector<Vec3> accelerations(const FilmedScene& scene, const Frame& now, const Frame& later, double step) {
     const Integrator integrator = scene.run.integrator;
     if (integrator != Integrator::velocity_verlet && integrator != Integrator::leapfrog) return {};
     const double share = integrator == Integrator::velocity_verlet ? 2 : 1;
@@ -149,7 +150,7 @@ void MomentFinder::check_can_bring_back(const AskedMoment& moment) const {
 
 Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatcher& watcher) {
     check_can_bring_back(moment);
-    const Scene& scene = record_.scene();
+    const FilmedScene& scene = record_.scene();
     Simulation run =
         replayed(record_.folder(), record_.checkpoints(), moment.step, scene.run.threads, watcher);
     Snapshot snapshot = snapshot_of(run, record_);
@@ -159,7 +160,7 @@ Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatch
 }
 
 Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const ReplayWatcher& watcher) {
-    const Scene& scene = record_.scene();
+    const FilmedScene& scene = record_.scene();
     if (!scene.drive.present)
         throw UserError("the run has no drive, so that there are no ways over a period of it");
     const Clock& clock = record_.clock();

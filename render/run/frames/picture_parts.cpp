@@ -5,10 +5,11 @@
 #include "engine/questions/displacement.hpp"
 #include "render/film/moments/period_means.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-PictureParts::PictureParts(const Scene& scene, const Clock& clock, std::int64_t first)
+PictureParts::PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first)
     : shows_(scene.film.shows),
       clock_(clock),
       first_(first),

@@ -14,10 +14,10 @@
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/run/replay/own_checkpoints.hpp"
-#include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/run/frames/picture_parts.hpp"
 #include "render/run/frames/record.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -47,7 +47,7 @@ class RecordedRun final : public Record, private PartSupply {
     // From now on it is alone, and complains.
     void do_without_others();
 
-    const Scene& scene() const override { return scene_; }  // named after the folder
+    const FilmedScene& scene() const override { return scene_; }  // named after the folder
     Supply supply() const override;
     Span span() const override { return {moments_.front().time, moments_.back().time}; }
     const FrameArchive* archive() const override { return this; }
@@ -105,7 +105,7 @@ class RecordedRun final : public Record, private PartSupply {
 
     bool for_questions_;
     std::filesystem::path folder_;
-    Scene scene_;
+    FilmedScene scene_;
     TrajectoryReader trajectory_;
     std::optional<ContactsReader> contacts_;  // of a film that wants them
     std::vector<std::size_t> places_;         // in the trajectory, of the frames that are drawn

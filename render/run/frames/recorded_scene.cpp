@@ -8,8 +8,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
-#include "engine/scene/film/purposes.hpp"
+#include "render/scene/purposes.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
@@ -73,9 +73,10 @@ fs::path file_of_run(const fs::path& folder, const char* name, const char* advic
     throw UserError(fmt::format("{}: has no {}; {}", folder.string(), name, advice));
 }
 
-Scene scene_of_run(const fs::path& folder, const Assignments& sets) {
-    Scene scene = read_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"),
-                             sets_for_drawing(sets), measurable_in);
+FilmedScene scene_of_run(const fs::path& folder, const Assignments& sets) {
+    FilmedScene scene =
+        read_filmed_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"),
+                          sets_for_drawing(sets), measurable_in);
     scene.name = folder.filename().string();
     return scene;
 }

@@ -10,6 +10,7 @@
 #include "engine/plan/drive_clock.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/state/wall_motion.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -23,7 +24,7 @@ constexpr double same_place = 1e-6;  // of the drive's amplitude or speed, or of
     throw UserError(what + "; they are of two runs");
 }
 
-void check_times(const Scene& scene, double step_length, double step, double time, double cycles,
+void check_times(const FilmedScene& scene, double step_length, double step, double time, double cycles,
                  const std::string& file) {
     if (scene.run.step && std::abs(time - step * *scene.run.step) > same_time * std::abs(time))
         of_two_runs(
@@ -61,7 +62,7 @@ void check_pose(const Drive& drive, const BodyPose& is, const Pose& by_scene, co
 
 }  // namespace
 
-Clock clock_of(const Scene& scene, const std::vector<Frame>& moments) {
+Clock clock_of(const FilmedScene& scene, const std::vector<Frame>& moments) {
     Clock clock;
     for (const Frame& moment : moments)
         if (moment.step != 0) clock.step = moment.time / static_cast<double>(moment.step);
@@ -72,13 +73,13 @@ Clock clock_of(const Scene& scene, const std::vector<Frame>& moments) {
     return drive_clock(scene.drive, clock.step, std::llround(1 / (scene.drive.frequency * clock.step)));
 }
 
-void check_species(const Scene& scene, const TrajectoryInfo& info, const std::string& trajectory) {
+void check_species(const FilmedScene& scene, const TrajectoryInfo& info, const std::string& trajectory) {
     if (info.species.size() != scene.species.size())
         of_two_runs(fmt::format("{}: has {} species, but scene.toml beside it has {}", trajectory,
                                 info.species.size(), scene.species.size()));
 }
 
-void check_grains(const Scene& scene, const TrajectoryInfo& info, const Frame& frame,
+void check_grains(const FilmedScene& scene, const TrajectoryInfo& info, const Frame& frame,
                   const std::string& trajectory) {
     const auto grains = static_cast<std::int64_t>(info.capacity);
     if (grains != scene.grains() && !info.traffic)
@@ -101,7 +102,8 @@ void check_grains(const Scene& scene, const TrajectoryInfo& info, const Frame& f
                                     count[s], scene.species[s].name, scene.species[s].count));
 }
 
-void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame) {
+void check_drive(const FilmedScene& scene, const Clock& clock, const Frame& moment,
+                 const std::string& frame) {
     check_times(scene, clock.step, static_cast<double>(moment.step), moment.time, moment.cycles, frame);
     const double turns = moment.phase - moment.cycles - clock.initial_phase;
     if (scene.drive.present && std::abs(turns - std::round(turns)) > same_time)
@@ -141,7 +143,7 @@ double mean_height(const Frame& frame, std::size_t species) {
     return sum / count;
 }
 
-void check_heights(const Scene& scene, const MeasureTable& table, std::size_t row, const Frame& frame,
+void check_heights(const FilmedScene& scene, const MeasureTable& table, std::size_t row, const Frame& frame,
                    const std::string& measures) {
     for (std::size_t s = 0; s < scene.species.size(); ++s) {
         const auto column = column_of(table, scene.species[s].name + "_centre_z_m");
@@ -173,7 +175,7 @@ void check_rows(double step_length, const std::vector<double>& steps, const std:
 
 }  // namespace
 
-void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
+void check_measured(const FilmedScene& scene, const MeasureTable& table, const Frame& frame,
                     const std::string& measures) {
     const auto step = column_of(table, "step");
     if (!step) return;
@@ -184,7 +186,7 @@ void check_measured(const Scene& scene, const MeasureTable& table, const Frame& 
     check_heights(scene, table, row, frame, fmt::format("{}:{}", measures, row + 2));
 }
 
-void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
+void check_measures(const FilmedScene& scene, const Clock& clock, const MeasureTable& table,
                     const FrameArchive& trajectory, const std::string& measures) {
     const auto step = column_of(table, "step"), time = column_of(table, "time_s"),
                cycles = column_of(table, "cycles");
@@ -204,7 +206,7 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
     }
 }
 
-void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
+void check_contacts(const FilmedScene& scene, const std::vector<Touch>& touches, const Frame& frame,
                     const std::string& contacts) {
     constexpr double room = 1.05;  // over the radii; overlaps are what carries force
     const double depth = scene.container.periodic_depth ? scene.container.depth : 0;

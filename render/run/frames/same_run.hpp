@@ -9,30 +9,30 @@
 #include "engine/base/clock.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/run/frames/frame_source.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // The clock of a trajectory's frames, of which only the moments count. Its step is 0 when all are at step 0.
-Clock clock_of(const Scene& scene, const std::vector<Frame>& moments);
+Clock clock_of(const FilmedScene& scene, const std::vector<Frame>& moments);
 
 // trajectory, measures: the files' names, for messages.
-void check_species(const Scene& scene, const TrajectoryInfo& info, const std::string& trajectory);
+void check_species(const FilmedScene& scene, const TrajectoryInfo& info, const std::string& trajectory);
 // How many grains the trajectory has, and in one of its frames how many of each species and of what size.
-void check_grains(const Scene& scene, const TrajectoryInfo& info, const Frame& frame,
+void check_grains(const FilmedScene& scene, const TrajectoryInfo& info, const Frame& frame,
                   const std::string& trajectory);
 // Step, periods and phase of a moment, and where the drive has the container then. frame: "x.nc: frame 3".
-void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame);
+void check_drive(const FilmedScene& scene, const Clock& clock, const Frame& moment, const std::string& frame);
 // Times and periods of the rows, and the grains' centre of mass at a moment that both files have.
-void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
+void check_measures(const FilmedScene& scene, const Clock& clock, const MeasureTable& table,
                     const FrameArchive& trajectory, const std::string& measures);
 // The grains' centre of mass at a moment, where the table has a row of it. Two files that disagree at one
 // moment alone are of one run, and one of them was altered.
-void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
+void check_measured(const FilmedScene& scene, const MeasureTable& table, const Frame& frame,
                     const std::string& measures);
 // Grains that push each other touch in the frame too.
-void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
+void check_contacts(const FilmedScene& scene, const std::vector<Touch>& touches, const Frame& frame,
                     const std::string& contacts);
 
 // Where a column of measures.csv is; none when the file lacks it.

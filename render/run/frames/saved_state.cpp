@@ -7,11 +7,14 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/run/replay/replay.hpp"
 #include "engine/start/grain_table.hpp"
 #include "engine/start/restart.hpp"
 #include "render/run/frames/recorded_scene.hpp"
 #include "render/run/frames/same_run.hpp"
+#include "render/scene/filmed_scene.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
@@ -51,8 +54,8 @@ Frame by_id(const Frame& table) {
 }
 
 // Of a table that lies alone.
-Scene scene_of_types(const Frame& frame) {
-    Scene scene;
+FilmedScene scene_of_types(const Frame& frame) {
+    FilmedScene scene;
     scene.container.shape = Container::Shape::none;
     for (std::int32_t type = 0; type <= *std::max_element(frame.species.begin(), frame.species.end());
          ++type) {
@@ -67,6 +70,7 @@ Scene scene_of_types(const Frame& frame) {
         species.diameter.mean = species.count > 0 ? sum / static_cast<double>(species.count) : unknown;
         species.density = unknown;
         scene.species.push_back(species);
+        scene.colours.emplace_back();
     }
     return scene;
 }
@@ -85,7 +89,9 @@ SavedState::SavedState(const fs::path& file, const Assignments& sets) : file_(fi
 
 void SavedState::read_checkpoint(const Assignments& sets) {
     const Simulation run = run_of_checkpoint(file_, 1);
-    scene_ = scene_of_checkpoint(file_, sets_for_drawing(sets));
+    auto [text, all] = scene_in_checkpoint(file_);
+    for (const Assignment& set : sets_for_drawing(sets)) all.push_back(set);
+    scene_ = read_filmed_scene_text(text.text, text.file, all, measurable_in);
     scene_.name = file_.stem().string();
     frame_ = run.frame();
     measured_ = MeasuredRow{frame_.time, run.measured(), run.measures().values()};

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/run/frames/record.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -19,7 +19,7 @@ class SavedState final : public Record {
     // density, in no container. Throws UserError when the file cannot be read.
     SavedState(const std::filesystem::path& file, const Assignments& sets);
 
-    const Scene& scene() const override { return scene_; }
+    const FilmedScene& scene() const override { return scene_; }
     Supply supply() const override { return {false, false, false, !frame_.orientation.empty()}; }
     Span span() const override { return {frame_.time, frame_.time}; }
     const FrameArchive* archive() const override { return this; }
@@ -45,7 +45,7 @@ class SavedState final : public Record {
     void check_all_are_there() const;
 
     std::filesystem::path file_;
-    Scene scene_;
+    FilmedScene scene_;
     Frame frame_;
     std::vector<Frame> moments_;  // its moment, without grains
     Clock clock_;

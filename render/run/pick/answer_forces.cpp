@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/questions/forces.hpp"
-#include "engine/scene/film/grain_values.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {

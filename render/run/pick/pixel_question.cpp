@@ -9,21 +9,22 @@
 #include "render/picture/camera/exaggeration.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/words/layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
 
-View view_of(const Scene& scene, const Frame& shown, double film_time) {
+View view_of(const FilmedScene& scene, const Frame& shown, double film_time) {
     const View view = CameraPath(scene, plan_layout(scene)).at(film_time);
     return scene.film.camera.follow ? view.moved_by(shown.container().place) : view;
 }
 
-bool is_ghost(const Scene& scene, std::int32_t species) {
+bool is_ghost(const FilmedScene& scene, std::int32_t species) {
     const auto& ghosts = scene.film.shows.ghosts;
     return std::find(ghosts.begin(), ghosts.end(), static_cast<std::size_t>(species)) != ghosts.end();
 }
 
-AnswerTable table_of(const Snapshot& s, const Frame& shown, const Ray& ray, bool through) {
+AnswerTable table_of(const FilmedScene& scene, const Frame& shown, const Ray& ray, bool through) {
     AnswerTable table{"pixel",
                       "At that pixel, the nearest first",
                       {{"id", Dimension::number, "empty of a wall"},
@@ -33,7 +34,7 @@ AnswerTable table_of(const Snapshot& s, const Frame& shown, const Ray& ray, bool
                        {"height", Dimension::length, "of the point above the floor"}},
                       {}};
     std::vector<KeptHalf> kept;
-    for (const HalfSpace& half : kept_by_cut(s.scene.film.look.cut, shown))
+    for (const HalfSpace& half : kept_by_cut(scene.film.look.cut, shown))
         kept.push_back({half.normal, half.distance});
     const double length = ray.direction.norm();
     bool covered = false;
@@ -44,24 +45,25 @@ AnswerTable table_of(const Snapshot& s, const Frame& shown, const Ray& ray, bool
     for (const GrainOnRay& one : grains_on(ray, shown, kept)) {
         if (covered && !through) break;
         const std::int32_t species = shown.species[one.grain];
-        const bool ghost = is_ghost(s.scene, species);
+        const bool ghost = is_ghost(scene, species);
         add(static_cast<std::int64_t>(shown.id[one.grain]),
-            s.scene.species.at(static_cast<std::size_t>(species)).name + (ghost ? " (ghost)" : ""), !covered,
+            scene.species.at(static_cast<std::size_t>(species)).name + (ghost ? " (ghost)" : ""), !covered,
             one.from);
         covered |= !ghost;
     }
-    if (const auto wall = wall_behind(ray, s.scene, shown); wall && (!covered || through))
+    if (const auto wall = wall_behind(ray, scene, shown); wall && (!covered || through))
         add(AnswerCell(), wall->name, !covered, wall->at);
     return table;
 }
 
 }  // namespace
 
-PixelPicker::PixelPicker(const Snapshot& s, double film_time) : snapshot_(s) {
-    Exaggeration exaggeration(s.scene.film.exaggerate);
-    ShownGrains not_hidden(s.scene, s.scene.film.shows.hidden);
+PixelPicker::PixelPicker(const Snapshot& s, const FilmedScene& scene, double film_time)
+    : snapshot_(s), scene_(scene) {
+    Exaggeration exaggeration(scene.film.exaggerate);
+    ShownGrains not_hidden(scene, scene.film.shows.hidden);
     const Frame& shown = exaggeration.shown(s.frame);
-    view_ = view_of(s.scene, shown, film_time);
+    view_ = view_of(scene, shown, film_time);
     shown_ = not_hidden.of(shown);
 }
 
@@ -80,7 +82,7 @@ Ray PixelPicker::ray(double at_x, double at_y) const {
 }
 
 Answer PixelPicker::at(double x, double y, bool through) const {
-    Answer answer{{table_of(snapshot_, shown_, ray(x, y), through)}, {}};
+    Answer answer{{table_of(scene_, shown_, ray(x, y), through)}, {}};
     if (answer.tables[0].rows.empty()) answer.notes.emplace_back("nothing is at that pixel");
     return answer;
 }

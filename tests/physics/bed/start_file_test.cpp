@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "engine/scene/file/writer.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "tests/physics/bed/start_file.hpp"
 
 namespace grainreel {

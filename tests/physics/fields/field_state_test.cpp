@@ -1,9 +1,9 @@
 // What fields are made from, and how a record of a run is made of it.
 #include <gtest/gtest.h>
 
+#include "engine/measure/fields/coarse_graining_observer.hpp"
 #include "engine/measure/fields/field_record.hpp"
 #include "engine/measure/fields/state_builder.hpp"
-#include "engine/measure/observers/coarse_grained_fields.hpp"
 #include "tests/physics/fields/field_scene.hpp"
 
 namespace grainreel {

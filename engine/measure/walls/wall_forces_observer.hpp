@@ -1,0 +1,151 @@
+// What each wall takes: the mean force on it and its moment, the weight that it carries, and the pressure
+// against height. The forces are summed at every step, so that no impact is missed. Forces are means between
+// two rows of measures.csv, pressures between two ends of records of fields.nc.
+//
+// Between the steps n1 < n2 the impulse on a face is dt (C(n2) - C(n1)) with C(n) = F_1 + ... + F_n - (1 - s)
+// F_n, where s is the share of a step's force that the grains have felt by its end: 1/2 with velocity Verlet.
+// So the impulse of all walls is the change of the grains' momentum less that of gravity, but for rounding
+// (sums of eqs. 4 and 5 of Swope et al. 1982, J. Chem. Phys. 76, 637). Gear's method corrects places and
+// velocities by other weights and keeps this to the order of its step only.
+#pragma once
+
+#include <algorithm>
+
+#include "engine/measure/no_value.hpp"
+#include "engine/measure/observer.hpp"
+#include "engine/measure/rows.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
+
+namespace grainreel::observers {
+
+class WallForces final : public Observer {
+  public:
+    static constexpr const char* instrument = "walls";
+
+    static std::vector<ColumnGroup> columns(const Scene& scene) {
+        std::vector<ColumnGroup> groups;
+        for (const std::string& face : face_names(scene)) {
+            groups.push_back({of_axes(face + "_force", "N", "force on " + face, Dimension::force), "N",
+                              "mean force of the grains on a wall, of every step since the row before"});
+            groups.push_back(
+                {of_axes(face + "_moment", "N.m", "moment on " + face, Dimension::moment), "N m",
+                 "its moment about the middle of the floor at rest, which moves with the wall; of "
+                 "a plane about its `point`"});
+            groups.push_back({{{face + "_carries", "weight carried by " + face}},
+                              "1",
+                              "the force along gravity over the weight of all grains"});
+        }
+        return groups;
+    }
+
+    WallForces(const Scene& scene, const Plan& plan) : rows_(plan), records_(plan.fields), profile_(scene) {}
+
+    bool needs_wall_sums() const override { return true; }
+    const FieldSet* fields() const override { return &profile_.fields(); }
+    std::int64_t gathers_after(std::int64_t step) const override {
+        return std::min(rows_.after(step), records_.next_end(step + 1));
+    }
+
+    // Where a run goes on without what was gathered before, a record has no pressures from its middle on.
+    void start(const Moment& m) override {
+        last_ = before_ = {m.step, m.wall_sums->faces};
+        record_ = {m.step, {}};
+        if (m.step == 0 || records_.ends_record(m.step)) record_.slices = m.wall_sums->slices;
+        record_before_ = {m.step, {}};
+    }
+    void gather(const Moment& m) override {
+        if (rows_.after(m.step - 1) == m.step) {
+            before_ = std::move(last_);
+            last_ = {m.step, m.wall_sums->faces};
+        }
+        if (!records_.ends_record(m.step)) return;
+        record_before_ = std::move(record_);
+        record_ = {m.step, m.wall_sums->slices};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        const Noted& from = last_.step < m.step ? last_ : before_;
+        const WallScale& unit = m.wall_sums->scale;
+        const auto steps = static_cast<double>(m.step - from.step);
+        const double weight = mass_of(m.grains) * m.gravity.squaredNorm();
+        for (std::size_t f = 0; f < from.faces.size(); ++f) {
+            const FaceSums &then = from.faces[f], &now = m.wall_sums->faces[f];
+            const double felt = m.wall_sums->felt;
+            // NaN as long as there is no step to take the mean of.
+            const Vec3 force =
+                sum(then.force, now.force, felt, then.last_force, now.last_force) * unit.force / steps;
+            Vec3 moment = sum(then.moment, now.moment, felt, then.last_moment, now.last_moment) * unit.force *
+                          unit.length / steps;
+            if (m.faces[f].body.number < kFirstPlaneBody) moment += m.faces[f].point.cross(force);
+            row.insert(row.end(), {force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z(),
+                                   force.dot(m.gravity) / weight});
+        }
+    }
+    FieldValues look_at_fields(const Moment& m) override {
+        const Record& from = record_.step < m.step ? record_ : record_before_;
+        std::vector<double> normal(m.wall_sums->slices.size(), kNoValue);
+        const double per_step = m.wall_sums->scale.force / static_cast<double>(m.step - from.step);
+        for (std::size_t s = 0; s < from.slices.size(); ++s)
+            normal[s] = per_step * static_cast<double>(m.wall_sums->slices[s] - from.slices[s]);
+        return profile_.pressures(normal);
+    }
+
+    void save(std::ostream& out) const override { name_all(*this, Writing{out}); }
+    void load(const Moment& m, Bytes& in) override {
+        name_all(*this, Reading{in});
+        const auto are_slices = [&](const Record& record) {
+            return record.slices.empty() ||
+                   (record.slices.size() == m.wall_sums->slices.size() && are_sound(record.slices));
+        };
+        if (record_before_.step < 0 || record_before_.step > record_.step || record_.step > m.step ||
+            before_.step < 0 || before_.step > last_.step || last_.step > m.step ||
+            !are_slices(record_before_) || !are_slices(record_) || last_.faces.size() != m.faces.size() ||
+            before_.faces.size() != m.faces.size() || !are_sound(last_.faces) || !are_sound(before_.faces))
+            in.fail();
+    }
+
+  private:
+    struct Noted {
+        std::int64_t step = 0;
+        std::vector<FaceSums> faces;
+    };
+    struct Record {
+        std::int64_t step = 0;
+        std::vector<WideInt> slices;  // none: not known
+    };
+    template <class Self, class Each>
+    static void name_all(Self& self, const Each& each) {
+        for (auto* noted : {&self.last_, &self.before_}) each(noted->step), each(noted->faces);
+        for (auto* record : {&self.record_, &self.record_before_}) each(record->step), each(record->slices);
+    }
+
+    static std::vector<MeasureColumn> of_axes(const std::string& name, const std::string& unit,
+                                              const std::string& label, Dimension dimension) {
+        std::vector<MeasureColumn> columns;
+        for (const char* axis : {"x", "y", "z"})
+            columns.push_back({name + "_" + axis + "_" + unit, label + ", " + axis, dimension});
+        return columns;
+    }
+    static double mass_of(const Grains& grains) {
+        double mass = 0;
+        for (std::size_t i = 0; i < grains.size(); ++i) mass += grains.mass(i);
+        return mass;
+    }
+    // In counts. What was counted is subtracted as whole numbers, so that nothing is lost late in a run.
+    using Three = std::array<WideInt, 3>;
+    static Vec3 sum(const Three& then, const Three& now, double felt, const Three& last_then,
+                    const Three& last_now) {
+        Vec3 counts;
+        for (int a = 0; a < 3; ++a)
+            counts[a] = static_cast<double>(now[a] - then[a]) +
+                        felt * static_cast<double>(last_now[a] - last_then[a]);
+        return counts;
+    }
+
+    const Rows rows_;
+    const FieldTimes records_;
+    PressureProfile profile_;
+    Noted last_, before_;            // at the last two rows
+    Record record_, record_before_;  // at the last two ends of records
+};
+
+}  // namespace grainreel::observers

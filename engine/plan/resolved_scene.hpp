@@ -1,0 +1,22 @@
+// The scene with the plan's choices filled in: scene.toml in the run's folder.
+#pragma once
+
+#include <string>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/chapters/reasons.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+// The scene says what the plan chose: the stiffness of every kind of contact, the step, and how often frames
+// and measures come.
+Scene with_choices(Scene scene, const Plan& plan);
+// Why the plan chose what the scene does not say itself.
+Reasons reasons_of(const Scene& scene, const Plan& plan);
+
+// Both as a scene file. read_scene gives the same Scene back, bit by bit, with the plan's choices filled in;
+// make_plan then gives the same Plan.
+std::string resolved_scene(const Scene& scene, const Plan& plan);
+
+}  // namespace grainreel

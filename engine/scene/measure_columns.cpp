@@ -1,0 +1,14 @@
+#include "engine/scene/measure_columns.hpp"
+
+namespace grainreel {
+
+// Quotes and separators of CSV would break the row.
+std::string column_part(const std::string& name) {
+    std::string result = name;
+    for (char& c : result) {
+        if (c == ',' || c == '"' || c == '\n' || c == '\r') c = '_';
+    }
+    return result;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,18 @@
+// A contact that carries force, as files keep it.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/base/vector.hpp"
+
+namespace grainreel {
+
+struct ContactRecord {
+    std::int32_t first, second;  // ids; second is -1 - face for a wall
+    double normal;               // N, >= 0
+    Vec3 tangential;             // N, on `second`
+    Vec3 point;                  // m
+    bool operator==(const ContactRecord&) const = default;
+};
+
+}  // namespace grainreel

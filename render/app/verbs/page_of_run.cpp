@@ -1,0 +1,73 @@
+#include "render/app/verbs/page_of_run.hpp"
+
+#include "engine/base/error.hpp"
+#include "engine/files/trajectory.hpp"
+#include "render/app/check/print_plan.hpp"
+#include "render/run/frames/recorded_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Its frames come with the contacts that the run kept.
+Assignments with_contacts() {
+    return {{"film.force_chains=true", "report"}};
+}
+
+bool is_there(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+// What is damaged counts as kept: whoever reads it says what is wrong.
+bool kept_moments(const fs::path& folder) {
+    if (!is_there(folder / "trajectory.nc")) return false;
+    try {
+        return TrajectoryReader(folder / "trajectory.nc").frames() > 0;
+    } catch (const UserError&) {
+        return true;
+    }
+}
+
+}  // namespace
+
+std::optional<PlannedScene> planned_scene(const FilmedScene& scene) {
+    try {
+        Plan plan = plan_with_film(scene);
+        PlanWords words = plan_words(scene, plan);
+        return PlannedScene{std::move(plan), std::move(words.lines), std::move(words.contacts)};
+    } catch (const UserError&) {
+        return std::nullopt;  // a scene of an earlier version, which this one would not run
+    }
+}
+
+std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const fs::path& out, bool checked,
+                                       const PageProgress& progress) {
+    std::vector<PageRun> all;
+    for (const fs::path& run : runs) {
+        PageRun& one = all.emplace_back();
+        one.folder = folder_of_run(run);
+        if (kept_moments(one.folder)) {
+            one.contacts = is_there(one.folder / "contacts.nc");
+            one.run =
+                std::make_shared<RecordedRun>(one.folder, one.contacts ? with_contacts() : Assignments());
+            if (!checked) one.run->leave_out_damaged();
+        }
+        one.scene = one.run ? one.run->scene() : scene_of_run(one.folder, {});
+        one.planned = planned_scene(one.scene);
+    }
+    return write_report(all, out.empty() ? all.front().folder / kPageName : out, progress);
+}
+
+PageMaker page_of_ended_run() {
+    return
+        [](const fs::path& folder, const std::function<bool(double)>& go_on) -> std::optional<std::string> {
+            const bool checked = true;
+            if (!make_page_of({folder}, folder / kPageName, checked, go_on)) return std::nullopt;
+            return kPageName;
+        };
+}
+
+}  // namespace grainreel

@@ -1,0 +1,29 @@
+// A run's page, for the verbs that leave one.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "engine/run/folder/run_request.hpp"
+#include "render/page/report.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+inline constexpr const char* kPageName = "report.html";
+
+// Of the runs in folders, side by side where there are several. out: its file; empty: report.html in the
+// first run's folder. checked: this program has just written them, so that their frames need not be looked at
+// for damage first. Nothing when `progress` stopped it. Throws UserError for what is no run, RunError.
+std::optional<ReportMade> make_page_of(const std::vector<std::filesystem::path>& runs,
+                                       const std::filesystem::path& out, bool checked,
+                                       const PageProgress& progress);
+
+// None where this version of the program would not run the scene.
+std::optional<PlannedScene> planned_scene(const FilmedScene& scene);
+
+// Makes report.html in the folder of a run that has just ended, however it ended.
+PageMaker page_of_ended_run();
+
+}  // namespace grainreel

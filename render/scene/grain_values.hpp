@@ -1,0 +1,70 @@
+// The quantities that can colour grains: their words, dimensions and units.
+#pragma once
+
+#include "engine/scene/chapters/words.hpp"
+#include "engine/scene/text/units.hpp"
+#include "render/scene/film_shows.hpp"
+
+namespace grainreel {
+
+inline const Words<GrainValue> grain_value_words{{"species", GrainValue::species},
+                                                 {"speed", GrainValue::speed},
+                                                 {"vertical-velocity", GrainValue::vertical_velocity},
+                                                 {"start-height", GrainValue::start_height},
+                                                 {"displacement", GrainValue::displacement},
+                                                 {"rise", GrainValue::rise},
+                                                 {"spin", GrainValue::spin},
+                                                 {"kinetic-energy", GrainValue::kinetic_energy},
+                                                 {"coordination", GrainValue::coordination},
+                                                 {"contact-force", GrainValue::contact_force}};
+inline const Words<ColourMap> colour_map_words{
+    {"viridis", ColourMap::viridis}, {"cividis", ColourMap::cividis}, {"vik", ColourMap::vik}};
+
+inline Dimension dimension_of(GrainValue value) {
+    switch (value) {
+        case GrainValue::speed:
+        case GrainValue::vertical_velocity:
+            return Dimension::speed;
+        case GrainValue::start_height:
+        case GrainValue::displacement:
+        case GrainValue::rise:
+            return Dimension::length;
+        case GrainValue::spin:
+            return Dimension::spin;
+        case GrainValue::kinetic_energy:
+            return Dimension::energy;
+        case GrainValue::contact_force:
+            return Dimension::force;
+        case GrainValue::species:
+        case GrainValue::coordination:
+            break;
+    }
+    return Dimension::number;
+}
+
+// Has two signs: wants a diverging map and a range that is even on both sides.
+inline bool is_signed(GrainValue value) {
+    return value == GrainValue::vertical_velocity || value == GrainValue::rise;
+}
+
+// SI units in one of `unit`, 0.01 for "cm/s"; 1 for an empty one. Throws UserError, without a place, when it
+// is not a unit of the dimension.
+double unit_size(const std::string& unit, Dimension dimension);
+
+// The largest of the dimension's usual units in which `value` is not below 0.5; the smallest of them for
+// less.
+std::string fitting_unit(double value, Dimension dimension);
+
+// Low and high of the colours when the scene does not say: of the whole film, from the scene alone, so that a
+// colour means the same in every frame, while the run goes on and when it is drawn again. Estimated such that
+// 99 of 100 grains lie between in the course of the film. {0, 0} when the scene gives no scale.
+std::array<double, 2> usual_range(GrainValue value, const Scene& scene);
+// N of a contact whose line is as wide as lines of force get.
+double widest_chain_force(const Scene& scene);
+// m/s, of a fast circulation: a grain's diameter in five periods. Of velocities of a moment: the drive's
+// speed, or that of a fall from the outlet's half-width if it is larger. 0 when the scene gives no scale.
+double usual_flow_speed(const Scene& scene, bool period);
+// The values' axis of a profile that has no range of its own.
+std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& plot);
+
+}  // namespace grainreel

@@ -1,0 +1,264 @@
+// The keys of [film] itself: the picture and the file. What only shows more has chapters of its own
+// (film_keys.hpp).
+#include "render/scene/keys/film_keys.hpp"
+#include "render/scene/keys/words.hpp"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/keys/bound_key.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/scene/colours.hpp"
+#include "render/scene/keys/film_file.hpp"
+#include "render/scene/keys/word_kinds.hpp"
+#include "render/scene/purposes.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace keys;
+
+constexpr std::int64_t least_pixels = 64, most_pixels = 8192;
+constexpr std::int64_t most_tiles = 12;  // of a contact sheet, each way
+constexpr int capped_quality = 18;  // a film under a cap is as good as the cap lets it be, up to this crf
+
+// "1920x1080" or [1920, 1080]; zeros for what is neither.
+std::array<std::int64_t, 2> two_counts(Document& document, const std::string& path) {
+    std::array<std::int64_t, 2> size{0, 0};
+    if (document.is_array(path)) {
+        size = document.two_integers(path).value_or(size);
+    } else if (document.is_text(path)) {
+        const std::optional<std::string> text = document.text(path);
+        const char* end = text->data() + text->size();
+        const auto width = std::from_chars(text->data(), end, size[0]);
+        if (width.ptr != end && *width.ptr == 'x') {
+            const auto height = std::from_chars(width.ptr + 1, end, size[1]);
+            if (height.ptr != end) size[1] = 0;
+        }
+    }
+    return size;
+}
+
+void read_size(Document& document, const Scene&, const std::string& path, Film& film) {
+    if (!document.has(path)) return;
+    const std::array<std::int64_t, 2> size = two_counts(document, path);
+    const auto wrong = [](std::int64_t pixels) { return pixels < least_pixels || pixels > most_pixels; };
+    if (wrong(size[0]) || wrong(size[1]))
+        document.fail(path,
+                      fmt::format("must be width x height, each from {} to {} pixels, but is {}; write for "
+                                  "example \"1920x1080\"",
+                                  least_pixels, most_pixels, document.written_value(path)));
+    film.width = static_cast<int>(size[0]);
+    film.height = static_cast<int>(size[1]);
+}
+
+void read_sheet(Document& document, const Scene&, const std::string& path, Film& film) {
+    if (!document.has(path)) return;
+    const std::array<std::int64_t, 2> sheet = two_counts(document, path);
+    const auto wrong = [](std::int64_t count) { return count < 1 || count > most_tiles; };
+    if (wrong(sheet[0]) || wrong(sheet[1]))
+        document.fail(
+            path,
+            fmt::format("must be columns x rows, each from 1 to {}, but is {}; write for example \"4x3\"",
+                        most_tiles, document.written_value(path)));
+    film.sheet = {static_cast<int>(sheet[0]), static_cast<int>(sheet[1])};
+}
+
+void read_purpose(Document& document, const Scene&, const std::string& path, Film& film) {
+    const Purpose* purpose = find_purpose(document.text(path).value_or(""));
+    if (purpose == nullptr) return;
+    film.purpose = purpose->name;
+    film.width = purpose->width;
+    film.height = purpose->height;
+    film.rate = purpose->rate;
+    film.format = purpose->format;
+    film.quality = purpose->quality;
+    film.preset = purpose->preset;
+    film.max_size = purpose->max_size;
+    film.sheet = purpose->sheet;
+}
+
+// After the format, which may have no use for the purpose's cap.
+void read_max_size(Document& document, const Scene&, const std::string& path, Film& film) {
+    if (!can_be_capped(film.format)) film.max_size.reset();
+    const auto text = document.text(path);
+    if (!text) return;
+    const bool none = *text == "none";
+    film.max_size = none ? std::nullopt : parse_data_size(*text);
+    if (!none && !film.max_size)
+        document.fail(path, fmt::format("must be a size in kB, MB, GB, KiB, MiB or GiB, but is {}; write "
+                                        "for example \"10 MB\"",
+                                        document.written_value(path)));
+}
+
+void read_background(Document& document, const Scene&, const std::string& path, Film& film) {
+    film.background = document.has(path) ? read_colour(document, path, "\"white\" or \"#ffffff\"")
+                                         : default_background(film.look.style);
+}
+
+BoundKey<Film> size_key() {
+    return bound_by<Film>(
+        entry("size", KeyKind::picture_size, literal("\"1920x1080\""), "Width and height, pixels."),
+        read_size, [](const Film& film, const Scene&) {
+            return toml_list({as_toml(film.width), as_toml(film.height)});
+        });
+}
+
+BoundKey<Film> purpose_key() {
+    return bound_by<Film>(choice("for", purpose_names(), note("none"),
+                                 "Defaults for what the film is for: size, rate, format, quality, max_size."),
+                          read_purpose,
+                          [](const Film& film, const Scene&) {
+                              return film.purpose.empty() ? "" : quoted(film.purpose);
+                          })
+        .read_at(-3);
+}
+
+BoundKey<Film> preset_key() {
+    Key key = choice(
+        "preset",
+        {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
+        initial(), "x264's preset (veryfast with subme=1): slower makes smaller files.");
+    return bound(std::move(key), &Film::preset);
+}
+
+BoundKey<Film> max_size_key() {
+    return bound_by<Film>(
+               entry("max_size", KeyKind::text, literal("\"none\""),
+                     "mp4, webm and gif only: largest file, as in \"10 MB\" (kB, MB, GB, KiB, MiB, GiB)."),
+               read_max_size,
+               [](const Film& film, const Scene&) {
+                   return quoted(film.max_size ? fmt::format("{} B", *film.max_size) : "none");
+               })
+        .read_at(-1);
+}
+
+BoundKey<Film> sheet_key() {
+    return bound_by<Film>(entry("sheet", KeyKind::picture_size, note("none"),
+                                "Columns x rows of sheet.png, frames spread evenly over the film."),
+                          read_sheet, [](const Film& film, const Scene&) {
+                              const auto& [columns, rows] = film.sheet;
+                              return columns > 0 ? toml_list({as_toml(columns), as_toml(rows)}) : "";
+                          });
+}
+
+BoundKey<Film> background_key() {
+    return bound_by<Film>(entry("background", KeyKind::colour, note("\"#ffffff\"; \"#12151b\" with dark"),
+                                "As species.colour."),
+                          read_background,
+                          [](const Film& film, const Scene&) { return quoted(colour_text(film.background)); })
+        .unwritten_if(
+            [](const Film& film) { return film.background == default_background(film.look.style); });
+}
+
+// The picture and how it follows time.
+const KeyTable<Film>& picture_table() {
+    static const KeyTable<Film> table{
+        size_key(),
+        quantity("rate", &Film::rate, Dimension::number, {1, 240, false, false}, initial(),
+                 "Frames a second."),
+        integer("periods", &Film::periods, 1, 4, note("as the bed does"),
+                "Periods of the drive that locked frames, displacements and means go by.")
+            .unwritten_if([](const Film& film) { return film.periods == 0; })
+            .written_at(1),
+        text("title", &Film::title, note("`title`"), "Shown on the frame; \"\" for none.")
+            .usually([](Film& film, const Scene& scene) { film.title = scene.title; }),
+    };
+    return table;
+}
+
+const KeyTable<Film>& file_table() {
+    static const KeyTable<Film> table{
+        integer("quality", &Film::quality, 0, 51, note("20; 18 with `max_size`"),
+                "x264's crf: 18 near-lossless, 23 small; other codecs take what looks alike.")
+            .usually([](Film& film, const Scene&) {
+                if (film.max_size) film.quality = capped_quality;
+            }),
+        preset_key(),
+        purpose_key(),
+        choice("format", &Film::format, film_format_words, initial(),
+               "mp4 is H.264, webm VP9, ffv1 lossless; docs/guide/films.md compares them.")
+            .read_at(-2),
+        flag("transparent", &Film::transparent, initial(),
+             "png and ffv1 only: alpha in place of the background."),
+        max_size_key(),
+        sheet_key(),
+        background_key(),
+    };
+    return table;
+}
+
+// What is drawn beside grains and walls, and how the walls' motion is shown.
+const KeyTable<Film>& scenery_table() {
+    static const KeyTable<Film> table{
+        choice("words", &Film::words, word_place_words, initial(),
+               "Words beside the picture, on plates over it, or none; automatic: plates with a "
+               "zoom, position or target of your own."),
+        word_kinds_key(),
+        // Not written where it is as the camera has it: a finished run may be drawn again with another one.
+        flag("axes", &Film::axes, note("true where the camera moves"),
+             "Arrows along x, y and z as the camera sees them.")
+            .usually([](Film& film, const Scene&) { film.axes = film.camera.moves(); })
+            .unwritten_if([](const Film& film) { return film.axes == film.camera.moves(); }),
+        flag("wall_ghost", &Film::wall_ghost, initial(), "A faint outline of the container at rest."),
+        quantity("exaggerate", &Film::exaggerate, Dimension::number, {1, 1000, false, false}, initial(),
+                 "The container's motion drawn so many times as large, its grains with it."),
+    };
+    return table;
+}
+
+}  // namespace
+
+void list_film(Keys& all) {
+    picture_table().list(all, "film");
+    file_table().list(all, "film");
+    list_look(all);
+    scenery_table().list(all, "film");
+    list_marks(all);
+    list_cut(all);
+    list_camera(all);
+    list_segments(all);
+    list_captions(all);
+    list_shows(all);
+}
+
+// The purpose sets defaults of the picture and comes first of all; the style one of the background.
+void read_film(Document& document, FilmedScene& scene) {
+    Film& film = scene.film;
+    read_look(document, scene);
+    file_table().read(document, scene, "film", film);
+    picture_table().read(document, scene, "film", film);
+    settle_film_file(document, scene);
+    read_camera(document, scene);
+    scenery_table().read(document, scene, "film", film);
+    read_segments(document, scene);
+    read_captions(document, scene);
+    read_shows(document, scene);
+}
+
+void write_film(SceneText& out, const FilmedScene& scene) {
+    out.table("film");
+    picture_table().write(out, scene, scene.film);
+    write_text(out, scene);
+    file_table().write(out, scene, scene.film);
+    scenery_table().write(out, scene, scene.film);
+    write_look(out, scene);
+    write_marks(out, scene);
+    write_cut(out, scene);
+    write_shows(out, scene);
+    write_camera(out, scene);
+    write_segments(out, scene);
+    write_captions(out, scene);
+}
+
+Colour read_colour(Document& document, const std::string& path, const char* example) {
+    const auto colour = parse_colour(*document.text(path));
+    if (!colour)
+        document.fail(path, fmt::format("must be a colour, but is {}; write for example {}",
+                                        document.written_value(path), example));
+    return *colour;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,82 @@
+#include "render/scene/live_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "render/scene/grain_values.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr std::size_t kCounters = 4;  // columns that count steps and time
+
+LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& columns) {
+    const std::size_t colon = inside.find(':');
+    const std::string name = inside.substr(0, colon);
+    const MeasureColumn* column = find_column(columns, name);
+    if (column == nullptr)
+        throw UserError(fmt::format("has {{{}}}, which is no column of measures.csv; there are {}",
+                                    excerpt(name), column_names(columns)));
+    LiveWords value;
+    value.column = column->name;
+    if (column->dimension == Dimension::number) {
+        if (colon != std::string::npos)
+            throw UserError(fmt::format("gives {{{}}} a unit, but it is a pure number; leave it out", name));
+        return value;
+    }
+    value.unit = colon == std::string::npos ? column->name.substr(column->name.rfind('_') + 1)
+                                            : inside.substr(colon + 1);
+    value.unit_size = unit_size(value.unit, column->dimension);
+    return value;
+}
+
+}  // namespace
+
+const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name) {
+    for (std::size_t i = kCounters; i < columns.size(); ++i) {
+        const std::string& full = columns[i].name;
+        const bool has_unit = columns[i].dimension != Dimension::number;
+        if (full == name || (has_unit && full.substr(0, full.rfind('_')) == name)) return &columns[i];
+    }
+    return nullptr;
+}
+
+std::string column_names(const std::vector<MeasureColumn>& columns) {
+    std::string known;
+    for (std::size_t i = kCounters; i < columns.size(); ++i)
+        if (columns[i].instrument.empty()) known += (known.empty() ? "" : ", ") + columns[i].name;
+    return known + ", and those of the instruments (docs/reference/scenes.md, measures.csv)";
+}
+
+std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns) {
+    std::vector<LiveWords> all;
+    std::string words;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text[at] != '{' || text.compare(at, 2, "{{") == 0) {
+            words += text[at];
+            at += text[at] == '{' ? 1 : 0;
+            continue;
+        }
+        const std::size_t end = text.find('}', at);
+        if (end == std::string::npos)
+            throw UserError("has a { without its }; write {lacey} for a value, or {{ for a brace");
+        all.push_back(value_of(text.substr(at + 1, end - at - 1), columns));
+        all.back().words = std::move(words);
+        words.clear();
+        at = end;
+    }
+    if (!words.empty()) all.push_back({std::move(words), "", "", 1});
+    return all;
+}
+
+std::string live_value(const std::optional<double>& value, const LiveWords& as) {
+    const std::string unit = as.unit.empty() ? "" : " " + as.unit;
+    if (!value || !std::isfinite(*value)) return "–" + unit;
+    const double shown = *value / as.unit_size;
+    return (shown < 0 ? "−" : "") + fmt::format("{:.3g}", std::abs(shown)) + unit;
+}
+
+}  // namespace grainreel
