@@ -218,11 +218,18 @@ TEST(Look, ProfilesStandInPlaceOfColumns) {
     EXPECT_EQ(plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"period\"\nlabel = \"L\"\n").at(0).label, "L");
 }
 
+TEST(Look, WhatAPlotShowsIsMeasured) {
+    EXPECT_TRUE(read_text(wedge_text).instruments().empty());
+    const FilmedScene scene = read_text(wedge_text + "[[film.plot]]\ny = \"floor_force_z\"\n");
+    EXPECT_EQ(scene.instruments(), std::vector<std::string>{"walls"});
+    EXPECT_TRUE(scene.output.instruments.empty());
+}
+
 TEST(Look, WallForcesAreMeasuredAndScaledByTheWeight) {
     const FilmedScene scene = read_text(wedge_text, {"film.wall_forces=true"});
     EXPECT_NEAR(scene.film.shows.wall_forces.scale,
                 total_mass(scene) * scene.gravity.norm() * scene.drive.g_level(scene.gravity.norm()), 1e-12);
-    EXPECT_THAT(scene.output.instruments, testing::Contains("walls"));
+    EXPECT_THAT(scene.instruments(), testing::Contains("walls"));
     EXPECT_EQ(read_text(wedge_text, {"film.wall_forces=true", "film.wall_force_scale=\"3 N\""})
                   .film.shows.wall_forces.scale,
               3);

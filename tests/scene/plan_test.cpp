@@ -318,7 +318,7 @@ TEST(PlanStep, GivenIntervalsAndStep) {
 
 std::string warnings(const std::string& text, const std::vector<std::string>& sets) {
     std::string all;
-    for (const std::string& line : make_plan(read_text(text, sets)).warnings) all += line + "\n";
+    for (const std::string& line : plan_with_film(read_text(text, sets)).warnings) all += line + "\n";
     return all;
 }
 

@@ -183,16 +183,16 @@ TEST(Reader, MoreSpeciesThanColoursIsAWarning) {
     const FilmedScene eight = read_text(wedge_text + species_text(6));
     for (std::size_t i = 0; i < 8; ++i)
         for (std::size_t j = 0; j < i; ++j) EXPECT_NE(eight.colours[i], eight.colours[j]);
-    EXPECT_TRUE(make_plan(eight).warnings.empty());
+    EXPECT_TRUE(plan_with_film(eight).warnings.empty());
     const FilmedScene nine = read_text(wedge_text + species_text(7));
     EXPECT_EQ(nine.colours[8], nine.colours[0]);
     const std::string warning =
         ": \"small\" and \"more6\" look alike: there are more species than default colours; give one a "
         "colour "
         "of its own, such as colour = \"#8b4513\"";
-    ASSERT_EQ(make_plan(nine).warnings.size(), 1u);
-    EXPECT_EQ(make_plan(nine).warnings[0], nine.where("species[0]") + warning);
-    EXPECT_TRUE(make_plan(read_text(wedge_text + species_text(7), {"species.more6.colour=#8b4513"}))
+    ASSERT_EQ(plan_with_film(nine).warnings.size(), 1u);
+    EXPECT_EQ(plan_with_film(nine).warnings[0], nine.where("species[0]") + warning);
+    EXPECT_TRUE(plan_with_film(read_text(wedge_text + species_text(7), {"species.more6.colour=#8b4513"}))
                     .warnings.empty());
 }
 
@@ -243,7 +243,7 @@ TEST(Reader, ARunShortenedOnTheCommandLineShortensItsSegments) {
 TEST(Reader, ShippedScenesAreRight) {
     for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
-        EXPECT_NO_THROW(make_plan(read_filmed_scene(entry.path(), {}, measurable_in))) << entry.path();
+        EXPECT_NO_THROW(plan_with_film(read_filmed_scene(entry.path(), {}, measurable_in))) << entry.path();
     }
     const FilmedScene scene =
         read_filmed_scene(GRAINREEL_SOURCE "/scenes/wedge_segregation.toml", {}, measurable_in);

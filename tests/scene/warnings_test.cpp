@@ -21,7 +21,7 @@ using testing::Not;
 
 std::string warnings(const std::string& text, Assignments sets = {}) {
     std::string all;
-    for (const std::string& line : make_plan(read_text(text, sets)).warnings) all += line + "\n";
+    for (const std::string& line : plan_with_film(read_text(text, sets)).warnings) all += line + "\n";
     return all;
 }
 

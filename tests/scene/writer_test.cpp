@@ -26,6 +26,7 @@ FilmedScene filled_in(FilmedScene scene, const Plan& plan) {
         scene.contact.grain[glued * count + i].glued_stiffness = stiffness(plan.glued[i]);
     }
     scene.run.step = plan.clock.step;
+    scene.output.instruments = scene.instruments();
     scene.run.steps_per_contact.reset();
     // A drive that changes has its records by periods, which no interval can say.
     if (scene.output.trajectory && plan.trajectory_periods == 0)

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "engine/plan/plan.hpp"
+#include "render/film/run/thread_plan.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/run/thread_plan.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

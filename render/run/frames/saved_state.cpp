@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/replay/replay.hpp"
+#include "engine/run/replay/replay.hpp"
 #include "engine/start/grain_table.hpp"
 #include "engine/start/restart.hpp"
 #include "render/run/frames/recorded_scene.hpp"

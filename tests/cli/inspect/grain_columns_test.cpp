@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/questions/displacement.hpp"
 #include "engine/questions/questions.hpp"
 #include "render/picture/grains/quantities.hpp"
-#include "render/run/moments/displacement.hpp"
 #include "render/run/pick/answer_forces.hpp"
 #include "render/run/pick/answer_picture.hpp"
 #include "render/scene/grain_values.hpp"

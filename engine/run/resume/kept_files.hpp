@@ -1,0 +1,35 @@
+// How much of a run's growing files belongs to the steps before one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+bool is_there(const std::filesystem::path& file);
+
+// Whether the run has a fields.nc: of fields on a grid, or of the pressures on walls.
+bool keeps_fields(const Scene& scene);
+
+// Steps of a trajectory's frames, up to the first that is damaged; none where there is no such file.
+std::vector<std::int64_t> steps_in_trajectory(const std::filesystem::path& file);
+// Of the rows of measures.csv; likewise.
+std::vector<std::int64_t> steps_in_measures(const std::filesystem::path& file);
+
+// Throws UserError for a file that the run writes and that is missing or cannot be read, before any of them
+// is touched.
+void check_files_of_run(const std::filesystem::path& run, const Scene& scene, const Plan& plan);
+
+// How far a run has come whose last checkpoint is of that step: a checkpoint may have been lost, and the rows
+// of measures.csv tell too.
+std::int64_t reached_step(const std::filesystem::path& run, std::int64_t last_checkpoint);
+
+// Whether its files have all that a run which began at `first` has written before `step`.
+bool files_reach(const std::filesystem::path& run, const Scene& scene, const Plan& plan, std::int64_t first,
+                 std::int64_t step);
+
+}  // namespace grainreel
