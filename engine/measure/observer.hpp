@@ -30,7 +30,7 @@
 #include "engine/state/grains.hpp"
 #include "engine/step/contact_view.hpp"
 #include "engine/step/geometry/wall_sums.hpp"
-#include "engine/step/traffic.hpp"
+#include "engine/state/traffic.hpp"
 
 namespace grainreel {
 

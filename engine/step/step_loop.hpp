@@ -23,7 +23,7 @@
 #include "engine/step/forces/contact_forces.hpp"
 #include "engine/step/lists/bed_lists.hpp"
 #include "engine/step/surroundings.hpp"
-#include "engine/step/traffic.hpp"
+#include "engine/state/traffic.hpp"
 
 namespace grainreel {
 

@@ -6,7 +6,7 @@
 #include "engine/state/container_faces.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "engine/step/traffic.hpp"
+#include "engine/state/traffic.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,7 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/file/scene_file.hpp"
 #include "engine/scene/text/comments.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/state/grain_table.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/run/moments/key_moments.hpp"
 

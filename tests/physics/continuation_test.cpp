@@ -15,7 +15,7 @@
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/start/continuation.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/state/grain_table.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

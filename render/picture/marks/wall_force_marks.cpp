@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/measure/measure_table.hpp"
-#include "engine/measure/walls/wall_faces.hpp"
+#include "engine/state/face_names.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/picture/marks/arrow.hpp"
 

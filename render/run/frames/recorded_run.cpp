@@ -11,7 +11,7 @@
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/measure/bed/period_multiple.hpp"
-#include "engine/measure/walls/wall_faces.hpp"
+#include "engine/state/face_names.hpp"
 #include "render/run/frames/choice.hpp"
 #include "render/run/frames/recorded_scene.hpp"
 #include "render/run/frames/same_run.hpp"

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/replay/replay.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/state/grain_table.hpp"
 #include "engine/start/restart.hpp"
 #include "render/run/frames/recorded_scene.hpp"
 #include "render/run/frames/same_run.hpp"

@@ -9,7 +9,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/file/reader.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/state/grain_table.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"

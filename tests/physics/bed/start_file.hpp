@@ -12,7 +12,7 @@
 
 #include "engine/run/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/state/grain_table.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 

@@ -8,6 +8,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy/energy_balance.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
+#include "engine/state/face_names.hpp"
 #include "engine/run/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"

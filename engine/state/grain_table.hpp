@@ -11,7 +11,7 @@
 #include <filesystem>
 
 #include "engine/frame.hpp"
-#include "engine/start/table_mark.hpp"
+#include "engine/state/table_mark.hpp"
 
 namespace grainreel {
 

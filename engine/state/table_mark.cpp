@@ -1,4 +1,4 @@
-#include "engine/start/table_mark.hpp"
+#include "engine/state/table_mark.hpp"
 
 #include <fstream>
 #include <iterator>
