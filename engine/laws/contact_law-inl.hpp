@@ -1,6 +1,6 @@
 // A normal and a tangential law as one: the contact force between two grains, or a grain and a wall; and the
 // step that runs it over a chunk of contacts.
-// How to add a law: docs/architecture.md, "Adding a contact law".
+// How to add a law: CONTRIBUTING.md, "A contact law".
 #if defined(GRAINREEL_LAWS_CONTACT_LAW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_CONTACT_LAW_INL
 #undef GRAINREEL_LAWS_CONTACT_LAW_INL

@@ -1,6 +1,6 @@
 // Rigid bodies, to which faces belong: the container, its floor, and each plane of the scene. No body turns
-// yet. Poses have a rotation and a spin all the same, so that files and drawing need not change when one
-// does.
+// yet. Frames and files have a rotation and a spin of each all the same. Drawing and faces move a body by its
+// place alone, so both have to learn it when a body turns.
 #pragma once
 
 #include <cstdint>

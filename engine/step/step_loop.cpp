@@ -77,7 +77,7 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
         }
         send_ahead(member, goes_on, kicks);
         // From here to the formula of a contact law: add_contact_forces() -> the law's kernel
-        // (docs/architecture.md, "One step").
+        // (docs/notes/step.md).
         add_contact_forces({rules_, grains_, mine.walls, around_.glued, times}, grains_, contacts,
                            mine.memory, mine.ahead, mine.clock);
     }
