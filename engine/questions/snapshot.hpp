@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/run/contact_force.hpp"
+#include "engine/run/simulation/contact_force.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
+#include "engine/files/run_names.hpp"
 #include "render/page/bed/all_moments.hpp"
 #include "render/page/embed/base64.hpp"
 #include "render/page/embed/html.hpp"
@@ -14,8 +15,6 @@
 #include "render/page/page_files.hpp"
 #include "render/page/page_parts.hpp"
 #include "render/run/film_times_table.hpp"
-#include "render/run/moments/key_moments.hpp"
-#include "render/run/run_files.hpp"
 
 namespace grainreel {
 namespace {

@@ -45,8 +45,8 @@ RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunL
         choose_kept(what);
     else
         choose_pictures(what);
-    check_film(scene_, static_cast<std::int64_t>(shots_.size()));
-    threads_ = drawing_threads(scene_.run.threads);
+    film_.check(scene_, static_cast<std::int64_t>(shots_.size()));
+    film_.use_threads(drawing_threads(scene_.run.threads));
     make_folder(
         {scene_.name + "-render", source.record().folder().parent_path(), request.out, request.force});
 }
@@ -152,49 +152,48 @@ FramePtr RedrawRun::first_of_film(const FrameSource::GoOn& go_on) {
 bool RedrawRun::work() {
     mark_begun();
     const std::vector<Frame> moments = moments_of(shots_, source_.film());
-    record_.scene_file = scene_.file;
-    record_.drawn = {{source_.record().folder().string(), static_cast<std::int64_t>(moments.size()),
-                      moments.front().time, moments.back().time}};
+    desk_.record.scene_file = scene_.file;
+    desk_.record.drawn = {{source_.record().folder().string(), static_cast<std::int64_t>(moments.size()),
+                           moments.front().time, moments.back().time}};
     begin_record(warnings());
     if (brought_back_ > 0)
-        listener_.info(fmt::format(
+        desk_.listener.info(fmt::format(
             "{} of {} pictures were not kept and are brought back from checkpoints; --no-replay does without",
             brought_back_, moments.size()));
-    pictures_planned_ = static_cast<std::int64_t>(moments.size());
     const auto go_on = [this] {
-        if (listener_.stop_signal() != 0) return false;
-        folder_->lock().check_there();
+        if (desk_.listener.stop_signal() != 0) return false;
+        desk_.folder->lock().check_there();
         return true;
     };
-    start_ = first_of_film(go_on);
-    if (!start_) return false;
-    open_film(scene_);
-    source_.watch_replay([this](double) { return show_drawing(), true; });
+    const FramePtr start = first_of_film(go_on);
+    if (!start) return false;
+    film_.open(scene_, static_cast<std::int64_t>(moments.size()), start);
+    source_.watch_replay([this](double) { return film_.show_progress(), true; });
     source_.start(shots_, segments_of(scene_.film));
     const auto next = [&] {
-        const auto timer = times_.during("reading");
+        const auto timer = desk_.times.during("reading");
         return source_.next(go_on);
     };
     while (std::optional<Taken> picture = next()) {
-        const auto timer = times_.during("waiting for the film");
+        const auto timer = desk_.times.during("waiting for the film");
         const std::string caption = caption_of(*picture);
-        film_->take(std::move(picture->frame), caption);
-        show_drawing();
+        film_.maker().take(std::move(picture->frame), caption);
+        film_.show_progress();
     }
-    return listener_.stop_signal() == 0;
+    return desk_.listener.stop_signal() == 0;
 }
 
 std::string RedrawRun::stopped_text() const {
-    return fmt::format("stopped at frame {} of {}", film_report_.frames, frames_planned_);
+    return fmt::format("stopped at frame {} of {}", film_.report().frames, film_.frames_planned());
 }
 
 void RedrawRun::report_written() {
     const FilmOfRun& film = source_.film();
-    listener_.info(fmt::format("wrote {}: {}run.json, log.txt", folder_->path().string(), film_files_text()));
-    listener_.info(fmt::format("took {}: {} frames of {}, from {:.6g} to {:.6g} s",
-                               duration_text(watch_.seconds()), film_report_.frames,
-                               source_.record().folder().string(), film.moment(shots_.front().step).time,
-                               film.moment(shots_.back().step).time));
+    desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
+    desk_.listener.info(fmt::format("took {}: {} frames of {}, from {:.6g} to {:.6g} s",
+                                    duration_text(desk_.watch.seconds()), film_.report().frames,
+                                    source_.record().folder().string(), film.moment(shots_.front().step).time,
+                                    film.moment(shots_.back().step).time));
 }
 
 }  // namespace grainreel

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/run/film_run.hpp"
+#include "render/film/run/film_run.hpp"
 #include "render/run/frames/revisited_run.hpp"
 
 namespace grainreel {

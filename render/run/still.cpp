@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/run/driver/stage_times.hpp"
 #include "render/film/production/picture_files.hpp"
+#include "render/film/run/thread_plan.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/run/frames/asked_moment.hpp"
-#include "render/run/stage_times.hpp"
-#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "render/run/film_request.hpp"
+#include "engine/run/folder/listener.hpp"
+#include "render/film/run/film_request.hpp"
 #include "render/run/frames/revisited_run.hpp"
-#include "render/run/listener.hpp"
 
 namespace grainreel {
 

@@ -1,11 +1,11 @@
 // The line on segregation at the end of a run.
-#include "render/run/segregation_text.hpp"
+#include "engine/run/folder/segregation_text.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
-#include "render/run/late_means.hpp"
+#include "engine/run/driver/late_means.hpp"
 #include "tests/cli/made_frame.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/measure/columns.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 
 namespace grainreel {

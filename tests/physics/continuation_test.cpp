@@ -11,7 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/start/continuation.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "tests/physics/world.hpp"
 

@@ -11,7 +11,7 @@
 #include "engine/lab/chart/limits/stability.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/plan/plan_parts.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "tests/physics/world.hpp"

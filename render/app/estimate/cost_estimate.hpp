@@ -6,8 +6,8 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/film/run/thread_plan.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "engine/replay/checkpoint_ring.hpp"
+#include "engine/run/driver/run_files.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
 #include "render/film/sampling/film_limits.hpp"
-#include "render/run/run_files.hpp"
 
 namespace grainreel {
 namespace {

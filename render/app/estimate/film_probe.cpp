@@ -10,10 +10,10 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
+#include "engine/run/driver/stage_times.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/app/report/stop_signal.hpp"
 #include "render/film/production/film_maker.hpp"
-#include "render/run/stage_times.hpp"
 
 namespace grainreel {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "engine/scene/text/assignment.hpp"
 #include "render/app/report/reporter.hpp"
+#include "render/film/run/film_request.hpp"
 #include "render/page/live/watch.hpp"
-#include "render/run/film_request.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 
 namespace grainreel {
 
-int tell_folder(const FilmRun::Ended& ended, const FilmRequest& request) {
+int tell_folder(const FolderRun::Ended& ended, const FilmRequest& request) {
     if (ended.folder && request.to_stdout)
         std::fprintf(stderr, "%s\n", visible(ended.folder->string()).c_str());
     if (ended.folder && !request.to_stdout) print_exact(ended.folder->string() + "\n");

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/run/progress.hpp"
+#include "engine/run/folder/progress.hpp"
 
 namespace grainreel {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "render/run/listener.hpp"
+#include "engine/run/folder/listener.hpp"
 
 namespace grainreel {
 

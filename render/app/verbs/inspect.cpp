@@ -13,6 +13,7 @@
 #include "engine/questions/histogram.hpp"
 #include "engine/questions/mean_answer.hpp"
 #include "engine/questions/questions.hpp"
+#include "engine/run/driver/stage_times.hpp"
 #include "render/app/inspect/print_answer.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
@@ -23,7 +24,6 @@
 #include "render/run/pick/answer_forces.hpp"
 #include "render/run/pick/answer_picture.hpp"
 #include "render/run/pick/pixel_question.hpp"
-#include "render/run/stage_times.hpp"
 
 namespace grainreel {
 namespace {

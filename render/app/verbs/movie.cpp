@@ -12,7 +12,7 @@
 #include "render/app/verbs/page_of_run.hpp"
 #include "render/app/verbs/verb.hpp"
 #include "render/app/watch/watch_child.hpp"
-#include "render/run/movie_run.hpp"
+#include "render/film/run/movie_run.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/run/folder/run_request.hpp"
 #include "render/page/report.hpp"
-#include "render/run/film_request.hpp"
 
 namespace grainreel {
 

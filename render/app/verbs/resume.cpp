@@ -14,8 +14,11 @@
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/replay/checkpoint_ring.hpp"
-#include "engine/replay/replay.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
+#include "engine/run/replay/replay.hpp"
+#include "engine/run/resume/accepted_changes.hpp"
+#include "engine/run/resume/kept_files.hpp"
+#include "engine/run/resume/resume_point.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/continuation.hpp"
 #include "render/app/options/option_groups.hpp"
@@ -23,13 +26,10 @@
 #include "render/app/report/record.hpp"
 #include "render/app/verbs/page_of_run.hpp"
 #include "render/app/verbs/verb.hpp"
+#include "render/film/run/movie_run.hpp"
+#include "render/film/run/resumed_film.hpp"
+#include "render/film/run/thread_plan.hpp"
 #include "render/run/frames/recorded_scene.hpp"
-#include "render/run/moments/key_moments.hpp"
-#include "render/run/movie_run.hpp"
-#include "render/run/resume/accepted_changes.hpp"
-#include "render/run/resume/kept_files.hpp"
-#include "render/run/resume/resume_point.hpp"
-#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 namespace {
@@ -92,7 +92,8 @@ class Resume final : public Verb {
         film_.frames = film_.film && fs::exists(folder / "frames", ignored);
         const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
         const int threads = plan_threads(processors, film_.film, scene.grains()).engine;
-        ResumePoint point = find_resume_point(scene, plan, folder, film_.film, threads);
+        ResumePoint point = find_resume_point(scene, plan, folder, threads,
+                                              film_.film ? reach_of_film(scene, plan) : FramesReach());
         point.accepted = accepted_in_run_json(folder / "run.json");
         if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
@@ -176,7 +177,10 @@ class Resume final : public Verb {
     void take_up(const std::vector<AcceptedChange>& changes, const fs::path& folder, Scene& scene, Plan& plan,
                  ResumePoint& point, int threads) const {
         const double time = plan.clock.time(point.simulation.step());
-        const Scene changed = changed_at(time, scene, scene_to_go_on(folder, {}), changes);
+        Scene changed = scene_to_go_on(folder, {});
+        const std::string words = words_of_changes(scene, changed, changes);
+        changed.drive = drive_changed_at(time, scene, changed, changes);
+        add_caption_of_change(changed, time, words);
         const Plan changed_plan = plan_of_run(changed, folder);
         check_overlap_stays(scene, plan, changed_plan);
         point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);

@@ -10,6 +10,7 @@
 #include "engine/base/team.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/files/folder_lock.hpp"
+#include "engine/run/driver/stage_times.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/app/check/study_estimate.hpp"
 #include "render/app/options/option_groups.hpp"
@@ -21,7 +22,6 @@
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/table.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/run/stage_times.hpp"
 
 namespace grainreel {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/questions/displacement.hpp"
 #include "engine/state/container_faces.hpp"
-#include "render/run/moments/displacement.hpp"
 
 namespace grainreel {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "engine/run/folder/listener.hpp"
 #include "render/page/live/listening.hpp"
 #include "render/page/live/live_run.hpp"
-#include "render/run/listener.hpp"
 
 namespace grainreel {
 

@@ -18,8 +18,8 @@ namespace grainreel {
 
 CompareRun::CompareRun(const FilmRequest& request, RunListener& listener, Comparison all)
     : FilmRun(request, listener), all_(std::move(all)) {
-    threads_ = all_.threads;
-    if (!all_.still) check_film(all_.film, all_.film_pictures);
+    film_.use_threads(all_.threads);
+    if (!all_.still) film_.check(all_.film, all_.film_pictures);
     if (all_.still && request.to_stdout)
         throw UserError("--out -: with --at there is no film; name a folder");
     make_folder({all_.film.name, request.base, request.out, request.force});
@@ -28,18 +28,17 @@ CompareRun::CompareRun(const FilmRequest& request, RunListener& listener, Compar
 void CompareRun::begin() {
     const std::vector<Instant>& instants = all_.pictures.instants;
     for (const auto& member : all_.members) {
-        record_.panels.push_back(member->place());
+        desk_.record.panels.push_back(member->place());
         if (member->archive() != nullptr)
-            record_.drawn.push_back({member->place(), static_cast<std::int64_t>(instants.size()),
-                                     instants.front().time, instants.back().time});
+            desk_.record.drawn.push_back({member->place(), static_cast<std::int64_t>(instants.size()),
+                                          instants.front().time, instants.back().time});
     }
     begin_record(all_.warnings);
-    for (const auto& member : all_.members)
-        member->begin(folder_->path(), request_.command, request_.program);
+    for (const auto& member : all_.members) member->begin(folder(), request_.command, request_.program);
 }
 
 std::function<bool()> CompareRun::go_on() const {
-    return [this] { return listener_.stop_signal() == 0; };
+    return [this] { return desk_.listener.stop_signal() == 0; };
 }
 
 bool CompareRun::work() {
@@ -66,7 +65,7 @@ bool CompareRun::next(Frames& frames) {
 bool CompareRun::finish(Frames& frames) {
     return for_all(Stage::pictures, frames, [this](Member& member, FramePtr&) {
         member.next(go_on());
-        return listener_.stop_signal() == 0;
+        return desk_.listener.stop_signal() == 0;
     });
 }
 
@@ -74,13 +73,13 @@ bool CompareRun::draw_still(Frames& frames) {
     const Instant moment = all_.pictures.instants.front();
     stage_ = Stopwatch();
     if (!next(frames)) return false;
-    SideBySide drawer(all_.panels, all_.film.film, threads_.raster, request_.gl);
-    if (const std::string note = drawer.gl_note(); !note.empty()) listener_.info(note);
-    record_.gl = drawer.gl_description();
+    SideBySide drawer(all_.panels, all_.film.film, film_.threads().raster, film_.request().gl);
+    if (const std::string note = drawer.gl_note(); !note.empty()) desk_.listener.info(note);
+    desk_.record.gl = drawer.gl_description();
     const auto segment = static_cast<std::size_t>(moment.segment);
     const Picture& picture = drawer.draw(frames, segment, all_.reference, *all_.still);
     still_ = fmt::format("still-{}s.png", seconds_in_names(moment.time));
-    write_png(folder_->path() / still_, picture,
+    write_png(folder() / still_, picture,
               texts_of(all_.film.name, all_.film.title, *frames[all_.reference], ""),
               all_.film.film.transparent);
     return true;
@@ -88,16 +87,16 @@ bool CompareRun::draw_still(Frames& frames) {
 
 bool CompareRun::draw_film(Frames& frames) {
     const std::vector<Instant>& instants = all_.pictures.instants;
-    pictures_planned_ = static_cast<std::int64_t>(instants.size());
     std::vector<std::size_t> segment_of;
     for (const Instant& instant : instants) segment_of.push_back(static_cast<std::size_t>(instant.segment));
-    open_film(all_.film, side_by_side_drawer(all_.panels, all_.film.film, threads_.raster, request_.gl,
-                                             all_.reference, segment_of));
+    film_.open(all_.film, static_cast<std::int64_t>(instants.size()), nullptr,
+               side_by_side_drawer(all_.panels, all_.film.film, film_.threads().raster, film_.request().gl,
+                                   all_.reference, segment_of));
     stage_ = Stopwatch();
     for (const std::size_t segment : segment_of) {
         if (!next(frames)) return false;
-        const auto timer = times_.during("waiting for the film");
-        film_->take(frames, playback_of_all(all_.panels, segment));
+        const auto timer = desk_.times.during("waiting for the film");
+        film_.maker().take(frames, playback_of_all(all_.panels, segment));
     }
     return true;
 }
@@ -107,7 +106,7 @@ const char* CompareRun::name_of(Stage stage) const {
 }
 
 bool CompareRun::for_all(Stage stage, Frames& frames, const Work& work) {
-    const auto timer = times_.during(name_of(stage));
+    const auto timer = desk_.times.during(name_of(stage));
     std::atomic<bool> all_well = true;
     std::vector<std::function<void()>> works;
     for (std::size_t i = 0; i < all_.members.size(); ++i)
@@ -126,7 +125,7 @@ bool CompareRun::for_all(Stage stage, Frames& frames, const Work& work) {
 
 void CompareRun::show_progress(Stage stage) {
     if (all_.all_recorded()) {
-        if (stage == Stage::pictures && film_) show_drawing();
+        if (stage == Stage::pictures && film_.is_open()) film_.show_progress();
         return;
     }
     Progress progress;
@@ -141,13 +140,13 @@ void CompareRun::show_progress(Stage stage) {
     progress.done /= runs;
     progress.end = all_.pictures.instants.back().time;
     progress.time = progress.done * progress.end;
-    progress.frames = film_ ? film_->frames_done() : 0;
-    progress.frames_planned = frames_planned_;
-    progress.elapsed = watch_.seconds();
+    progress.frames = film_.frames_done();
+    progress.frames_planned = film_.frames_planned();
+    progress.elapsed = desk_.watch.seconds();
     const double seconds = stage_.seconds();
     if (stage == Stage::pictures && progress.done > 0 && seconds > 1)
         progress.remaining = seconds * (1 - progress.done) / progress.done;
-    listener_.progress(progress);
+    desk_.listener.progress(progress);
 }
 
 void CompareRun::keep_state() {
@@ -155,12 +154,13 @@ void CompareRun::keep_state() {
 }
 
 void CompareRun::conclude() {
-    for (const auto& member : all_.members) member->close(record_.status, *record_.exit_status, failure_);
+    for (const auto& member : all_.members)
+        member->close(desk_.record.status, *desk_.record.exit_status, desk_.failure);
 }
 
 std::string CompareRun::stopped_text() const {
     if (all_.still) return "stopped";
-    return fmt::format("stopped at frame {} of {}", film_report_.frames, frames_planned_);
+    return fmt::format("stopped at frame {} of {}", film_.report().frames, film_.frames_planned());
 }
 
 void CompareRun::report_written() {
@@ -168,16 +168,17 @@ void CompareRun::report_written() {
     for (const auto& member : all_.members) {
         if (member->run() == nullptr) continue;
         folders.push_back(member->place() + "/");
-        for (const std::string& line : member->run()->news())
-            listener_.warning(fmt::format("{}: {}", member->place(), line));
+        for (const std::string& line : member->source().news())
+            desk_.listener.warning(fmt::format("{}: {}", member->place(), line));
     }
     const std::string runs =
         folders.empty() ? "" : fmt::format("{} (each a run), ", fmt::join(folders, ", "));
-    listener_.info(fmt::format("wrote {}: {}{}run.json, log.txt", folder_->path().string(),
-                               all_.still && !still_.empty() ? still_ + ", " : film_files_text(), runs));
-    listener_.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s", duration_text(watch_.seconds()),
-                               all_.members.size(), all_.pictures.instants.front().time,
-                               all_.pictures.instants.back().time));
+    desk_.listener.info(fmt::format("wrote {}: {}{}run.json, log.txt", folder().string(),
+                                    all_.still && !still_.empty() ? still_ + ", " : film_.files_text(),
+                                    runs));
+    desk_.listener.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s",
+                                    duration_text(desk_.watch.seconds()), all_.members.size(),
+                                    all_.pictures.instants.front().time, all_.pictures.instants.back().time));
 }
 
 }  // namespace grainreel

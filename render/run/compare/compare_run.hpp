@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "render/film/run/film_run.hpp"
 #include "render/run/compare/comparison.hpp"
-#include "render/run/film_run.hpp"
 
 namespace grainreel {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "render/film/run/film_request.hpp"
+#include "render/film/run/thread_plan.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/run/compare/member.hpp"
-#include "render/run/film_request.hpp"
-#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 

@@ -11,10 +11,10 @@
 
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
-#include "render/run/first_failure.hpp"
+#include "engine/run/driver/first_failure.hpp"
+#include "render/film/sources/scene_run.hpp"
 #include "render/run/frames/frame_source.hpp"
 #include "render/run/frames/revisited_run.hpp"
-#include "render/run/scene_run.hpp"
 
 namespace grainreel {
 
@@ -29,9 +29,9 @@ class Member {
     const FrameSource& source() const { return *source_; }
     const Scene& scene() const { return source_->scene(); }
     const FrameArchive* archive() const { return source_->archive(); }  // null for what is run
-    const SceneRun* run() const { return run_; }                        // null for a record
+    const RunDriver* run() const { return driver_.get(); }              // null for a record
     const RevisitedRun* record() const { return record_; }              // null for what is run
-    const Clock& clock() const { return run_ ? run_->plan().clock : record_->clock(); }
+    const Clock& clock() const { return driver_ ? driver_->plan().clock : record_->clock(); }
     // Where its files are, as run.json of the whole tells it.
     std::string place() const;
 
@@ -53,7 +53,7 @@ class Member {
     double speed() const { return speed_; }  // particle-steps/s
 
   private:
-    SceneRun* run_ = nullptr;               // the source, when it is run
+    std::unique_ptr<RunDriver> driver_;     // of the source, when it is run
     const RevisitedRun* record_ = nullptr;  // likewise, when it lies on disk
     std::unique_ptr<FrameSource> source_;
     std::optional<FolderLock> folder_;  // of what is run, once it is made

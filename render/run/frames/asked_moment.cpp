@@ -7,12 +7,13 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/nearest_image.hpp"
-#include "engine/replay/checkpoint_ring.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/files/trajectory.hpp"
+#include "engine/questions/displacement.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/state/container_faces.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/run/moments/displacement.hpp"
-#include "render/run/run_files.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/questions/snapshot.hpp"
-#include "engine/replay/replay.hpp"
+#include "engine/run/replay/replay.hpp"
 #include "render/run/frames/record.hpp"
 
 namespace grainreel {

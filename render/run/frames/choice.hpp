@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/run/film_request.hpp"
+#include "render/film/run/film_request.hpp"
 #include "render/run/frames/frame_source.hpp"
 
 namespace grainreel {

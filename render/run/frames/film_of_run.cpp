@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "engine/files/measures_csv.hpp"
+#include "render/film/moments/bed_periods.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/run/film_times_table.hpp"
 #include "render/run/frames/recorded_scene.hpp"
 #include "render/run/frames/same_run.hpp"
-#include "render/run/moments/bed_periods.hpp"
 
 namespace grainreel {
 

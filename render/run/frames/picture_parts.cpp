@@ -2,23 +2,11 @@
 
 #include <algorithm>
 
+#include "engine/questions/displacement.hpp"
+#include "render/film/moments/period_means.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/run/moments/displacement.hpp"
-#include "render/run/moments/period_means.hpp"
 
 namespace grainreel {
-
-Frame places_of(const Frame& frame) {
-    Frame places;
-    places.step = frame.step;
-    places.time = frame.time;
-    places.cycles = frame.cycles;
-    places.phase = frame.phase;
-    places.bodies = frame.bodies;
-    places.id = frame.id;
-    places.position = frame.position;
-    return places;
-}
 
 PictureParts::PictureParts(const Scene& scene, const Clock& clock, std::int64_t first)
     : shows_(scene.film.shows),
@@ -47,9 +35,9 @@ std::vector<std::int64_t> PictureParts::averaged(std::int64_t step, const FilmSe
     return averaged_steps({step, 0}, rule, clock_, periods);
 }
 
-std::vector<PictureParts::Moment> PictureParts::moments(std::int64_t step, const FilmSegment& rule,
-                                                        int periods) const {
-    std::vector<Moment> all;
+std::vector<WantedMoment> PictureParts::moments(std::int64_t step, const FilmSegment& rule,
+                                                int periods) const {
+    std::vector<WantedMoment> all;
     for (const std::int64_t one : earlier(step, periods)) all.push_back({one, false});
     for (const std::int64_t one : exposed(step, rule, periods)) all.push_back({one, true});
     for (const std::int64_t one : averaged(step, rule, periods))

@@ -10,12 +10,10 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/frame.hpp"
+#include "engine/run/driver/kept_moments.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
-
-// Ids, positions and bodies alone, and the moment.
-Frame places_of(const Frame& frame);
 
 // What a source has of its run.
 class PartSupply {
@@ -40,13 +38,9 @@ class PictureParts {
     // Of the scene the film counts. first: the first step that is to be had.
     PictureParts(const Scene& scene, const Clock& clock, std::int64_t first);
 
-    struct Moment {
-        std::int64_t step = 0;
-        bool whole = false;  // all of the grains; else positions and bodies
-    };
     // The other moments that the picture at `step` is made of, in no order; some may come twice. rule: the
     // segment by which it is taken. periods: after which the bed repeats itself.
-    std::vector<Moment> moments(std::int64_t step, const FilmSegment& rule, int periods) const;
+    std::vector<WantedMoment> moments(std::int64_t step, const FilmSegment& rule, int periods) const;
 
     // Adds what of all that is to be had. Where grains have come or gone in between, ways and means are left
     // out.

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "render/run/frames/same_run.hpp"
-#include "render/run/run_files.hpp"
 
 namespace grainreel {
 

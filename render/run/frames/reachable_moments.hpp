@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/files/trajectory.hpp"
-#include "engine/replay/replayer.hpp"
+#include "engine/run/replay/replayer.hpp"
 #include "render/run/frames/recorded_run.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/questions/snapshot.hpp"
-#include "engine/replay/checkpoint_ring.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
 #include "render/run/frames/frame_source.hpp"
 
 namespace grainreel {

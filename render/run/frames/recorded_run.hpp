@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "engine/files/contacts_file.hpp"
+#include "engine/files/outflow_record.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/replay/own_checkpoints.hpp"
+#include "engine/run/replay/own_checkpoints.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/run/frames/picture_parts.hpp"
 #include "render/run/frames/record.hpp"
-#include "render/run/moments/outflow_record.hpp"
 
 namespace grainreel {
 

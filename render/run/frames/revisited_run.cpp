@@ -7,9 +7,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "render/film/run/thread_plan.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/run/frames/choice.hpp"
-#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 

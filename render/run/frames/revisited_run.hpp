@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/run/driver/kept_moments.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/run/frames/film_of_run.hpp"
-#include "render/run/frames/kept_moments.hpp"
 #include "render/run/frames/reachable_moments.hpp"
 #include "render/run/frames/recorded_run.hpp"
 

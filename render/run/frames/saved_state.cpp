@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/replay/replay.hpp"
+#include "engine/run/replay/replay.hpp"
 #include "engine/state/grain_table.hpp"
 #include "engine/start/restart.hpp"
 #include "render/run/frames/recorded_scene.hpp"

@@ -8,9 +8,9 @@
 #include "engine/base/error.hpp"
 #include "render/film/files/png.hpp"
 #include "render/film/production/picture_files.hpp"
+#include "render/film/run/thread_plan.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/whole/renderer.hpp"
-#include "render/run/thread_plan.hpp"
 
 namespace grainreel {
 

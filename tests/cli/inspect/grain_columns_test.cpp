@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/questions/displacement.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/film/grain_values.hpp"
 #include "render/picture/grains/quantities.hpp"
-#include "render/run/moments/displacement.hpp"
 #include "render/run/pick/answer_forces.hpp"
 #include "render/run/pick/answer_picture.hpp"
 

@@ -1,4 +1,4 @@
-#include "render/run/moments/agenda.hpp"
+#include "engine/run/driver/agenda.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,23 +15,22 @@ std::vector<Stop> all_of(Agenda agenda) {
 }
 
 TEST(Agenda, MergesThreeSchedulesIntoOneStopAStep) {
-    const std::vector<Stop> stops = all_of(Agenda({{0, 0}, {3, 0}, {6, 1}}, 6, 4, 0, 10));
-    std::vector<std::int64_t> steps, film, trajectory, measures;
+    const std::vector<Stop> stops = all_of(Agenda({0, 3, 6}, 6, 4, 0, 10));
+    std::vector<std::int64_t> steps, frames, trajectory, measures;
     for (const Stop& stop : stops) {
         steps.push_back(stop.step);
-        if (!stop.segments.empty()) film.push_back(stop.step);
+        if (stop.frame) frames.push_back(stop.step);
         if (stop.trajectory) trajectory.push_back(stop.step);
         if (stop.measures) measures.push_back(stop.step);
     }
     EXPECT_THAT(steps, testing::ElementsAre(0, 3, 4, 6, 8, 10));
-    EXPECT_THAT(film, testing::ElementsAre(0, 3, 6));
+    EXPECT_THAT(frames, testing::ElementsAre(0, 3, 6));
     EXPECT_THAT(trajectory, testing::ElementsAre(0, 6));
     EXPECT_THAT(measures, testing::ElementsAre(0, 4, 8, 10));  // the last step as well
-    EXPECT_THAT(stops[3].segments, testing::ElementsAre(1));
 }
 
 TEST(Agenda, StopsAtKeyMomentsFromWhereTheRunIs) {
-    Agenda agenda({{7, 0}}, 6, 0, 3, 10);
+    Agenda agenda({7}, 6, 0, 3, 10);
     agenda.want_keys({0, 2, 5, 6, 10, 12});
     agenda.goes_on();
     std::vector<std::int64_t> steps, keys;
@@ -43,16 +42,16 @@ TEST(Agenda, StopsAtKeyMomentsFromWhereTheRunIs) {
     EXPECT_THAT(keys, testing::ElementsAre(5, 6, 10));
 }
 
-TEST(Agenda, SeveralPicturesOfOneStepAreAllTaken) {
-    const std::vector<Stop> stops = all_of(Agenda({{2, 0}, {2, 1}}, 0, 0, 0, 4));
+TEST(Agenda, AStepThatIsWantedTwiceIsOneStop) {
+    const std::vector<Stop> stops = all_of(Agenda({2, 2}, 0, 0, 0, 4));
     ASSERT_EQ(stops.size(), 3u);
-    EXPECT_THAT(stops[1].segments, testing::ElementsAre(0, 1));
+    EXPECT_EQ(stops[1].step, 2);
+    EXPECT_TRUE(stops[1].frame);
+    EXPECT_FALSE(stops[2].frame);
 }
 
 TEST(Agenda, ARunThatGoesOnKeepsItsClock) {
-    Agenda agenda({{0, 0}, {5, 0}, {9, 0}}, 4, 0, 5, 9);
-    EXPECT_EQ(agenda.shots(), 2);
-    const std::vector<Stop> stops = all_of(agenda);
+    const std::vector<Stop> stops = all_of(Agenda({0, 5, 9}, 4, 0, 5, 9));
     ASSERT_EQ(stops.size(), 3u);
     EXPECT_EQ(stops[0].step, 5);
     EXPECT_TRUE(stops[0].measures);

@@ -1,4 +1,4 @@
-#include "render/run/checkpoint_pace.hpp"
+#include "engine/run/driver/checkpoint_pace.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <functional>
 #include <numbers>
 
-#include "render/run/frames/kept_moments.hpp"
-#include "render/run/moments/agenda.hpp"
+#include "engine/run/driver/agenda.hpp"
+#include "engine/run/driver/kept_moments.hpp"
 
 namespace grainreel {
 namespace {
@@ -105,9 +105,9 @@ Frame picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grai
     return at_will;
 }
 
-std::vector<std::int64_t> steps_of(const std::vector<PictureParts::Moment>& moments) {
+std::vector<std::int64_t> steps_of(const std::vector<WantedMoment>& moments) {
     std::vector<std::int64_t> steps;
-    for (const PictureParts::Moment& moment : moments) steps.push_back(moment.step);
+    for (const WantedMoment& moment : moments) steps.push_back(moment.step);
     return steps;
 }
 
@@ -286,7 +286,7 @@ TEST(KeptMoments, AreKeptUntilTheLastPictureThatWantsThem) {
     EXPECT_TRUE(kept.at(20));
     kept.done_with(50);
     EXPECT_FALSE(kept.at(20) || kept.at(30));
-    Agenda agenda({{12, 0}}, 0, 0, 2, 12, {2});
+    Agenda agenda({12}, 0, 0, 2, 12, {2});
     EXPECT_TRUE(agenda.next()->moment);  // step 2
     EXPECT_FALSE(agenda.next()->moment);
 }

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/team.hpp"
+#include "engine/run/driver/pace.hpp"
 #include "render/app/report/progress_text.hpp"
-#include "render/run/pace.hpp"
-#include "render/run/thread_plan.hpp"
+#include "render/film/run/thread_plan.hpp"
 
 namespace grainreel {
 namespace {

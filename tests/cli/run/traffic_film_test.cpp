@@ -7,11 +7,11 @@
 #include "engine/base/error.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/driver/run_files.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "render/film/files/png.hpp"
 #include "render/picture/whole/renderer.hpp"
-#include "render/run/run_files.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -55,7 +55,7 @@ struct Sink {
 TEST(TrafficFilm, FilesHaveWhoIsThere) {
     const TemporaryFolder here;
     Sink sink(sink_scene());
-    RunFiles files(here.path(), sink.scene, sink.plan, sink.simulation, "test");
+    RunFiles files(here.path(), sink.scene, sink.plan, sink.simulation, "test", false);
     std::vector<Frame> frames;
     std::vector<Measures> measures;
     const std::int64_t every = sink.plan.steps / 20;

@@ -2,7 +2,7 @@
 // measures that count its periods.
 #include <gtest/gtest.h>
 
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/continuation.hpp"
 #include "tests/cli/small_scene.hpp"

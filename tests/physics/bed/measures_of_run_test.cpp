@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/physics/world.hpp"

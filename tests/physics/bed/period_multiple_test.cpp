@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/base/random.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "tests/physics/world.hpp"
 

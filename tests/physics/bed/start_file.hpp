@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/state/grain_table.hpp"
 #include "tests/cli/temporary_folder.hpp"

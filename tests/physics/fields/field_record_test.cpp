@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/plan/damping.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 
 namespace grainreel {

@@ -1,5 +1,5 @@
 // Moments of a run that are brought back from its checkpoints.
-#include "engine/replay/replay.hpp"
+#include "engine/run/replay/replay.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 #include "engine/base/random.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/replay/checkpoint_ring.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -8,7 +8,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy/energy_balance.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"
 #include "engine/state/outlet_faces.hpp"

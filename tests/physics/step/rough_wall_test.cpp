@@ -9,7 +9,7 @@
 #include "engine/measure/energy/energy_balance.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/state/face_names.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/measure/columns.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"

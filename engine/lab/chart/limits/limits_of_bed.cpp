@@ -7,7 +7,7 @@
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/limits/experiment.hpp"
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 
 namespace grainreel {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/run/driver/stage_times.hpp"
 #include "render/app/study/members/child.hpp"
-#include "render/run/stage_times.hpp"
 
 namespace grainreel {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/run/folder/listener.hpp"
 #include "render/app/study/members/member_commands.hpp"
 #include "render/app/study/results/results.hpp"
-#include "render/run/listener.hpp"
 
 namespace grainreel {
 

@@ -1,0 +1,237 @@
+#include "engine/run/driver/run_driver.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/files/former_run.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/run/driver/key_moments.hpp"
+#include "engine/scene/file/scene_file.hpp"
+#include "engine/scene/file/writer.hpp"
+#include "engine/scene/text/comments.hpp"
+#include "engine/state/grain_table.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// A hard link that takes the place of what `name` was. False where the file system knows none.
+bool give_second_name(const std::filesystem::path& file, const std::filesystem::path& name) {
+    const std::filesystem::path part = name.string() + ".part";
+    std::error_code error;
+    std::filesystem::remove(part, error);
+    std::filesystem::create_hard_link(file, part, error);
+    if (!error) std::filesystem::rename(part, name, error);
+    return !error;
+}
+
+}  // namespace
+
+RunDriver::RunDriver(const Scene& scene, const Plan& plan, int threads)
+    : scene_(scene), plan_(plan), simulation_(scene, plan, threads) {}
+
+RunDriver::RunDriver(const Scene& scene, const Plan& plan, ResumePoint point)
+    : scene_(scene),
+      plan_(plan),
+      simulation_(std::move(point.simulation)),
+      packed_(true),
+      first_step_(point.first),
+      goes_on_(true),
+      frames_before_(point.frames),
+      former_end_(point.reached),
+      changed_(point.changed),
+      accepted_(std::move(point.accepted)) {}
+
+void RunDriver::keep_former(const FolderLock& folder, bool hands_out, const std::string& program_version) {
+    folder_ = &folder;
+    FormerRun former(folder.folder());
+    const std::optional<std::size_t> frames = hands_out ? std::optional(frames_before_) : std::nullopt;
+    ready_ = ready_files(folder.folder(), scene_, plan_, simulation_, frames, program_version, former);
+    former.begin();
+    former_kept_ = true;
+}
+
+// A run that ends where it was, its film being unfinished, has all its files whole again by then.
+void RunDriver::let_former_go(bool at_its_end) {
+    if (!former_kept_ || !(at_its_end || simulation_.step() > former_end_)) return;
+    FormerRun::let_go(folder_->folder());
+    former_kept_ = false;
+}
+
+void RunDriver::put_back() {
+    files_.reset();
+    FormerRun::put_back(folder_->folder());
+    former_kept_ = false;
+}
+
+void RunDriver::use_folder(const FolderLock& folder, const std::string& program_version) {
+    folder_ = &folder;
+    program_version_ = program_version;
+    std::string text = resolved_scene(scene_, plan_);
+    if (goes_on_) text = with_comments_of(load_scene_file(path_of("scene.toml")), std::move(text));
+    replace_file(path_of("scene.toml"), text);
+}
+
+bool RunDriver::pack(const PackingWatcher& watcher) {
+    const auto timer = times_.during("packing");
+    packing_ = simulation_.pack([&](const PackingProgress& now) {
+        folder_->check_there();
+        return watcher(now);
+    });
+    if (!packing_.finished) return false;
+    first_step_ = simulation_.step();
+    packed_ = true;
+    return true;
+}
+
+void RunDriver::start(FrameWishes wishes) {
+    wishes_ = std::move(wishes);
+    kept_ = std::move(wishes_.kept);
+    open_files();
+    if (changed_) {
+        std::error_code ignored;
+        std::filesystem::create_directory(path_of(CheckpointRing::kFolder), ignored);
+        simulation_.save_checkpoint(place_in_ring(folder_->folder(), simulation_.step()));
+    }
+    if (scene_.output.checkpoints)
+        ring_.emplace(folder_->folder(), *scene_.output.checkpoints, simulation_.step(), plan_.steps);
+    agenda_.emplace(wishes_.steps, Rhythm(plan_.trajectory_every, plan_.trajectory_periods),
+                    Rhythm(plan_.measures_every, plan_.measures_periods), simulation_.step(), plan_.steps,
+                    kept_.steps(), plan_.clock, files_->has_fields() ? &plan_.fields : nullptr);
+    if (files_->keeps_key_moments())
+        agenda_->want_keys(key_steps(scene_, plan_, first_step_, wishes_.key_times));
+    if (simulation_.step() > first_step_) agenda_->goes_on();
+    save_checkpoint();  // of a packing that may have taken hours
+}
+
+void RunDriver::open_files() {
+    const std::filesystem::path& folder = folder_->folder();
+    if (!goes_on_) {
+        files_.emplace(folder, scene_, plan_, simulation_, program_version_, wishes_.keep_rows);
+        if (wishes_.to_file) files_->keep_film_moments();
+        if (wishes_.key_moments && plan_.trajectory_every > 0) files_->keep_key_moments();
+        return;
+    }
+    files_.emplace(RunFiles::GoesOn(), folder, scene_, plan_, simulation_, program_version_,
+                   wishes_.keep_rows);
+    if (ready_.key_moments) files_->keep_key_moments(simulation_.step());
+    if (!ready_.key_moments_lost.empty())
+        news_.push_back(fmt::format("{}; the run's page may lack forces of moments before {:.4g} s",
+                                    ready_.key_moments_lost, plan_.clock.time(simulation_.step())));
+    std::error_code ignored;
+    if (!wishes_.steps.empty() && std::filesystem::exists(folder / kFilmMoments, ignored))
+        files_->keep_film_moments(frames_before_);
+}
+
+std::shared_ptr<Frame> RunDriver::next(const GoOn& go_on) {
+    if (handed_out_) kept_.done_with(*handed_out_);
+    handed_out_.reset();
+    while (std::optional<Stop> stop = agenda_->next()) {
+        if (!advance_to(stop->step, go_on)) return nullptr;
+        if (wishes_.look) wishes_.look(simulation_);
+        if (stop->frame && wishes_.left_out && wishes_.left_out(stop->step)) {
+            stop->frame = false;
+            kept_.done_with(stop->step);
+        }
+        std::shared_ptr<Frame> frame = serve(*stop);
+        if (!stop->frame) continue;
+        handed_out_ = stop->step;
+        return frame;
+    }
+    let_former_go(true);
+    return nullptr;
+}
+
+bool RunDriver::advance_to(std::int64_t target, const GoOn& go_on) {
+    while (simulation_.step() < target) {
+        if (!go_on()) return false;
+        folder_->check_there();
+        const std::int64_t from = simulation_.step();
+        const std::int64_t to = std::min(target, from + pace_.steps());
+        Stopwatch stretch;
+        {
+            const auto timer = times_.during("engine");
+            simulation_.advance(to);
+        }
+        files_->add_departures(simulation_);
+        let_former_go(false);
+        const double seconds = stretch.seconds();
+        pace_.took(to - from, seconds);
+        const double work = static_cast<double>(to - from) * static_cast<double>(simulation_.grains());
+        particle_steps_ += work;
+        rate_.add(work, seconds);
+        if (checkpoints_.due() || ring_due()) save_checkpoint();
+    }
+    return go_on();
+}
+
+// The frame is null where nobody wants one.
+std::shared_ptr<Frame> RunDriver::serve(const Stop& stop) {
+    if (stop.measures) {
+        const auto timer = times_.during("measuring");
+        add_measures();
+    }
+    if (stop.fields) {
+        const auto timer = times_.during("writing");
+        files_->add_fields(simulation_);
+    }
+    if (!stop.trajectory && !stop.key && !stop.moment && !stop.frame) return nullptr;
+    auto frame = std::make_shared<Frame>(simulation_.frame());
+    const bool filed = files_->keeps_film_moments() && stop.frame;
+    if (stop.trajectory || stop.key || filed) {
+        const auto timer = times_.during("writing");
+        const RunFiles::Contacts contacts = simulation_.contacts();
+        count_contacts(*frame, contacts);
+        if (stop.trajectory) files_->add_frame(*frame, contacts);
+        if (stop.key) files_->add_key_moment(*frame, contacts);
+    }
+    if (stop.moment) kept_.keep(*frame);
+    if (filed) {
+        const auto timer = times_.during("writing");
+        files_->add_film_moment(*frame);
+    }
+    return frame;
+}
+
+void RunDriver::add_measures() {
+    files_->add_measures(simulation_.measures());
+}
+
+bool RunDriver::ring_due() const {
+    return ring_ && ring_->due(simulation_.step()) && checkpoints_.affordable();
+}
+
+// One of the ring is the run's last one too, under a second name.
+void RunDriver::save_checkpoint() {
+    folder_->check_there();
+    const auto timer = times_.during("writing");
+    const Stopwatch writing;
+    const std::filesystem::path last = path_of("checkpoint.grs");
+    const auto save = [&](const std::filesystem::path& file) { simulation_.save_checkpoint(file); };
+    if (!ring_ || !ring_->due(simulation_.step())) {
+        save(last);
+    } else {
+        ring_->add(simulation_.step(), [&](const std::filesystem::path& file) {
+            save(file);
+            if (!give_second_name(file, last)) save(last);
+        });
+    }
+    checkpoints_.saved(writing.seconds());
+}
+
+void RunDriver::close(FirstFailure& failure) {
+    if (!packed_ || folder_ == nullptr || !folder_->is_there()) return;
+    failure.attempt([&] {
+        if (files_ && files_->last_measures() &&
+            files_->last_measures()->at("step") != static_cast<double>(simulation_.step()))
+            add_measures();
+    });
+    failure.attempt([&] { final_table_ = write_grain_table(path_of(kFinalTable), simulation_.frame()); });
+    failure.attempt([&] { save_checkpoint(); });
+    failure.attempt([&] { state_hash_ = simulation_.state_hash(); });
+}
+
+}  // namespace grainreel

@@ -1,0 +1,137 @@
+// One scene that is run: packing, vibration up to the moments that somebody wants to see, and the files it
+// leaves in its folder. Prints nothing and draws nothing.
+//
+// use_folder(), pack(), start(), next() until it gives nothing, close(): in this order.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/files/folder_lock.hpp"
+#include "engine/files/run_json.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/run/driver/agenda.hpp"
+#include "engine/run/driver/checkpoint_pace.hpp"
+#include "engine/run/driver/first_failure.hpp"
+#include "engine/run/driver/frame_wishes.hpp"
+#include "engine/run/driver/pace.hpp"
+#include "engine/run/driver/run_files.hpp"
+#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
+#include "engine/run/resume/ready_files.hpp"
+#include "engine/run/resume/resume_point.hpp"
+#include "engine/run/simulation/simulation.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace grainreel {
+
+class RunDriver {
+  public:
+    // Asked every tenth of a second or so; false: stop.
+    using GoOn = std::function<bool()>;
+
+    // Throws UserError for what scene or plan get wrong; nothing is on disk then.
+    RunDriver(const Scene& scene, const Plan& plan, int threads);
+    // A run that goes on in its folder. It is packed.
+    RunDriver(const Scene& scene, const Plan& plan, ResumePoint point);
+    RunDriver(const RunDriver&) = delete;
+    RunDriver& operator=(const RunDriver&) = delete;
+
+    // Writes scene.toml there; the other files follow with start(). The lock outlives the run; from here
+    // pack() and next() throw RunError soon after the folder is gone.
+    void use_folder(const FolderLock& folder, const std::string& program_version);
+    // For a run that goes on, before use_folder(): looks at all its files, and keeps what it was until it has
+    // gone past its former end. hands_out: whether frames will be wanted of it, so that film_moments.nc goes
+    // on. Throws UserError or RunError; nothing in the folder has changed then.
+    void keep_former(const FolderLock& folder, bool hands_out, const std::string& program_version);
+    // Whether it goes on and has not come to where it was.
+    bool is_behind_former() const { return former_kept_; }
+    // Closes its files, and the folder is as it was. Nothing else may be called afterwards.
+    void put_back();
+    // False when the watcher stopped it.
+    bool pack(const PackingWatcher& watcher);
+    const PackingResult& packing() const { return packing_; }
+
+    // After packing: opens the files.
+    void start(FrameWishes wishes);
+    // Goes to the next step at which a frame is wanted, writes on the way what the scene asks for, and hands
+    // the frame out. Nothing after the last (the run is then at its end), and when told to stop. Throws
+    // RunError when the run stopped being healthy, a file cannot be written, or the folder is gone.
+    std::shared_ptr<Frame> next(const GoOn& go_on);
+    // An earlier moment that the frame of the last next() wants; null where it was not kept.
+    FramePtr kept(std::int64_t step) const { return kept_.at(step); }
+    // What was found when it started.
+    const std::vector<std::string>& news() const { return news_; }
+
+    // After packing, whatever happened: last row of measures, end state, checkpoint. Nothing when its folder
+    // is gone.
+    void close(FirstFailure& failure);
+
+    const Scene& scene() const { return scene_; }
+    const Plan& plan() const { return plan_; }
+    const Simulation& simulation() const { return simulation_; }
+    const StageTimes& times() const { return times_; }
+    const std::optional<RunFiles>& files() const { return files_; }            // from start() on
+    const std::filesystem::path& folder() const { return folder_->folder(); }  // from use_folder() on
+    bool packed() const { return packed_; }
+    bool goes_on() const { return goes_on_; }                // in the folder of an earlier run, which it is
+    std::int64_t first_step() const { return first_step_; }  // at which the drive began, once it is packed
+    // Frames of film_moments.nc that were handed out before, for a run that goes on.
+    std::size_t frames_before() const { return frames_before_; }
+    double done() const;                                   // share of the vibration
+    double recent_speed() const { return rate_.value(); }  // particle-steps/s
+    double speed() const;                                  // particle-steps/s, time in the engine alone
+
+    std::string packing_text() const;
+    std::optional<std::string> packing_warning() const;
+    // "trajectory.nc (4 frames), measures.csv (30 rows), ..."
+    std::string files_text() const;
+    // What is known when the run begins, and when it has ended.
+    void describe(RunRecord& record) const;
+    void conclude(RunRecord& record) const;
+
+  private:
+    void let_former_go(bool at_its_end);
+    void open_files();
+    bool advance_to(std::int64_t target, const GoOn& go_on);
+    std::shared_ptr<Frame> serve(const Stop& stop);
+    void add_measures();
+    bool ring_due() const;
+    void save_checkpoint();
+    std::filesystem::path path_of(const char* file) const { return folder_->folder() / file; }
+
+    Scene scene_;
+    Plan plan_;
+    Simulation simulation_;
+    const FolderLock* folder_ = nullptr;
+    std::string program_version_;  // as files tell it
+    PackingResult packing_;
+    bool packed_ = false;
+    std::int64_t first_step_ = 0;
+    bool goes_on_ = false;
+    std::size_t frames_before_ = 0;
+    std::int64_t former_end_ = 0;  // step
+    bool former_kept_ = false, changed_ = false;
+    std::vector<AcceptedKey> accepted_;
+    ReadyFiles ready_;
+    FrameWishes wishes_;
+    KeptMoments kept_;
+    std::optional<std::int64_t> handed_out_;  // step of the last frame
+    std::optional<RunFiles> files_;
+    std::optional<Agenda> agenda_;
+    std::vector<std::string> news_;
+    StageTimes times_;
+    Pace pace_;
+    CheckpointPace checkpoints_;
+    std::optional<CheckpointRing> ring_;
+    double particle_steps_ = 0;                // of vibration
+    RecentRate rate_;                          // particle-steps/s
+    std::optional<std::uint64_t> state_hash_;  // of the end state
+    std::optional<TableMark> final_table_;     // of its table
+};
+
+}  // namespace grainreel

@@ -1,0 +1,156 @@
+#include "engine/run/driver/run_files.hpp"
+
+#include <algorithm>
+
+#include "engine/base/error.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/files/trajectory_info.hpp"
+#include "engine/run/resume/kept_files.hpp"
+
+namespace grainreel {
+
+double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t frames) {
+    constexpr double most_bytes = 100e6, bytes_a_grain = 68;
+    if (!scene.output.trajectory) return 0;
+    const double bytes = bytes_a_grain * static_cast<double>(frames) * static_cast<double>(plan.capacity);
+    return scene.output.film_moments.value_or(bytes <= most_bytes) ? bytes : 0;
+}
+
+void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
+    frame.contact_number.assign(frame.size(), 0);
+    const auto count = [&](std::int32_t id) {
+        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+        if (id >= 0) ++frame.contact_number[static_cast<std::size_t>(at - frame.id.begin())];
+    };
+    for (const Simulation::ContactRecord& contact : contacts) {
+        count(contact.first);
+        count(contact.second);
+    }
+}
+
+RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+                   const Simulation& simulation, const std::string& program_version, bool keep_rows)
+    : folder_(folder),
+      info_(trajectory_info(scene, plan, program_version)),
+      program_version_(program_version),
+      clock_(plan.clock),
+      field_times_(plan.fields),
+      measures_(folder / "measures.csv", simulation.measured()),
+      departed_(scene),
+      late_(plan.clock, scene.run.duration) {
+    if (plan.opens && !scene.container.tray) outflow_.emplace(folder / "outflow.csv");
+    if (keep_rows) table_ = std::make_shared<MeasureTable>(measures_.columns());
+    if (const auto sets = simulation.field_sets(); !sets.empty())
+        fields_.emplace(folder / "fields.nc", sets, scene.title, program_version, file_facts(scene, true));
+    if (plan.trajectory_every == 0) return;
+    trajectory_.emplace(folder / "trajectory.nc", info_);
+    if (scene.output.contacts)
+        contacts_.emplace(folder / "contacts.nc", scene.title, program_version, info_.facts);
+}
+
+RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+                   const Simulation& simulation, const std::string& program_version, bool keep_rows)
+    : folder_(folder),
+      info_(trajectory_info(scene, plan, program_version)),
+      program_version_(program_version),
+      clock_(plan.clock),
+      field_times_(plan.fields),
+      measures_(folder / "measures.csv", simulation.measured(), simulation.step()),
+      departed_(scene),
+      late_(plan.clock, scene.run.duration) {
+    const double now = plan.clock.time(simulation.step());
+    if (plan.opens && !scene.container.tray) {
+        outflow_.emplace(folder / "outflow.csv", now);
+        if (std::optional<OutflowRecord> before = OutflowRecord::read(folder / "outflow.csv", scene))
+            departed_ = std::move(*before);
+    }
+    if (keep_rows) table_ = std::make_shared<MeasureTable>(measures_.columns());
+    take_over_rows(simulation);
+    if (const auto sets = simulation.field_sets(); !sets.empty())
+        fields_.emplace(folder / "fields.nc", sets, now);
+    if (plan.trajectory_every == 0) return;
+    const std::vector<std::int64_t> steps = steps_in_trajectory(folder / "trajectory.nc");
+    const auto frames = static_cast<std::size_t>(
+        std::lower_bound(steps.begin(), steps.end(), simulation.step()) - steps.begin());
+    trajectory_.emplace(folder / "trajectory.nc", info_, frames);
+    if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", frames);
+}
+
+// Of measures.csv, for plots and for the end's comparison with the beginning.
+void RunFiles::take_over_rows(const Simulation& simulation) {
+    const std::shared_ptr<const MeasureTable> rows = read_measures(folder_ / "measures.csv");
+    if (!rows) return;
+    const auto names = std::make_shared<const std::vector<std::string>>(simulation.measured());
+    for (std::size_t row = 0; row < rows->rows(); ++row) {
+        std::vector<double> values;
+        for (std::size_t k = 0; k < names->size(); ++k)
+            values.push_back(rows->values(k, row, row + 1).front());
+        if (table_) table_->add(values);
+        last_ = Measures(names, std::move(values));
+        late_.add(*last_);
+        if (!first_) first_ = last_;
+    }
+}
+
+void RunFiles::keep_film_moments(std::size_t frames) {
+    film_moments_.emplace(folder_ / kFilmMoments, info_, frames);
+}
+
+void RunFiles::keep_film_moments() {
+    film_moments_.emplace(folder_ / kFilmMoments, info_);
+}
+
+void RunFiles::keep_key_moments() {
+    key_moments_.emplace(folder_ / kKeyMoments, info_);
+    key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_, info_.facts);
+}
+
+void RunFiles::keep_key_moments(std::int64_t step) {
+    const std::vector<std::int64_t> steps = steps_in_trajectory(folder_ / kKeyMoments);
+    const auto frames =
+        static_cast<std::size_t>(std::lower_bound(steps.begin(), steps.end(), step) - steps.begin());
+    key_moments_.emplace(folder_ / kKeyMoments, info_, frames);
+    key_contacts_.emplace(folder_ / kKeyContacts, frames);
+}
+
+void RunFiles::add_key_moment(const Frame& frame, const Contacts& contacts) {
+    const std::int64_t index = key_moments_->frames();
+    key_moments_->write(frame);
+    key_contacts_->write(index, contacts);
+}
+
+void RunFiles::add_frame(const Frame& frame, const Contacts& contacts) {
+    const std::int64_t index = trajectory_->frames();
+    trajectory_->write(frame);
+    if (contacts_) contacts_->write(index, contacts);
+}
+
+void RunFiles::add_fields(const Simulation& simulation) {
+    const std::int64_t end = simulation.step();
+    fields_->write(clock_.time(field_times_.begin_of_record(end)), clock_.time(end), simulation.fields());
+}
+
+void RunFiles::add_departures(Simulation& simulation) {
+    if (!outflow_) return;
+    const std::vector<Departure> gone = simulation.take_departures();
+    for (const Departure& one : gone) departed_.add(clock_.time(one.step), one.species, one.radius);
+    outflow_->write(gone, clock_);
+}
+
+std::optional<FlowedOut> RunFiles::flowed_out(double time) const {
+    return outflow_ ? std::optional(departed_.until(time)) : std::nullopt;
+}
+
+std::optional<std::int64_t> RunFiles::outflow_rows() const {
+    return outflow_ ? std::optional(outflow_->rows()) : std::nullopt;
+}
+
+void RunFiles::add_measures(const Measures& measures) {
+    measures_.write(measures);
+    if (table_) table_->add(measures.values());
+    if (!first_) first_ = measures;
+    last_ = measures;
+    late_.add(measures);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,83 @@
+// What everybody does that fills a folder with a run: folder, log, record, and an end that keeps what there
+// is, whatever happened.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/run/folder/run_desk.hpp"
+#include "engine/run/folder/run_request.hpp"
+#include "engine/run/folder/side_work.hpp"
+
+namespace grainreel {
+
+class FolderRun {
+  public:
+    virtual ~FolderRun();
+    FolderRun(const FolderRun&) = delete;
+    FolderRun& operator=(const FolderRun&) = delete;
+
+    struct Ended {
+        // 0, 1 when it failed on its way (what it had is kept), 129, 130 or 143 when it was asked to stop.
+        int exit_status = 0;
+        std::optional<std::filesystem::path> folder;  // none once somebody has removed or replaced it
+    };
+    // Once. Throws UserError before anything is worth keeping; nothing is on disk then.
+    Ended run();
+    const std::filesystem::path& folder() const { return desk_.folder->path(); }
+    const FirstFailure& failure() const { return desk_.failure; }
+
+  protected:
+    FolderRun(RunRequest request, RunListener& listener);
+
+    // The work itself, between the made folder and what is kept at the end; false when asked to stop.
+    virtual bool work() = 0;
+    // What is made beside it; null for nothing.
+    virtual SideWork* side_work() { return nullptr; }
+    // After the work, whatever happened, and before side work is finished, which may take its time: what else
+    // is to be kept.
+    virtual void keep_state() {}
+    // What the record says of that. By then the record has its status. May be called twice.
+    virtual void conclude() {}
+    // All side work is closed, and the folder is there.
+    virtual void side_work_closed() {}
+    // Whether the run goes on in its folder and has not come to where it was, so that the folder is to be put
+    // back as it was; and that it is, by a run that calls nothing else afterwards.
+    virtual bool is_behind_former() const { return false; }
+    virtual void put_back() {}
+    virtual std::string stopped_text() const = 0;  // "stopped at 0.10 of 0.20 s"
+    virtual void report_written() = 0;             // that which went well
+
+    // To be called when all that the user gave has been accepted. of: name, and the lock of a run that goes
+    // on; the rest follows from what was asked for.
+    void make_folder(RunFolderRequest of);
+    // From here a mistake is a failure, and what there is stays, also at a second signal.
+    void mark_begun();
+    // Shows the warnings and writes run.json for the first time.
+    void begin_record(const std::vector<std::string>& warnings);
+    std::string page_text() const;  // ", report.html"; empty without a page
+
+    const RunRequest request_;
+    RunDesk desk_;
+
+  private:
+    void note_folder();
+    void find_folder();
+    void close_side_work();
+    Ended end_as_before(bool mistaken);
+    void settle_status(bool stopped);
+    void close_record(bool stopped);
+    void write_record();
+    void make_page();
+    void page_is_missing(bool missing);
+    void stop_before_page();
+    void report_end();
+
+    bool begun_ = false;
+    bool has_folder_ = true;  // false once somebody has removed or replaced it
+};
+
+}  // namespace grainreel

@@ -1,0 +1,165 @@
+#include "engine/run/folder/scene_folder_run.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/run/driver/useful_threads.hpp"
+#include "engine/run/folder/segregation_text.hpp"
+
+namespace grainreel {
+
+namespace {
+
+Progress::Stage stage_of(const PackingProgress& packing) {
+    switch (packing.stage) {
+        case PackingProgress::Stage::growing:
+            return Progress::Stage::growing;
+        case PackingProgress::Stage::raining:
+            return Progress::Stage::raining;
+        case PackingProgress::Stage::settling:
+            break;
+    }
+    return Progress::Stage::settling;
+}
+
+}  // namespace
+
+SceneFolderRun::SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene,
+                               const Plan& plan, int threads)
+    : FolderRun(request, listener), driver_(scene, plan, threads) {}
+
+SceneFolderRun::SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene,
+                               const Plan& plan, ResumePoint point)
+    : FolderRun(request, listener), driver_(scene, plan, std::move(point)) {}
+
+SceneFolderRun::SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene,
+                               const Plan& plan)
+    : SceneFolderRun(request, listener, scene, plan, engine_threads(scene)) {
+    new_folder();
+}
+
+SceneFolderRun::SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene,
+                               const Plan& plan, ResumePoint point, std::shared_ptr<FolderLock> lock)
+    : SceneFolderRun(request, listener, scene, plan, std::move(point)) {
+    go_on_in(std::move(lock), false);
+}
+
+void SceneFolderRun::new_folder() {
+    make_folder({driver_.scene().name, request_.base, request_.out, request_.force});
+}
+
+void SceneFolderRun::go_on_in(std::shared_ptr<FolderLock> lock, bool hands_out) {
+    make_folder({.name = driver_.scene().name, .out = request_.out, .goes_on = std::move(lock)});
+    driver_.keep_former(desk_.folder->lock(), hands_out, desk_.record.version);
+    mark_begun();
+}
+
+bool SceneFolderRun::work() {
+    describe();
+    if (!driver_.packed() && !pack()) return false;
+    mark_begun();
+    start();
+    vibrating_.emplace();
+    const auto go_on = [this] {
+        show_progress();
+        tell_news();
+        return desk_.listener.stop_signal() == 0;
+    };
+    while (next(go_on)) continue;
+    tell_news();
+    return desk_.listener.stop_signal() == 0;
+}
+
+void SceneFolderRun::describe() {
+    const Scene& scene = driver_.scene();
+    const Plan& plan = driver_.plan();
+    std::vector<std::string> warnings = plan.warnings;
+    for (std::string& warning : more_warnings()) warnings.push_back(std::move(warning));
+    driver_.describe(desk_.record);
+    begin_record(warnings);
+    driver_.use_folder(desk_.folder->lock(), desk_.record.version);
+    desk_.listener.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene.file, scene.grains(),
+                                      plan.steps, plan.clock.step, plan.step_reason));
+    desk_.listener.detail(threads_text());
+}
+
+std::string SceneFolderRun::threads_text() const {
+    return fmt::format("threads: engine {}", driver_.simulation().threads());
+}
+
+bool SceneFolderRun::pack() {
+    Stopwatch packing;
+    const auto watcher = [&](const PackingProgress& now) {
+        Progress progress;
+        progress.stage = stage_of(now);
+        progress.done = now.done;
+        if (packing.seconds() > 0.5) {
+            progress.particle_steps_per_second = static_cast<double>(now.steps) *
+                                                 static_cast<double>(driver_.scene().grains()) /
+                                                 packing.seconds();
+        }
+        progress.elapsed = desk_.watch.seconds();
+        desk_.listener.progress(progress);
+        return desk_.listener.stop_signal() == 0;
+    };
+    if (!driver_.pack(watcher)) return false;
+    desk_.listener.detail(driver_.packing_text());
+    if (const auto warning = driver_.packing_warning()) desk_.listener.warning(*warning);
+    return desk_.listener.stop_signal() == 0;
+}
+
+void SceneFolderRun::tell_news() {
+    const std::vector<std::string> lines = news();
+    for (; told_ < lines.size(); ++told_) {
+        desk_.listener.warning(lines[told_]);
+        desk_.record.warnings.push_back(lines[told_]);
+    }
+}
+
+void SceneFolderRun::show_progress() {
+    const Plan& plan = driver_.plan();
+    Progress progress;
+    progress.stage = Progress::Stage::vibrating;
+    progress.done = driver_.done();
+    progress.time = plan.clock.time(driver_.simulation().step());
+    progress.end = plan.clock.time(plan.steps);
+    progress.particle_steps_per_second = driver_.recent_speed();
+    add_progress(progress);
+    progress.elapsed = desk_.watch.seconds();
+    const double vibrating = vibrating_->seconds();
+    if (progress.done > 0 && vibrating > 1)
+        progress.remaining = vibrating * (1 - progress.done) / progress.done;
+    desk_.listener.progress(progress);
+}
+
+void SceneFolderRun::conclude() {
+    driver_.conclude(desk_.record);
+    desk_.record.wall_seconds = driver_.times().all();
+}
+
+std::string SceneFolderRun::stopped_text() const {
+    return fmt::format("stopped at {:.2f} of {:.2f} s", desk_.record.simulated,
+                       driver_.plan().clock.time(driver_.plan().steps));
+}
+
+void SceneFolderRun::report_written() {
+    desk_.listener.info(fmt::format("wrote {}: {}{}{}, log.txt", folder().string(), side_files_text(),
+                                    driver_.files_text(), page_text()));
+    report_segregation();
+    desk_.listener.info(
+        fmt::format("took {}: packing {}, engine {} ({:.1f} M particle-steps/s){}",
+                    duration_text(desk_.watch.seconds()), duration_text(driver_.times().of("packing")),
+                    duration_text(driver_.times().of("engine")), driver_.speed() * 1e-6, side_times_text()));
+}
+
+void SceneFolderRun::report_segregation() {
+    const Scene& scene = driver_.scene();
+    const RunFiles& files = *driver_.files();
+    if (scene.species.size() < 2 || !files.last_measures()) return;
+    const LateMeans& late = files.late_measures();
+    const std::string text = segregation_text(scene, *files.first_measures(), late.means(), late.over());
+    if (!text.empty()) desk_.listener.info(text);
+}
+
+}  // namespace grainreel

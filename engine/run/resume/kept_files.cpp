@@ -1,0 +1,118 @@
+#include "engine/run/resume/kept_files.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/fields_file.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/trajectory.hpp"
+#include "engine/measure/walls/wall_forces_observer.hpp"
+#include "engine/plan/rhythm.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Whether `steps`, which rise, have each step of the rhythm from `first` up to, without, `end`.
+bool has_all(const std::vector<std::int64_t>& steps, const Rhythm& rhythm, const Clock& clock,
+             std::int64_t first, std::int64_t end) {
+    for (std::int64_t step = rhythm.next(first, clock); step < end; step = rhythm.next(step + 1, clock))
+        if (!std::binary_search(steps.begin(), steps.end(), step)) return false;
+    return true;
+}
+
+bool has_all_fields(const fs::path& file, const Plan& plan, std::int64_t first, std::int64_t step) {
+    std::size_t records = 0;
+    for (std::int64_t end = plan.fields.next_end(first + 1); end < step; end = plan.fields.next_end(end + 1))
+        ++records;
+    return FieldsWriter::records_before(file, plan.clock.time(step)) == records;
+}
+
+// Those of the frames before the step.
+bool has_all_contacts(const fs::path& run, std::int64_t step) {
+    const std::vector<std::int64_t> steps = steps_in_trajectory(run / "trajectory.nc");
+    const auto frames = std::lower_bound(steps.begin(), steps.end(), step) - steps.begin();
+    return frames == 0 || ContactsReader(run / "contacts.nc").has_all(static_cast<std::size_t>(frames - 1));
+}
+
+}  // namespace
+
+bool is_there(const fs::path& file) {
+    std::error_code ignored;
+    return fs::exists(file, ignored);
+}
+
+std::vector<std::int64_t> steps_in_trajectory(const fs::path& file) {
+    std::vector<std::int64_t> steps;
+    if (!is_there(file)) return steps;
+    try {
+        const TrajectoryReader reader(file);
+        for (std::size_t k = 0; k < reader.frames(); ++k) steps.push_back(reader.read_moment(k).step);
+    } catch (const UserError&) {
+        return steps;  // those before the damage
+    }
+    return steps;
+}
+
+std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
+    std::vector<std::int64_t> steps;
+    const std::shared_ptr<const MeasureTable> table = read_measures(file);
+    if (!table) return steps;
+    const auto& columns = table->columns();
+    const auto column = std::find(columns.begin(), columns.end(), "step");
+    if (column == columns.end()) return steps;
+    const auto place = static_cast<std::size_t>(column - columns.begin());
+    for (const double step : table->values(place, 0, table->rows()))
+        steps.push_back(static_cast<std::int64_t>(step));
+    return steps;
+}
+
+bool keeps_fields(const Scene& scene) {
+    const std::vector<std::string>& wanted = scene.output.instruments;
+    return scene.output.fields.wanted() ||
+           std::find(wanted.begin(), wanted.end(), observers::WallForces::instrument) != wanted.end();
+}
+
+void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& plan) {
+    const auto need = [&](const char* name, bool wanted) {
+        if (wanted && !is_there(run / name))
+            throw UserError(fmt::format("{}: is missing, so the run cannot go on; run its scene.toml again",
+                                        (run / name).string()));
+    };
+    need("measures.csv", true);
+    need("trajectory.nc", plan.trajectory_every > 0);
+    need("contacts.nc", plan.trajectory_every > 0 && scene.output.contacts);
+    need("fields.nc", keeps_fields(scene));
+    need("outflow.csv", plan.opens && !scene.container.tray);
+    if (!read_measures(run / "measures.csv"))
+        throw UserError(fmt::format("{}: cannot be read, so the run cannot go on; run its scene.toml again",
+                                    (run / "measures.csv").string()));
+    // Each says by itself that it cannot be read.
+    if (plan.trajectory_every > 0) TrajectoryReader reader(run / "trajectory.nc");
+    if (plan.trajectory_every > 0 && scene.output.contacts) ContactsReader reader(run / "contacts.nc");
+    if (scene.output.fields.wanted()) FieldsWriter::records_before(run / "fields.nc", 0);
+}
+
+std::int64_t reached_step(const fs::path& run, std::int64_t last_checkpoint) {
+    const std::vector<std::int64_t> rows = steps_in_measures(run / "measures.csv");
+    return rows.empty() ? last_checkpoint : std::max(last_checkpoint, rows.back());
+}
+
+bool files_reach(const fs::path& run, const Scene& scene, const Plan& plan, std::int64_t first,
+                 std::int64_t step) {
+    if (scene.output.fields.wanted() && !has_all_fields(run / "fields.nc", plan, first, step)) return false;
+    if (plan.trajectory_every > 0 && scene.output.contacts && !has_all_contacts(run, step)) return false;
+    const Rhythm trajectory(plan.trajectory_every, plan.trajectory_periods),
+        measures(plan.measures_every, plan.measures_periods);
+    return (plan.trajectory_every == 0 ||
+            has_all(steps_in_trajectory(run / "trajectory.nc"), trajectory, plan.clock, first, step)) &&
+           has_all(steps_in_measures(run / "measures.csv"), measures, plan.clock, first, step);
+}
+
+}  // namespace grainreel

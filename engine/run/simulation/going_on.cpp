@@ -1,0 +1,95 @@
+// A simulation that is saved and taken up again, bit by bit.
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <sstream>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/walls/wall_faces.hpp"
+#include "engine/run/simulation/simulation_impl.hpp"
+#include "engine/start/restart.hpp"
+
+namespace grainreel {
+
+Simulation Simulation::at_checkpoint(const Scene& scene, const Plan& plan,
+                                     const std::filesystem::path& checkpoint, int threads, bool may_change) {
+    Scene there = scene;
+    there.start = {};
+    there.start.method = Start::Method::file;
+    there.start.file = checkpoint.string();
+    there.start.keep_clock = true;
+    return Simulation(std::make_unique<Impl>(there, plan, threads, may_change));
+}
+
+void Simulation::Impl::go_on() {
+    make_loop();
+    std::string gathered;
+    std::vector<std::int64_t> given;
+    const CheckpointHeader header =
+        continue_from_checkpoint(scene, plan, grains, *loop, gathered, given, may_change);
+    feeder.set_given(std::move(given));
+    set_orientations();
+    step = header.step;
+    start_energy = header.start_energy;
+    continued = true;
+    opened = plan.opens && step >= *plan.opens;
+    if (opened) open_outlet(scene, around);
+    take_gathered(gathered);
+    observers.start(moment(), contacts());
+}
+
+void Simulation::Impl::check_not_over() const {
+    if (step >= plan.steps)
+        throw UserError(
+            fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
+                        scene.where("run.duration"), step, plan.steps));
+}
+
+// What was gathered of walls stands before what the observers have gathered. Without it, it begins here.
+void Simulation::Impl::take_gathered(const std::string& bytes) {
+    Bytes in(bytes);
+    WallSums sums;
+    read_vector(in, sums.faces);
+    read_vector(in, sums.slices);
+    if (observers.need_wall_sums()) {
+        const WallScale scale = wall_scale(scene, plan);
+        const bool there = !sums.faces.empty();
+        if (there && !is_sound(sums, around.faces.size(), scale)) in.fail();
+        if (in.failed()) throw damaged_checkpoint(scene);
+        there ? loop->go_on_tallying(sums, scale) : loop->tally_walls(scale, step);
+    }
+    observers.load(moment(), in);
+    if (in.failed()) throw damaged_checkpoint(scene);
+}
+
+std::string Simulation::Impl::gathered() const {
+    std::ostringstream out;
+    const WallSums sums = observers.need_wall_sums() ? loop->wall_sums() : WallSums();
+    write_vector(out, sums.faces);
+    write_vector(out, sums.slices);
+    observers.save(out);
+    return out.str();
+}
+
+std::uint64_t Simulation::state_hash() const {
+    std::ostringstream out;
+    write_state(out, impl_->step, impl_->grains, *impl_->loop, impl_->feeder.given());
+    const std::string bytes = out.str();
+    return XXH64(bytes.data(), bytes.size(), 0);
+}
+
+void Simulation::save_checkpoint(const std::filesystem::path& path) const {
+    const Impl& m = *impl_;
+    CheckpointHeader header;
+    header.step = m.step;
+    header.start_energy = m.start_energy;
+    if (m.scene.drive.moves == Drive::Moves::container) {
+        header.wall_offset = m.around.motion.at(m.step).offset;
+        header.wall_velocity = m.around.motion.at(m.step).velocity;
+    }
+    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.gathered(),
+                               m.feeder.given());
+}
+
+}  // namespace grainreel

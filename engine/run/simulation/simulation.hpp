@@ -1,0 +1,104 @@
+// One scene in motion: packing, then the step loop, with health checks. What leaves it are frames and
+// measures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/measure/field.hpp"
+#include "engine/measure/measures.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/run/simulation/contact_force.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/contact_record.hpp"
+#include "engine/state/traffic.hpp"
+
+namespace grainreel {
+
+// What happens before the drive starts, for the progress line.
+struct PackingProgress {
+    enum class Stage { growing, raining, settling };
+    Stage stage = Stage::growing;
+    double done = 0;  // 0 to 1: share of the wanted radii, of the grains, or of the time limit of settling
+    std::int64_t steps = 0;  // so far
+};
+// Return false to stop.
+using PackingWatcher = std::function<bool(const PackingProgress&)>;
+
+struct PackingResult {
+    bool finished = true;          // false when the watcher stopped it
+    bool settled = true;           // false when the time limit ended settling
+    double settle_time = 0;        // s, simulated
+    double kinetic_per_grain = 0;  // J, at the end
+    double solid_fraction = 0;     // of the bed below the height under which 95 % of the centres lie
+};
+
+// Throws UserError where the grains of a file or a list do not fit the scene, as a run of it would.
+void check_start(const Scene& scene, const Plan& plan);
+
+class Simulation {
+  public:
+    // threads: 0 takes what the machine gives. Takes the grains of a file or a list, and throws UserError
+    // where they do not fit the scene.
+    Simulation(const Scene& scene, const Plan& plan, int threads);
+    // The run of the scene as a checkpoint of it has it, which may be its last step. Takes the place of the
+    // scene's own start and of pack(). Throws UserError where the checkpoint cannot be used, or is of another
+    // run. may_change: the scene may be another one from then on, which the caller has checked.
+    static Simulation at_checkpoint(const Scene& scene, const Plan& plan,
+                                    const std::filesystem::path& checkpoint, int threads,
+                                    bool may_change = false);
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+
+    // Places the grains (layers and radius growth, or rain, then settling), if they are not there already.
+    // Afterwards step() is 0, or the file's step when the scene keeps its clock.
+    PackingResult pack(const PackingWatcher& watcher);
+    PackingResult pack();
+
+    // Runs up to step `target`. Throws RunError when the run stopped being healthy.
+    void advance(std::int64_t target);
+
+    // At the step that has been reached. New grains must touch nothing; returns the id of the first of them.
+    // Both once the run is packed.
+    void remove(const std::vector<std::int32_t>& ids);
+    std::int32_t insert(const std::vector<NewGrain>& grains);
+    // What came and left since the start of the drive, and who has left since the last call.
+    const Traffic& traffic() const;
+    std::vector<Departure> take_departures();
+
+    std::int64_t step() const;
+    std::size_t grains() const;  // that are there now
+    int threads() const;
+
+    Frame frame() const;
+    Measures measures() const;                         // all columns of measures.csv
+    const std::vector<std::string>& measured() const;  // their names
+    // One of them. Looks at no more than that needs.
+    double measure(const std::string& column) const;
+    // On grids: what the observers give, which stays the same, and the values now in the same order.
+    std::vector<const FieldSet*> field_sets() const;
+    std::vector<FieldValues> fields() const;
+    std::uint64_t state_hash() const;  // of every bit that decides the future
+
+    // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.
+    using ContactRecord = grainreel::ContactRecord;
+    std::vector<ContactRecord> contacts() const;
+    // All contacts that touch now, with what they do to the grains; in the same order.
+    std::vector<ContactForce> contact_forces() const;
+
+    // Everything needed to go on bit-identically; written to a temporary name and renamed.
+    void save_checkpoint(const std::filesystem::path& path) const;
+
+  private:
+    struct Impl;
+    explicit Simulation(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,77 @@
+// The parts of a simulation, for the files that make it up: simulation.cpp (steps and health), packing.cpp,
+// going_on.cpp (checkpoints) and views.cpp (what leaves it).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/measure/columns.hpp"
+#include "engine/measure/health.hpp"
+#include "engine/measure/observers.hpp"
+#include "engine/run/simulation/feeder.hpp"
+#include "engine/run/simulation/simulation.hpp"
+#include "engine/start/settle.hpp"
+#include "engine/start/surroundings.hpp"
+#include "engine/state/wall_motion.hpp"
+#include "engine/step/step_loop.hpp"
+
+namespace grainreel {
+
+struct Simulation::Impl {
+    Impl(const Scene& s, const Plan& p, int threads, bool changes = false)
+        : scene(s),
+          plan(p),
+          team(threads > 0 ? threads : usable_processors()),
+          around(make_surroundings(s, p)),
+          bodies(bodies_of(s.drive, s.walls)),
+          limits(health_limits(s, p)),
+          observers(all_observers(), scene, plan),
+          may_change(changes) {
+        if (!scene.start.packs()) take_grains();
+    }
+
+    Scene scene;
+    Plan plan;
+    Team team;
+    Surroundings around;
+    std::vector<Body> bodies;
+    Grains grains;
+    std::unique_ptr<StepLoop> loop;
+    Feeder feeder{scene, plan, around};
+    std::int64_t step = 0;
+    double start_energy = 0;
+    HealthLimits limits;
+    EnergyWatch energy_watch;
+    std::int64_t next_look = 0;  // step
+
+    bool continued = false;  // goes on where the file stopped
+    bool opened = false;     // the container's outlet
+
+    Observers observers;
+    bool may_change = false;            // whether a run that goes on may be another one from now on
+    std::optional<WallSums> wall_sums;  // of the last moment, where an observer needs them
+
+    void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
+    void take_grains();
+    void begin_with_taken();
+    SettleReport relax_taken(const std::function<bool(double, std::int64_t)>& watcher);
+    void go_on();
+    void check_not_over() const;
+    void set_orientations();
+    bool pack_rain(const PackingWatcher& watcher, PackingProgress& progress);
+    std::int32_t insert(const std::vector<NewGrain>& more);
+    bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
+    void begin_drive();
+    void open_when_due();
+    void look_at_health();
+    Moment moment();
+    void take_gathered(const std::string& bytes);
+    std::string gathered() const;
+    ShowContacts contacts() const;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,41 @@
+// What is asked of a run that fills a folder with a film.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/run/folder/run_request.hpp"
+#include "engine/scene/text/assignment.hpp"
+#include "render/picture/gl/provider.hpp"
+
+namespace grainreel {
+
+struct FilmRequest : RunRequest {
+    bool film = true;
+    bool frames = false;
+    bool to_stdout = false;  // the film; the folder's name then goes to stderr
+    gl::Provider gl = gl::Provider::automatic;
+};
+
+// What is to be drawn of a finished run. Times in s, of the run; whole numbers of frames.
+struct RenderRequest {
+    std::filesystem::path run;  // its folder
+    Assignments sets;           // other values for keys of its film
+    std::optional<double> from, to, at;
+    std::optional<int> every;  // kept frames of the trajectory, one of so many; none: the film's pictures
+    bool replay = true;        // what was not kept is brought back
+};
+
+// What is to be shown side by side.
+struct CompareRequest {
+    std::vector<std::filesystem::path> inputs;  // scene files and folders of runs
+    Assignments sets;                           // for every scene
+    std::optional<std::string> captions;        // one a panel, bars between them
+    std::optional<std::string> vary;  // "drive.g_level=2,4": a panel for each value of one scene's key
+    std::optional<double> at;         // s: one picture in place of a film
+    bool replay = true;               // of finished runs what was not kept is brought back
+};
+
+}  // namespace grainreel

@@ -1,0 +1,60 @@
+// The film that a run makes in its folder, with all that stands beside it: poster, contact sheet, pictures.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "engine/run/folder/run_desk.hpp"
+#include "engine/run/folder/side_work.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/film/production/film_maker.hpp"
+#include "render/film/run/film_request.hpp"
+#include "render/film/run/thread_plan.hpp"
+
+namespace grainreel {
+
+class FolderFilm final : public SideWork {
+  public:
+    // The desk must outlive the film.
+    FolderFilm(FilmRequest request, RunDesk& desk) : request_(std::move(request)), desk_(desk) {}
+
+    const FilmRequest& request() const { return request_; }
+    // Whether pictures are asked for at all.
+    bool wanted() const { return request_.film || request_.frames; }
+    // What scene and options ask of the film's file. Throws UserError.
+    void check(const Scene& scene, std::int64_t frames) const;
+    void use_threads(const ThreadPlan& threads) { threads_ = threads; }
+    const ThreadPlan& threads() const { return threads_; }
+
+    // Of so many pictures. start: from which start heights are counted; null: from the film's first picture.
+    // draw: what makes pictures; none for the Renderer. Nothing happens where no pictures are wanted.
+    void open(const Scene& scene, std::int64_t pictures, FramePtr start = nullptr, DrawerMaker draw = {});
+    // Takes pictures while it is open.
+    FilmMaker& maker() { return *film_; }
+    // Progress of what is drawn alone.
+    void show_progress();
+
+    std::int64_t frames_done() const { return film_ ? film_->frames_done() : 0; }
+    std::int64_t frames_planned() const { return frames_planned_; }
+    bool made() const { return made_; }  // a film lies in the folder and is closed
+    const FilmReport& report() const { return report_; }
+    std::string files_text() const;  // "movie.mp4 (4 frames), poster.png, "
+
+    bool is_open() const override { return film_ != nullptr; }
+    const char* name() const override { return "the film"; }
+    void close() override;
+    void drop() override { film_.reset(); }
+    void describe(RunRecord& record) const override;
+
+  private:
+    const FilmRequest request_;
+    RunDesk& desk_;
+    ThreadPlan threads_;
+    std::unique_ptr<FilmMaker> film_;
+    std::int64_t frames_planned_ = 0;  // pictures, and those that are held for captions
+    FilmReport report_;
+    bool made_ = false;
+};
+
+}  // namespace grainreel

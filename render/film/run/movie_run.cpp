@@ -1,0 +1,121 @@
+#include "render/film/run/movie_run.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/team.hpp"
+#include "render/film/sampling/film_limits.hpp"
+
+namespace grainreel {
+
+namespace {
+
+Pictures schedule(const FilmRequest& request, const Scene& scene, const Plan& plan) {
+    if (!request.film && !request.frames) return {};
+    const bool may_leave_out = true;
+    return {instants_of(scene, plan.clock, plan.steps), scene.film.segments, may_leave_out};
+}
+
+ThreadPlan threads_for(const FilmRequest& request, const Scene& scene) {
+    const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
+    return plan_threads(processors, request.film || request.frames, scene.grains());
+}
+
+}  // namespace
+
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan)
+    : MovieRun(request, listener, scene, plan, threads_for(request, scene), schedule(request, scene, plan)) {
+    check_film();
+    new_folder();
+}
+
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+                   ResumePoint point, std::shared_ptr<FolderLock> lock)
+    : MovieRun(request, listener, scene, plan, std::move(point), schedule(request, scene, plan)) {
+    check_film();
+    go_on_in(std::move(lock), source_.has_shots(pictures_));
+}
+
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+                   const ThreadPlan& threads, Pictures pictures)
+    : SceneFolderRun(request, listener, scene, plan, threads.engine),
+      pictures_(std::move(pictures)),
+      film_(request, desk_),
+      source_(scene, driver_),
+      holds_(scene.film) {
+    film_.use_threads(threads);
+}
+
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+                   ResumePoint point, Pictures pictures)
+    : SceneFolderRun(request, listener, scene, plan, std::move(point)),
+      pictures_(std::move(pictures)),
+      film_(request, desk_),
+      source_(scene, driver_),
+      holds_(scene.film) {
+    film_.use_threads(threads_for(request, scene));
+}
+
+void MovieRun::check_film() const {
+    film_.check(source_.scene(), static_cast<std::int64_t>(pictures_.instants.size()));
+}
+
+std::vector<std::string> MovieRun::more_warnings() const {
+    const Scene& scene = source_.scene();
+    std::vector<std::string> warnings;
+    if (!film_.wanted()) return warnings;
+    for (const std::vector<std::string>& found :
+         {pace_warnings(scene, driver_.plan().clock),
+          strobe_warnings(scene.film, scene.drive, scene.run.duration),
+          film_warnings(scene, static_cast<std::int64_t>(pictures_.instants.size()))})
+        warnings.insert(warnings.end(), found.begin(), found.end());
+    return warnings;
+}
+
+std::string MovieRun::threads_text() const {
+    return fmt::format("{}, raster {}, encoder {}", SceneFolderRun::threads_text(), film_.threads().raster,
+                       film_.threads().encoder);
+}
+
+void MovieRun::start() {
+    if (request_.page) source_.keep_key_moments();
+    source_.start(pictures_);
+    film_.open(source_.scene(), source_.shots());
+}
+
+bool MovieRun::next(const RunDriver::GoOn& go_on) {
+    const std::optional<Taken> picture = source_.next(go_on);
+    if (picture) take(*picture);
+    return picture.has_value();
+}
+
+void MovieRun::take(const Taken& picture) {
+    const Scene& scene = source_.scene();
+    const auto timer = desk_.times.during("waiting for the film");
+    const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(picture.segment));
+    const FilmSegment pace = played(spanning(rule, picture.periods), scene.film.rate, driver_.plan().clock);
+    film_.maker().take(picture.frame, playback_caption(pace, scene.drive, scene.film.rate));
+    film_times_.add(*picture.frame, 1 + holds_.begin_at(picture.frame->time));
+}
+
+void MovieRun::add_progress(Progress& progress) const {
+    progress.frames = film_.frames_done();
+    progress.frames_planned = film_.frames_planned();
+}
+
+void MovieRun::side_work_closed() {
+    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.report().frames);
+}
+
+void MovieRun::put_back() {
+    source_.close();
+    SceneFolderRun::put_back();
+}
+
+std::string MovieRun::side_times_text() const {
+    return fmt::format(", film {}", duration_text(desk_.times.of("waiting for the film") +
+                                                  desk_.times.of("finishing the film")));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,56 @@
+// One run of the verb `movie`, from the accepted scene to the closed files.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/run/folder/scene_folder_run.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/film/production/caption_holds.hpp"
+#include "render/film/run/folder_film.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/scene_run.hpp"
+#include "render/run/film_times_table.hpp"
+
+namespace grainreel {
+
+class MovieRun final : public SceneFolderRun {
+  public:
+    // Throws UserError for what scene, plan or options get wrong; nothing is on disk then.
+    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
+    // The run in the folder request.out, which is locked, goes on from that point. Throws UserError or
+    // RunError; nothing in the folder has changed then.
+    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+             ResumePoint point, std::shared_ptr<FolderLock> lock);
+
+  private:
+    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+             const ThreadPlan& threads, Pictures pictures);
+    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+             ResumePoint point, Pictures pictures);
+
+    void start() override;
+    bool next(const RunDriver::GoOn& go_on) override;
+    std::vector<std::string> news() const override { return source_.news(); }
+    std::vector<std::string> more_warnings() const override;
+    std::string threads_text() const override;
+    void add_progress(Progress& progress) const override;
+    std::string side_files_text() const override { return film_.files_text(); }
+    std::string side_times_text() const override;
+    SideWork* side_work() override { return &film_; }
+    void side_work_closed() override;
+    void put_back() override;
+
+    void check_film() const;
+    void take(const Taken& picture);
+
+    const Pictures pictures_;
+    FolderFilm film_;
+    SceneRun source_;
+    CaptionHolds holds_;  // for film_times_
+    FilmTimesTable film_times_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,52 @@
+// The pictures of a film that were taken before its run was broken off, from their kept moments.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/files/trajectory.hpp"
+#include "engine/measure/measure_table.hpp"
+#include "engine/run/driver/run_files.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/run/frames/frame_source.hpp"
+#include "render/run/frames/picture_parts.hpp"
+
+namespace grainreel {
+
+class EarlierPictures final : private PartSupply {
+  public:
+    // run: folder; shots: of the film; count: how many of its kept moments are pictures of it. measures: rows
+    // of the run, those of `shown` too; null without a film that shows any. files: know what has flowed out.
+    EarlierPictures(const Scene& scene, const Clock& clock, const std::filesystem::path& run,
+                    const std::vector<Shot>& shots, std::size_t count,
+                    std::shared_ptr<const MeasureTable> measures, const RunFiles& files);
+
+    // Empty after the last.
+    std::optional<Taken> next();
+
+  private:
+    FramePtr at(std::int64_t) const override { return nullptr; }
+    std::vector<Touch> touches(const Frame&) const override { return {}; }
+    Measured measured(const Frame& frame) const override;
+    std::optional<FlowedOut> flowed_out(const Frame& frame) const override {
+        return files_.flowed_out(frame.time);
+    }
+    std::size_t rows_until(std::int64_t step) const;
+    int periods_at(std::int64_t step) const;
+
+    const Scene& scene_;
+    const RunFiles& files_;
+    TrajectoryReader moments_;
+    std::vector<Shot> shots_;
+    std::size_t count_, next_ = 0;
+    std::shared_ptr<const MeasureTable> measures_;
+    std::vector<double> steps_, periods_;  // of the rows
+    PictureParts parts_;
+};
+
+}  // namespace grainreel

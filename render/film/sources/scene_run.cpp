@@ -1,0 +1,135 @@
+#include "render/film/sources/scene_run.hpp"
+
+#include <algorithm>
+
+namespace grainreel {
+
+// What pictures may take from it. Its moments are those that were kept for them.
+class SceneRun::Parts final : public PartSupply {
+  public:
+    explicit Parts(const RunDriver& driver) : driver_(driver) {}
+    FramePtr at(std::int64_t step) const override { return driver_.kept(step); }
+    std::vector<Touch> touches(const Frame&) const override {
+        std::vector<Touch> touches;
+        for (const Simulation::ContactRecord& contact : driver_.simulation().contacts())
+            touches.push_back({contact.first, contact.second, contact.normal});
+        return touches;
+    }
+    Measured measured(const Frame&) const override {
+        const std::shared_ptr<const MeasureTable> table = driver_.files()->measures();
+        return {table, table->rows()};
+    }
+    std::optional<FlowedOut> flowed_out(const Frame& frame) const override {
+        return driver_.files()->flowed_out(frame.time);
+    }
+
+  private:
+    const RunDriver& driver_;
+};
+
+Span SceneRun::span() const {
+    return {driver_.plan().clock.time(driver_.first_step()), scene_.run.duration};
+}
+
+std::vector<Shot> SceneRun::shots_of(const Pictures& pictures) const {
+    const Plan& plan = driver_.plan();
+    return shots_at(pictures.instants, pictures.segments, plan.clock, plan.steps);
+}
+
+std::vector<Frame> SceneRun::moments(const Pictures& pictures) const {
+    const Clock& clock = driver_.plan().clock;
+    std::vector<Frame> moments;
+    for (const Shot& shot : shots_of(pictures)) {
+        Frame& moment = moments.emplace_back();
+        moment.step = shot.step;
+        moment.time = clock.time(shot.step);
+        moment.cycles = clock.cycles(shot.step);
+        moment.phase = clock.phase(shot.step);
+    }
+    return moments;
+}
+
+void SceneRun::start(const Pictures& pictures) {
+    const Clock& clock = driver_.plan().clock;
+    shots_ = shots_of(pictures);
+    segments_ = pictures.segments;
+    bed_periods_.emplace(scene_, clock, shots_, segments_, pictures.may_leave_out);
+    parts_.emplace(scene_, clock, driver_.first_step());
+    driver_.start(wishes());
+    if (driver_.goes_on() && driver_.files()->keeps_film_moments())
+        earlier_.emplace(scene_, clock, driver_.folder(), shots_, driver_.frames_before(),
+                         driver_.files()->measures(), *driver_.files());
+    // As far as one knows: what a bed of several periods leaves out is found later.
+    count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Shot& shot) {
+        return shot.step >= driver_.first_step() && bed_periods_->shows(rule(shot.segment), shot);
+    });
+}
+
+FrameWishes SceneRun::wishes() {
+    FrameWishes wishes;
+    for (const Shot& shot : shots_) wishes.steps.push_back(shot.step);
+    wishes.look = [this](const Simulation& simulation) { look_at_bed_periods(simulation); };
+    wishes.left_out = [this](std::int64_t step) { return leaves_out(step); };
+    wishes.kept = wanted_moments();
+    wishes.to_file = film_moments_bytes(scene_, driver_.plan(), std::ssize(shots_)) > 0;
+    wishes.keep_rows = needs_measures(scene_.film.shows);
+    wishes.key_moments = keys_wanted_;
+    for (const FilmCaption& caption : scene_.film.captions) wishes.key_times.push_back(caption.from);
+    return wishes;
+}
+
+// Whatever number of periods the bed will turn out to repeat itself after.
+KeptMoments SceneRun::wanted_moments() const {
+    KeptMoments wanted;
+    const std::vector<int> multiples = bed_periods_->possible();
+    for (const Shot& shot : shots_)
+        for (const int periods : multiples)
+            wanted.want(shot.step, parts_->moments(shot.step, rule(shot.segment), periods));
+    return wanted;
+}
+
+std::optional<Taken> SceneRun::next(const GoOn& go_on) {
+    if (std::optional<Taken> picture = waiting()) return picture;
+    if (earlier_ && !go_on()) return std::nullopt;
+    if (earlier_)
+        if (std::optional<Taken> picture = earlier_->next()) return picture;
+    earlier_.reset();
+    const std::shared_ptr<Frame> frame = driver_.next(go_on);
+    if (!frame) return std::nullopt;
+    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), Parts(driver_));
+    frame_ = frame;
+    return waiting();
+}
+
+std::optional<Taken> SceneRun::waiting() {
+    if (segments_waiting_.empty()) return std::nullopt;
+    const int segment = segments_waiting_.front();
+    segments_waiting_.erase(segments_waiting_.begin());
+    FramePtr frame = segments_waiting_.empty() ? std::move(frame_) : frame_;
+    return Taken{std::move(frame), segment, bed_periods_->shown()};
+}
+
+std::vector<std::string> SceneRun::news() const {
+    std::vector<std::string> news = driver_.news();
+    if (bed_periods_) {
+        const std::vector<std::string> of_bed = bed_periods_->news();
+        news.insert(news.end(), of_bed.begin(), of_bed.end());
+    }
+    return news;
+}
+
+bool SceneRun::leaves_out(std::int64_t step) {
+    segments_waiting_.clear();
+    auto shot = std::lower_bound(shots_.begin(), shots_.end(), step,
+                                 [](const Shot& one, std::int64_t wanted) { return one.step < wanted; });
+    for (; shot != shots_.end() && shot->step == step; ++shot)
+        if (bed_periods_->shows(rule(shot->segment), *shot)) segments_waiting_.push_back(shot->segment);
+    return segments_waiting_.empty();
+}
+
+void SceneRun::look_at_bed_periods(const Simulation& simulation) {
+    bed_periods_->note(simulation.step(), static_cast<int>(simulation.measure("bed_periods")),
+                       simulation.measure("period_difference_m"));
+}
+
+}  // namespace grainreel
