@@ -90,6 +90,10 @@ bool is_checkpoint(const std::filesystem::path& path) {
     return in && name == kName;
 }
 
+bool begins_checkpoint(std::string_view bytes) {
+    return bytes.starts_with(kName);
+}
+
 bool is_whole_checkpoint(const std::filesystem::path& path) {
     std::string bytes;
     if (!read_whole(path, bytes)) return false;

@@ -20,8 +20,9 @@ struct CheckpointHeader {
     Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
 };
 
-// Whether it is one, of this version or another.
+// Whether it is one, of this version or another; and whether a file that begins so is.
 bool is_checkpoint(const std::filesystem::path& path);
+bool begins_checkpoint(std::string_view bytes);
 
 // What a checkpoint says of itself, without looking at the rest: its step, and the scene as it was used.
 // None where there is no such file, or it is of another version or cut off.
@@ -42,6 +43,8 @@ class CheckpointFile {
 
     // Never throws: what is wrong is in fault(), and there is nothing else then.
     explicit CheckpointFile(const std::filesystem::path& path);
+    CheckpointFile(CheckpointFile&&) = default;
+    CheckpointFile& operator=(CheckpointFile&&) = delete;
 
     Fault fault() const { return fault_; }
 

@@ -122,6 +122,13 @@ void read_grain(Row& row, const TableForm& form, std::unordered_set<std::int32_t
 
 }  // namespace
 
+bool begins_grain_table(std::string_view bytes) {
+    std::string line(bytes.substr(0, bytes.find('\n')));
+    drop_byte_order_mark(line);
+    if (line.ends_with('\r')) line.pop_back();
+    return form_of(line).has_value();
+}
+
 TableMark write_grain_table(const std::filesystem::path& path, const Frame& frame) {
     const bool with_orientation = !frame.orientation.empty();
     fmt::memory_buffer text;

@@ -9,11 +9,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "engine/frame.hpp"
 #include "engine/state/table_mark.hpp"
 
 namespace grainreel {
+
+// Whether a file that begins so is such a table, by its first line.
+bool begins_grain_table(std::string_view bytes);
 
 // What run.json is to keep of it. Throws RunError when the file cannot be written; what it held before stays
 // then.

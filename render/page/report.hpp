@@ -10,7 +10,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "render/page/page_progress.hpp"
-#include "render/run/frames/recorded_run.hpp"
+#include "render/film/sources/recorded_run.hpp"
 
 namespace grainreel {
 

@@ -5,7 +5,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "render/page/film/film_times.hpp"
-#include "render/run/film_times_table.hpp"
+#include "render/film/moments/film_times_table.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/scene/file/reader.hpp"
@@ -59,17 +60,9 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
 }
 
 Scene scene_of_checkpoint(const fs::path& checkpoint, const Assignments& sets) {
-    const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
-    if (!label)
-        throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
-                                    checkpoint.string()));
-    // It does not say how its grains came to be; they are in it.
-    const std::string name = checkpoint.string();
-    Assignments all{{"start.method=file", name},
-                    {"start.file=" + fs::absolute(checkpoint).string(), name},
-                    {"start.keep_clock=true", name}};
+    Assignments all = started_from(checkpoint);
     all.insert(all.end(), sets.begin(), sets.end());
-    return read_scene_text(label->scene, checkpoint, all, measurable_in);
+    return read_scene_text(scene_text_of_checkpoint(checkpoint), checkpoint, all, measurable_in);
 }
 
 Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {

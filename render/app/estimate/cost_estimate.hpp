@@ -6,7 +6,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/film/run/thread_plan.hpp"
+#include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/sampler.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/app/estimate/speed_cache.hpp"
-#include "render/film/run/thread_plan.hpp"
+#include "render/film/request/thread_plan.hpp"
 
 namespace grainreel {
 

@@ -18,12 +18,13 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/run/frames/asked_moment.hpp"
-#include "render/run/frames/recorded_run.hpp"
-#include "render/run/frames/saved_state.hpp"
-#include "render/run/pick/answer_forces.hpp"
-#include "render/run/pick/answer_picture.hpp"
-#include "render/run/pick/pixel_question.hpp"
+#include "engine/files/frames/damaged_frame.hpp"
+#include "engine/questions/answer_forces.hpp"
+#include "engine/questions/asked_moment.hpp"
+#include "render/film/answers/filmed_record.hpp"
+#include "render/film/production/caption_holds.hpp"
+#include "render/film/answers/answer_picture.hpp"
+#include "render/film/answers/pixel_question.hpp"
 
 namespace grainreel {
 namespace {
@@ -116,7 +117,8 @@ class Inspect final : public Verb {
     int run(Reporter& reporter) override {
         if (!picture_.empty()) check_picture_file(picture_);
         check_options();
-        const std::unique_ptr<const Record> record = open_record();
+        open();
+        const Record* const record = asked_->record;
         tell_news(*record, reporter);
         MomentFinder finder(*record);
         Answer answer =
@@ -196,7 +198,7 @@ class Inspect final : public Verb {
         Answer answer = answer_of(finder, snapshot, reporter);
         answer.moment = chosen.about;
         if (!picture_.empty())
-            draw_answer(snapshot, marks_of(snapshot, answer), film_time(snapshot), picture_, gl_);
+            draw_answer(asked_->scene(), snapshot, marks_of(snapshot, answer), film_time(), picture_, gl_);
         return answer;
     }
 
@@ -213,10 +215,12 @@ class Inspect final : public Verb {
         return {all.grains, all.forces, all.words, !snapshot.forces};
     }
 
-    std::unique_ptr<const Record> open_record() const {
+    void open() {
         std::error_code ignored;
-        if (fs::is_regular_file(run_, ignored)) return std::make_unique<SavedState>(run_, sets_);
-        return std::make_unique<RecordedRun>(run_, sets_for_contacts(), true);
+        asked_ = fs::is_regular_file(run_, ignored) ? open_filmed_state(run_, sets_)
+                                                    : open_filmed_run(run_, sets_for_contacts());
+        CaptionHolds holds(asked_->scene().film);
+        moment_.held = [holds](double time) mutable { return holds.begin_at(time); };
     }
 
     // What is damaged or not of this run is left out of answers, and the user is to know.
@@ -243,9 +247,9 @@ class Inspect final : public Verb {
     bool asks_for_forces() const { return wall_ || largest_overlap_; }
 
     // s of the film; a camera that moves is somewhere else at each.
-    double film_time(const Snapshot& snapshot) const {
+    double film_time() const {
         if (film_time_) return *film_time_;
-        return moment_.frame ? static_cast<double>(*moment_.frame) / snapshot.scene.film.rate : 0;
+        return moment_.frame ? static_cast<double>(*moment_.frame) / asked_->scene().film.rate : 0;
     }
 
     bool asks_nothing() const {
@@ -263,7 +267,7 @@ class Inspect final : public Verb {
                                const Record& record) const {
         if (!asked.kept || asks_for_forces()) return true;
         if (grain_) return finder.can_bring_back(asked);
-        return (takes(Needs::contacts) && !record.has_contacts_of(*asked.kept)) || takes(Needs::forces) ||
+        return (takes(Needs::contacts) && !record.frames().has_contacts_of(*asked.kept)) || takes(Needs::forces) ||
                takes(Needs::period) || (asks_nothing() && finder.is_checkpoint(asked));
     }
 
@@ -352,7 +356,7 @@ class Inspect final : public Verb {
         });
         if (moments == 0)
             throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
-                                        record.folder().string(), *average_, asked.time));
+                                        record.frames().path().string(), *average_, asked.time));
         if (without_grain == moments)
             throw UserError(
                 fmt::format("--grain: no grain has the id {} at any of the {} moments", *grain_, moments));
@@ -380,7 +384,8 @@ class Inspect final : public Verb {
             });
         if (!pixel_.empty())
             return named("--pixel", [&] {
-                Answer there = PixelPicker(snapshot, film_time(snapshot)).at(pixel_[0], pixel_[1], through_);
+                Answer there = PixelPicker(asked_->scene(), snapshot, film_time())
+                                   .at(pixel_[0], pixel_[1], through_);
                 if (there.tables[0].rows.empty())
                     throw UserError(fmt::format("nothing is at {:g},{:g}", pixel_[0], pixel_[1]));
                 return there;
@@ -408,6 +413,7 @@ class Inspect final : public Verb {
 
     fs::path run_;
     Assignments sets_;
+    std::unique_ptr<const FilmedRecord> asked_;  // once it is open
     fs::path picture_;
     gl::Provider gl_ = gl::Provider::automatic;
     std::vector<double> pixel_;

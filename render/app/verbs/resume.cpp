@@ -28,8 +28,8 @@
 #include "render/app/verbs/verb.hpp"
 #include "render/film/run/movie_run.hpp"
 #include "render/film/run/resumed_film.hpp"
-#include "render/film/run/thread_plan.hpp"
-#include "render/run/frames/recorded_scene.hpp"
+#include "render/film/request/thread_plan.hpp"
+#include "render/film/sources/recorded_scene.hpp"
 
 namespace grainreel {
 namespace {

@@ -9,8 +9,8 @@
 #include "engine/run/folder/side_work.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/production/film_maker.hpp"
-#include "render/film/run/film_request.hpp"
-#include "render/film/run/thread_plan.hpp"
+#include "render/film/request/film_request.hpp"
+#include "render/film/request/thread_plan.hpp"
 
 namespace grainreel {
 

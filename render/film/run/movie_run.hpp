@@ -12,7 +12,7 @@
 #include "render/film/run/folder_film.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/scene_run.hpp"
-#include "render/run/film_times_table.hpp"
+#include "render/film/moments/film_times_table.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include "engine/files/run_names.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "render/run/frames/same_run.hpp"
+#include "engine/files/frames/same_run.hpp"
 
 namespace grainreel {
 

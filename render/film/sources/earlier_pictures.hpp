@@ -13,8 +13,8 @@
 #include "engine/run/driver/run_files.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/run/frames/frame_source.hpp"
-#include "render/run/frames/picture_parts.hpp"
+#include "render/film/sources/frame_source.hpp"
+#include "render/film/sources/picture_parts.hpp"
 
 namespace grainreel {
 

@@ -10,8 +10,8 @@
 #include "engine/scene/scene.hpp"
 #include "render/film/moments/bed_periods.hpp"
 #include "render/film/sources/earlier_pictures.hpp"
-#include "render/run/frames/frame_source.hpp"
-#include "render/run/frames/picture_parts.hpp"
+#include "render/film/sources/frame_source.hpp"
+#include "render/film/sources/picture_parts.hpp"
 
 namespace grainreel {
 

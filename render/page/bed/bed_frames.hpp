@@ -18,7 +18,7 @@
 #include "render/page/bed/film_colours.hpp"
 #include "render/page/bed/pair_forces.hpp"
 #include "render/page/page_progress.hpp"
-#include "render/run/frames/frame_source.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,7 @@
 #include "engine/scene/scene.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/grains/quantities.hpp"
-#include "render/run/frames/frame_source.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

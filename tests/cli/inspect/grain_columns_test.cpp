@@ -13,8 +13,8 @@
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/film/grain_values.hpp"
 #include "render/picture/grains/quantities.hpp"
-#include "render/run/pick/answer_forces.hpp"
-#include "render/run/pick/answer_picture.hpp"
+#include "engine/questions/answer_forces.hpp"
+#include "render/film/answers/answer_picture.hpp"
 
 namespace grainreel {
 namespace {

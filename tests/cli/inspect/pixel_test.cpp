@@ -15,9 +15,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/run/frames/asked_moment.hpp"
-#include "render/run/frames/recorded_run.hpp"
-#include "render/run/pick/pixel_question.hpp"
+#include "engine/questions/asked_moment.hpp"
+#include "render/film/sources/recorded_run.hpp"
+#include "render/film/answers/pixel_question.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

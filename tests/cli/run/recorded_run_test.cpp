@@ -1,6 +1,6 @@
 // Runs that lie on disk as sources of frames: what they supply, files that do not belong together, files that
 // lack something, files that grow.
-#include "render/run/frames/recorded_run.hpp"
+#include "render/film/sources/recorded_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -132,7 +132,7 @@ std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest& req
 }  // namespace
 
 FrameReader grain_table_reader() {
-    return {"table of grains", "a table of grains (final.csv)", takes, open};
+    return {"grain-table", "a table of grains (final.csv)", takes, open};
 }
 
 }  // namespace grainreel
