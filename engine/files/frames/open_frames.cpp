@@ -28,7 +28,8 @@ GRAINREEL_FRAME_READERS(GRAINREEL_DECLARE)
 namespace {
 
 FileHead head_of(const fs::path& path) {
-    FileHead head{path};
+    FileHead head;
+    head.path = path;
     std::error_code error;
     head.folder = fs::is_directory(path, error);
     if (head.folder) return head;

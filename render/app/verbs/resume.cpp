@@ -20,6 +20,7 @@
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/run/resume/resume_point.hpp"
 #include "engine/scene/file/reader.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "engine/start/continuation.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"

@@ -504,7 +504,7 @@ TEST(Trajectory, AFileThatCannotBeMadeIsARunError) {
 TEST(ContactsFile, IsATableWithTheFrameOfEveryRow) {
     const TemporaryFolder here;
     const auto contact = [](int i) {
-        return Simulation::ContactRecord{i, -1 - i, i + 0.5, vector_of(i), vector_of(i + 0.5)};
+        return ContactRecord{i, -1 - i, i + 0.5, vector_of(i), vector_of(i + 0.5)};
     };
     {
         ContactsWriter writer(here / "c.nc", "A test", "1.2.3");
