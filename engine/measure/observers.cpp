@@ -14,7 +14,7 @@ bool gathers(const Observer& observer) {
 
 bool is_wanted(const ObserverEntry& entry, const Scene& scene) {
     if (entry.wanted != nullptr) return entry.wanted(scene);
-    const std::vector<std::string>& wanted = scene.output.instruments;
+    const std::vector<std::string> wanted = scene.instruments();
     return entry.instrument == nullptr ||
            std::find(wanted.begin(), wanted.end(), entry.instrument) != wanted.end();
 }

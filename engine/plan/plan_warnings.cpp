@@ -133,22 +133,6 @@ void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, cons
                      "velocities are off by several per cent at any step; take velocity-verlet");
 }
 
-// A default colour repeats another species' when the palette has none left.
-void warn_of_colours(const Scene& scene, Warnings& warnings) {
-    const std::vector<Species>& species = scene.species;
-    for (std::size_t i = 0; i < species.size(); ++i) {
-        if (scene.written.count(fmt::format("species[{}].colour", i)) > 0) continue;
-        for (std::size_t j = 0; j < species.size(); ++j) {
-            if (i == j || species[j].colour != species[i].colour) continue;
-            warnings.add(fmt::format("species[{}]", i),
-                         fmt::format("\"{}\" and \"{}\" look alike: there are more species than default "
-                                     "colours; give one a colour of its own, such as colour = \"#8b4513\"",
-                                     species[std::min(i, j)].name, species[std::max(i, j)].name));
-            return;
-        }
-    }
-}
-
 // The species whose grains most contacts have, and the one of the largest that move; they may be the same.
 struct Sizes {
     const Species *usual, *largest;
@@ -208,20 +192,6 @@ void warn_of_short_period(const Scene& scene, Warnings& warnings) {
                 c.depth / sizes.largest->diameter.largest, sizes.largest->name, kWide));
 }
 
-void warn_of_film(const Scene& scene, Warnings& warnings) {
-    double shown = 0;
-    for (const FilmSegment& segment : scene.film.segments) {
-        if (!segment.duration) return;
-        shown += *segment.duration;
-    }
-    if (!scene.film.segments.empty() && shown < scene.run.duration * (1 - 1e-6))
-        warnings.add(
-            "film.segment",
-            fmt::format("the film shows the first {:.4g} s of {:.4g} s; leave out one duration to show "
-                        "the rest",
-                        shown, scene.run.duration));
-}
-
 }  // namespace
 
 std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
@@ -234,10 +204,8 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
     warn_of_arms(plan, warnings);
     warn_of_step(scene, plan, bed, step, warnings);
     warn_of_few_steps(scene, plan, warnings);
-    warn_of_colours(scene, warnings);
     warn_of_outlet(scene, warnings);
     warn_of_short_period(scene, warnings);
-    warn_of_film(scene, warnings);
     return warnings.take();
 }
 

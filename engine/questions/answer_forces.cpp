@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "engine/questions/forces.hpp"
-#include "engine/scene/film/grain_values.hpp"
 
 namespace grainreel {
 namespace {

@@ -12,6 +12,8 @@
 #include "engine/questions/displacement.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/run/driver/run_files.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 

@@ -117,9 +117,11 @@ std::string Scene::where(const std::string& key) const {
     return file.empty() ? file : file + ":1:1";
 }
 
-bool Camera::framed_by_user() const {
-    return position || target || zoom != 1 ||
-           std::any_of(keys.begin(), keys.end(), [](const CameraKey& key) { return key.zoom || key.target; });
+std::vector<std::string> Scene::instruments() const {
+    std::vector<std::string> all = output.instruments;
+    for (const std::string& wished : wishes.instruments)
+        if (std::find(all.begin(), all.end(), wished) == all.end()) all.push_back(wished);
+    return all;
 }
 
 }  // namespace grainreel

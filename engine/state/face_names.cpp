@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/film/measure_columns.hpp"
+#include "engine/scene/measure_columns.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

@@ -11,6 +11,7 @@
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "render/page/embed/zlib_pack.hpp"
 #include "render/page/page_measures.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -116,7 +117,7 @@ Values pressure(const FieldsFile& file, std::size_t record) {
     return sum;
 }
 
-std::vector<Made> quantities_of(const Scene& scene, const FieldsFile& file) {
+std::vector<Made> quantities_of(const FilmedScene& scene, const FieldsFile& file) {
     std::vector<Made> all;
     const auto add = [&](const char* name, const std::string& label, const char* unit, auto of) {
         all.push_back({{name, label, unit, 0, 0}, of});
@@ -176,7 +177,7 @@ void append_room(std::vector<std::uint8_t>& bytes, const FieldsFile& file) {
     }
 }
 
-PageFields read_fields(const Scene& scene, const FieldsFile& file) {
+PageFields read_fields(const FilmedScene& scene, const FieldsFile& file) {
     PageFields fields;
     fields.y = file.axis("y");
     fields.z = file.axis("z");
@@ -206,7 +207,7 @@ PageFields read_fields(const Scene& scene, const FieldsFile& file) {
 
 }  // namespace
 
-PageFields page_fields(const Scene& scene, const fs::path& folder) {
+PageFields page_fields(const FilmedScene& scene, const fs::path& folder) {
     std::error_code ignored;
     if (!scene.output.fields.wanted() || !fs::exists(folder / "fields.nc", ignored)) return {};
     try {

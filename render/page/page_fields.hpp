@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -45,6 +45,6 @@ constexpr std::size_t kMostFieldBytes = 1'000'000;  // packed
 
 // Of fields.nc in a run's folder; with a grid in three dimensions means over the depth. Nothing where the run
 // kept none.
-PageFields page_fields(const Scene& scene, const std::filesystem::path& folder);
+PageFields page_fields(const FilmedScene& scene, const std::filesystem::path& folder);
 
 }  // namespace grainreel

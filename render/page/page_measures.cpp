@@ -6,6 +6,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -15,7 +16,7 @@ constexpr std::size_t most_charts = 4;
 constexpr const char* usual[] = {"height_difference", "unlike_neighbours", "centre_z_m", "contact_number",
                                  "kinetic_J"};
 
-std::vector<PageColumn> columns_of(const Scene& scene, const MeasureTable& table) {
+std::vector<PageColumn> columns_of(const FilmedScene& scene, const MeasureTable& table) {
     const std::vector<MeasureColumn> known = measure_columns(scene);
     std::vector<PageColumn> columns;
     for (const std::string& name : table.columns()) {
@@ -48,7 +49,7 @@ std::vector<std::size_t> spread_rows(std::size_t rows, std::size_t most) {
     return chosen;
 }
 
-PageMeasures page_measures(const Scene& scene, const MeasureTable& table) {
+PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table) {
     PageMeasures page;
     page.columns = columns_of(scene, table);
     const auto index_of = [&](const std::string& name) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/measure/measure_table.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -29,6 +29,6 @@ constexpr std::size_t kMostRowsAtOnce = 2000;
 
 // The film's plots come first, then the measures that usually matter, as far as they have values that change.
 // Nothing is charted without a column of time.
-PageMeasures page_measures(const Scene& scene, const MeasureTable& table);
+PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table);
 
 }  // namespace grainreel

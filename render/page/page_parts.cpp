@@ -10,6 +10,7 @@
 #include "render/page/embed/base64.hpp"
 #include "render/page/embed/html.hpp"
 #include "render/page/facts/methods.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -67,11 +68,11 @@ std::string scene_html(const fs::path& folder, const std::string& n, bool beside
         return "";
     }
     if (text.size() > most_scene_text)
-        return chapter("Scene",
+        return chapter("FilmedScene",
                        fmt::format("<p>The scene is too long for this page; it is {} in the run's "
                                    "folder.</p>\n",
                                    beside ? "<a href=\"./scene.toml\">scene.toml</a>" : "scene.toml"));
-    return chapter("Scene",
+    return chapter("FilmedScene",
                    "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
                    "again.</p>\n" +
                        copyable("scene-text" + n, "scene.toml", text, "plain"));
@@ -119,7 +120,7 @@ std::string number_words(const Species& species) {
     return fmt::format("{} {} (and {} more that are fed)", species.count, species.name, species.fed);
 }
 
-std::string drive_words(const Scene& scene) {
+std::string drive_words(const FilmedScene& scene) {
     const Drive& drive = scene.drive;
     if (!drive.present) return fmt::format("without a drive, for {:.4g} s", scene.run.duration);
     const double gravity = scene.gravity.norm();
@@ -132,7 +133,7 @@ std::string drive_words(const Scene& scene) {
 
 }  // namespace
 
-std::string lead_html(const Scene& scene) {
+std::string lead_html(const FilmedScene& scene) {
     std::string species;
     for (const Species& one : scene.species)
         if (one.all() > 0)  // else it is glued to walls
@@ -141,7 +142,7 @@ std::string lead_html(const Scene& scene) {
                        words_of(scene.container.shape), drive_words(scene));
 }
 
-std::string end_html(const Scene& scene, const RunFacts& facts, double until) {
+std::string end_html(const FilmedScene& scene, const RunFacts& facts, double until) {
     if (facts.status == "complete") return "";
     const std::string at = fmt::format("{:.4g} of {:.4g} s", std::max(0.0, until), scene.run.duration);
     std::string text;
@@ -185,7 +186,7 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
     return html;
 }
 
-std::string bed_about(const BedFrames& bed, const Scene& scene) {
+std::string bed_about(const BedFrames& bed, const FilmedScene& scene) {
     const Vec3 error = 1e6 * bed.error();
     std::string text = fmt::format(
         "Places are rounded to 16 bits over the box that the grains reach: they are off by {:.2g} µm along "
@@ -219,7 +220,7 @@ std::string bed_about(const BedFrames& bed, const Scene& scene) {
     return html_text(text);
 }
 
-std::string story_html(const Scene& scene) {
+std::string story_html(const FilmedScene& scene) {
     if (scene.film.captions.empty()) return "";
     std::string html = "<ol class=\"story\">\n";
     for (const FilmCaption& caption : scene.film.captions)
@@ -230,7 +231,7 @@ std::string story_html(const Scene& scene) {
     return chapter("What to look at", html + "</ol>\n");
 }
 
-std::string chapters_html(const Scene& scene, const RunFacts& facts,
+std::string chapters_html(const FilmedScene& scene, const RunFacts& facts,
                           const std::optional<PlannedScene>& planned, const fs::path& folder,
                           const std::string& page_name, const std::string& n) {
     std::string html = story_html(scene);

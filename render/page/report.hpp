@@ -11,6 +11,7 @@
 #include "engine/plan/plan.hpp"
 #include "render/page/page_progress.hpp"
 #include "render/film/sources/recorded_run.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -32,7 +33,7 @@ constexpr std::size_t kMostPageBytes = 20'000'000;
 // A run for a page.
 struct PageRun {
     std::filesystem::path folder;
-    Scene scene;                       // named after the folder
+    FilmedScene scene;                 // named after the folder
     std::shared_ptr<RecordedRun> run;  // null of a run that kept no moment of its grains
     bool contacts = false;             // its frames come with touches (RecordedRun of a film that shows them)
     std::optional<PlannedScene> planned;  // empty where the scene cannot be planned any more

@@ -12,6 +12,7 @@
 #include "render/page/page_fields.hpp"
 #include "render/page/page_progress.hpp"
 #include "render/page/report.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -28,7 +29,7 @@ class RunPart {
     // Grains, into so many packed bytes. Throws likewise.
     void read_bed(std::size_t most_bytes, const PageProgress& progress);
 
-    const Scene& scene() const { return run_.scene; }
+    const FilmedScene& scene() const { return run_.scene; }
     const std::filesystem::path& folder() const { return run_.folder; }
     const std::string& name() const { return name_; }
     std::string title() const;  // HTML

@@ -7,6 +7,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observers.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel::test {
 
@@ -40,7 +41,7 @@ inline Frame made_frame(int grains, int number, bool orientation = false) {
 inline Measures made_measures(int number, const std::vector<std::string>& species) {
     std::vector<std::string> names;
     std::vector<double> values;
-    Scene scene;
+    FilmedScene scene;
     for (const std::string& name : species) scene.species.emplace_back().name = name;
     for (const ObserverEntry& observer : all_observers()) {
         if (observer.instrument != nullptr || observer.wanted != nullptr) continue;

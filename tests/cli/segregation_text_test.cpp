@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/run/driver/late_means.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/made_frame.hpp"
 
 namespace grainreel {
@@ -13,8 +14,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-Scene of_sizes(const std::vector<double>& diameters) {
-    Scene scene;
+FilmedScene of_sizes(const std::vector<double>& diameters) {
+    FilmedScene scene;
     for (const double diameter : diameters) {
         Species species;
         species.name = std::string(1, static_cast<char>('a' + scene.species.size()));
@@ -51,7 +52,7 @@ TEST(SegregationText, LeavesOutWhatDoesNotHold) {
 }
 
 TEST(SegregationText, SpeaksForNoneOfThoseThatDisagree) {
-    const Scene scene = of_sizes({1, 2});
+    const FilmedScene scene = of_sizes({1, 2});
     const auto text = [&](double unlike, double lacey) {
         return segregation_text(scene, indices(0, 0.5, 1, 1), indices(0.2, 0.6, unlike, lacey),
                                 "the last 3 s");

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "engine/scene/file/reader.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -58,8 +58,8 @@ TEST(ShippedScenes, AreToldByTheFirstSentenceOfTheirComment) {
 }
 
 TEST(ShippedScenes, AreReadByNameWhereThereIsNoSuchFile) {
-    const Scene by_name = read_scene("oblique_impact");
-    const Scene by_file = read_scene(GRAINREEL_SOURCE "/scenes/oblique_impact.toml");
+    const FilmedScene by_name = read_filmed_scene("oblique_impact");
+    const FilmedScene by_file = read_filmed_scene(GRAINREEL_SOURCE "/scenes/oblique_impact.toml");
     EXPECT_EQ(by_name.name, by_file.name);
     EXPECT_EQ(by_name.run.duration, by_file.run.duration);
     const TemporaryFolder folder;
@@ -77,7 +77,9 @@ TEST(NewScene, IsACopyThatCanBeRead) {
     EXPECT_EQ(text_of(folder.path() / "gravel.toml"), shipped_scene("gravel")->text);
     EXPECT_EQ(run_program({"new", "mine", "--from", "brazil-nut"}, {.folder = folder.path()}).out,
               "mine.toml\n");
-    const auto title_of = [](const fs::path& scene) { return read_scene(scene, {}, measurable_in).title; };
+    const auto title_of = [](const fs::path& scene) {
+        return read_filmed_scene(scene, {}, measurable_in).title;
+    };
     EXPECT_EQ(title_of(folder.path() / "mine.toml"), title_of("teaching_brazil_nut"));
 }
 

@@ -5,13 +5,14 @@
 
 #include "engine/scene/bed.hpp"
 #include "render/picture/camera/camera_path.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {
 
-Scene orbiting(double degrees = 360, double seconds = 8, int width = 640, int height = 360) {
-    Scene scene = wedge(width, height);
+FilmedScene orbiting(double degrees = 360, double seconds = 8, int width = 640, int height = 360) {
+    FilmedScene scene = wedge(width, height);
     scene.film.camera.orbit = degrees;
     scene.film.camera.orbit_time = seconds;
     scene.film.axes = true;
@@ -30,8 +31,8 @@ std::vector<Ball> wall_of_balls() {
 TEST(CameraPath, ASphereIsWhereTheFormulaHasIt) {
     for (const double field : {25.0, 0.0})
         for (const double time : {0.0, 1.3, 4.0, 6.9}) {
-            Scene scene = orbiting(360, 8, 960, 540);
-            scene.species = {species("black", 1, 0.01, {0, 0, 0})};
+            FilmedScene scene = orbiting(360, 8, 960, 540);
+            set_species(scene, {{"black", 1, 0.01, {0, 0, 0}}});
             scene.film.camera.field_of_view = field;
             const View view = CameraPath(scene, plan_layout(scene)).at(time);
             // The directions by hand: the orbit adds to the azimuth at a steady rate.
@@ -60,7 +61,7 @@ TEST(CameraPath, ASphereIsWhereTheFormulaHasIt) {
 }
 
 TEST(CameraPath, AFullTurnEndsWhereItBegan) {
-    const Scene scene = orbiting();
+    const FilmedScene scene = orbiting();
     Renderer renderer(scene, 1);
     const Frame frame = frame_of(wall_of_balls());
     const Picture first = renderer.draw(frame, "", 0);
@@ -73,7 +74,7 @@ TEST(CameraPath, AFullTurnEndsWhereItBegan) {
 
 // Shading belongs to the camera; a small turn may not make grains flicker.
 TEST(CameraPath, ATenthOfADegreeChangesColoursLittle) {
-    Scene scene = orbiting(0.1, 1);
+    FilmedScene scene = orbiting(0.1, 1);
     scene.container.shape = Container::Shape::box;
     const CameraPath path(scene, plan_layout(scene));
     Renderer renderer(scene, 1);
@@ -96,7 +97,7 @@ TEST(CameraPath, AnOrbitKeepsAllOfTheContainerInThePortAtOneDistance) {
         for (const auto& [width, height] : {std::pair{1280, 720}, {360, 640}})
             for (const double field : {0.0, 25.0, 80.0})
                 for (const double elevation : {-20.0, 10.0, 60.0}) {
-                    Scene scene = orbiting(360, 10, width, height);
+                    FilmedScene scene = orbiting(360, 10, width, height);
                     scene.container.shape = shape;
                     scene.film.camera.field_of_view = field;
                     scene.film.camera.elevation = elevation;
@@ -125,7 +126,7 @@ TEST(CameraPath, AnOrbitKeepsAllOfTheContainerInThePortAtOneDistance) {
 }
 
 TEST(CameraPath, KeysAreHitExactlyAndNotOvershot) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     const auto key = [](double time, double azimuth, double elevation, double zoom) {
         CameraKey k;
         k.time = time, k.azimuth = azimuth, k.elevation = elevation, k.zoom = zoom;
@@ -159,7 +160,7 @@ TEST(CameraPath, KeysAreHitExactlyAndNotOvershot) {
 }
 
 TEST(CameraPath, WhatTheFirstKeyLeavesOutIsTheCamerasOwn) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.camera.zoom = 1.5;
     scene.film.camera.keys.resize(3);
     for (std::size_t i = 0; i < 3; ++i) scene.film.camera.keys[i].time = static_cast<double>(i);
@@ -189,7 +190,7 @@ TEST(CameraPath, CurvesAreSmoothAtTheirPoints) {
 }
 
 TEST(CameraPath, APlaceOfItsOwn) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     Camera& camera = scene.film.camera;
     camera.position = Vec3(0.3, -0.4, 0.5);
     camera.target = Vec3(0.01, 0.02, 0.05);
@@ -213,7 +214,8 @@ TEST(CameraPath, APlaceOfItsOwn) {
 }
 
 // How much of the picture changes from one moment to the next.
-std::vector<double> changes(Renderer& renderer, const Scene& scene, double from, double to, double step) {
+std::vector<double> changes(Renderer& renderer, const FilmedScene& scene, double from, double to,
+                            double step) {
     const Rectangle port = plan_layout(scene).port;
     std::vector<double> sums;
     Picture last;
@@ -242,7 +244,7 @@ void expect_no_pop(const std::vector<double>& changes, double from, double step)
 // of about 8 and 90 degrees.
 TEST(CameraPath, NothingPopsOnAnOrbit) {
     for (const auto shape : {Container::Shape::wedge, Container::Shape::box, Container::Shape::cylinder}) {
-        Scene scene = orbiting(360, 360, 480, 270);  // a degree a second
+        FilmedScene scene = orbiting(360, 360, 480, 270);  // a degree a second
         scene.container.shape = shape;
         Renderer renderer(scene, 1);
         for (const double from : {338.0, 420.0})
@@ -253,7 +255,7 @@ TEST(CameraPath, NothingPopsOnAnOrbit) {
 // Of the lid, at an elevation of about 6 degrees, and of the floor, at -9.
 TEST(CameraPath, NothingPopsOnTheWayUp) {
     for (const auto shape : {Container::Shape::box, Container::Shape::cylinder}) {
-        Scene scene = wedge(480, 270);
+        FilmedScene scene = wedge(480, 270);
         scene.container.shape = shape;
         scene.film.camera.keys.resize(2);
         scene.film.camera.keys[0].elevation = -30;

@@ -1,11 +1,11 @@
 // Colours that stand for numbers.
 #include <gtest/gtest.h>
 
-#include "engine/scene/film/grain_values.hpp"
 #include "render/picture/grains/colour_map.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/plots/ticks.hpp"
+#include "render/scene/grain_values.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -50,8 +50,8 @@ TEST(ColourMaps, LightnessRisesAllTheWayOrTowardsTheMiddle) {
     }
 }
 
-Scene coloured(GrainValue by, double low, double high, const std::string& unit) {
-    Scene scene = wedge(1280, 720);
+FilmedScene coloured(GrainValue by, double low, double high, const std::string& unit) {
+    FilmedScene scene = wedge(1280, 720);
     scene.film.shows.colour = {
         by, is_signed(by) ? ColourMap::vik : ColourMap::viridis, {low, high}, false, unit, 5};
     return scene;
@@ -74,7 +74,7 @@ Frame two_balls() {
 TEST(GrainColours, FollowTheFormulaOfTheQuantity) {
     const Frame frame = two_balls();
     const auto check = [&](GrainValue by, double low, double high, double first, double second) {
-        const Scene scene = coloured(by, low, high, "");
+        const FilmedScene scene = coloured(by, low, high, "");
         GrainColours colours(scene);
         const ColourMap map = scene.film.shows.colour.map;
         SCOPED_TRACE(static_cast<int>(by));
@@ -124,7 +124,7 @@ TEST(GrainColours, WithoutDisplacementsTheyAreGrey) {
 
 // A fast grain that comes into the film does not change what the colours of the others say.
 TEST(GrainColours, MeanTheSameInEveryFrame) {
-    const Scene scene = coloured(GrainValue::speed, 0, 1, "m/s");
+    const FilmedScene scene = coloured(GrainValue::speed, 0, 1, "m/s");
     Renderer renderer(scene, 1);
     Frame frame = two_balls();
     const Picture before = renderer.draw(frame, "");
@@ -164,7 +164,7 @@ TEST(GrainColours, AreReadThroughLightAndShade) {
                 if (std::abs(y) < 0.035 + 0.35 * z) balls.push_back({{x, y, z}, 0.00255, 0});
     for (const auto style : {FilmLook::Style::studio, FilmLook::Style::dark})
         for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis}) {
-            Scene scene = coloured(GrainValue::speed, 0, 1, "m/s");
+            FilmedScene scene = coloured(GrainValue::speed, 0, 1, "m/s");
             scene.film.look = FilmLook::of(style);
             scene.film.look.ground = false;
             scene.film.shows.colour.map = map;
@@ -204,7 +204,7 @@ TEST(GrainColours, AreReadThroughLightAndShade) {
 TEST(ColourBar, EndsAreTheMapsEnds) {
     for (const GrainValue by : {GrainValue::speed, GrainValue::vertical_velocity, GrainValue::start_height}) {
         for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 360}}) {
-            Scene scene = coloured(by, -1, 1, "");
+            FilmedScene scene = coloured(by, -1, 1, "");
             scene.film.width = width;
             scene.film.height = height;
             const Rectangle part = plan_layout(scene).first;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -33,8 +34,8 @@ double lid_edge(const Picture& picture, const Rectangle& port) {
     return y + 1 - covered(picture.pixel(x, y)) - port.y;
 }
 
-Scene level_box() {
-    Scene scene = wedge(1280, 720);
+FilmedScene level_box() {
+    FilmedScene scene = wedge(1280, 720);
     scene.container.shape = Container::Shape::box;
     scene.film.camera.azimuth = 0;
     scene.film.camera.elevation = 0;
@@ -44,7 +45,7 @@ Scene level_box() {
 
 TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
     for (const double exaggerate : {1.0, 5.0}) {
-        Scene scene = level_box();
+        FilmedScene scene = level_box();
         scene.film.exaggerate = exaggerate;
         const View view = view_of(scene);
         const double bottom = -1.4 * drawn_thickness(scene.container), front = 0.5 * scene.container.depth;
@@ -68,7 +69,7 @@ TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
 
 // A plane is drawn where the frame says that its body is, whatever its velocity would make of the time.
 TEST(ContainerPicture, APlaneIsWhereItsBodyIs) {
-    Scene scene = level_box();
+    FilmedScene scene = level_box();
     FreeWall plane;
     plane.point = Vec3(0, 0, 0.03);
     plane.normal = Vec3(0, 0.5, 1).normalized();
@@ -78,7 +79,7 @@ TEST(ContainerPicture, APlaneIsWhereItsBodyIs) {
     frame.time = 0.1;
     frame.bodies.resize(kFirstPlaneBody + 1);
     frame.bodies.back().place = Vec3(0, 0, 0.01);
-    Scene higher = scene;
+    FilmedScene higher = scene;
     higher.walls[0].point += frame.bodies.back().place;
     Frame at_rest = frame;
     at_rest.bodies.back() = {};
@@ -90,7 +91,7 @@ TEST(ContainerPicture, APlaneIsWhereItsBodyIs) {
 
 // Seen from the container, an exaggerated grain is where it is.
 TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
-    Scene scene = level_box();
+    FilmedScene scene = level_box();
     scene.film.exaggerate = 5;
     const View view = view_of(scene);
     const Vec3 offset(0, 0, 0.006), resting(0, 0.01, 0.02);
@@ -110,7 +111,7 @@ TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
 }
 
 TEST(ContainerPicture, ExaggerationIsSaid) {
-    Scene scene = level_box();
+    FilmedScene scene = level_box();
     const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette({1, 1, 1});
     const Writer measure{nullptr, type, palette};
@@ -122,13 +123,13 @@ TEST(ContainerPicture, ExaggerationIsSaid) {
 // The ghost is what the container's outline is at rest, wherever the container is.
 TEST(ContainerPicture, TheGhostRests) {
     for (const auto shape : {Container::Shape::box, Container::Shape::wedge, Container::Shape::cylinder}) {
-        Scene plain = level_box(), ghostly = level_box();
+        FilmedScene plain = level_box(), ghostly = level_box();
         plain.container.shape = ghostly.container.shape = shape;
         ghostly.film.wall_ghost = true;
         const View view = view_of(plain);
         Renderer one(plain, 1), other(ghostly, 1);
         Pixel low(1e9, 1e9), high(-1e9, -1e9);
-        Scene at_rest = plain;
+        FilmedScene at_rest = plain;
         at_rest.drive.present = false;  // no stroke and no marks: the container's own corners
         for (const Vec3& corner : framing_points(at_rest)) {
             low = low.cwiseMin(view.project(corner));
@@ -149,8 +150,8 @@ TEST(ContainerPicture, TheGhostRests) {
 }
 
 // A scene whose camera looks level at the lid's lower side from `above` it, at rest; m.
-Scene seen_from_lid_height(Container::Shape shape, double above) {
-    Scene scene = level_box();
+FilmedScene seen_from_lid_height(Container::Shape shape, double above) {
+    FilmedScene scene = level_box();
     scene.container.shape = shape;
     scene.drive.amplitude = 0.02;
     double low = -20, high = 40;
@@ -169,7 +170,7 @@ Frame moved_to(double height, const std::vector<Ball>& balls) {
 }
 
 // The nearest part of the lid, `up` of its thickness above its lower side.
-const std::uint8_t* lid_pixel(const Scene& scene, const Picture& picture, double offset, double up) {
+const std::uint8_t* lid_pixel(const FilmedScene& scene, const Picture& picture, double offset, double up) {
     const Container& c = scene.container;
     const double t = drawn_thickness(c);
     const double front = c.shape == Container::Shape::cylinder ? c.half_width + t : 0.5 * c.depth;
@@ -181,7 +182,7 @@ const std::uint8_t* lid_pixel(const Scene& scene, const Picture& picture, double
 TEST(ContainerPicture, TheLidLooksTheSameAllTheStroke) {
     for (const auto shape : {Container::Shape::box, Container::Shape::cylinder})
         for (const double above : {-0.003, 0.003}) {
-            const Scene scene = seen_from_lid_height(shape, above);
+            const FilmedScene scene = seen_from_lid_height(shape, above);
             Renderer renderer(scene, 1);
             const int rest = lid_pixel(scene, renderer.draw(moved_to(0, {}), ""), 0, 0.5)[0];
             // A few levels of leeway: glass shows a little more of its upper face as it sinks.
@@ -195,7 +196,7 @@ TEST(ContainerPicture, TheLidLooksTheSameAllTheStroke) {
 }
 
 TEST(ContainerPicture, ALidThatSinksBelowTheEyeHidesGrains) {
-    const Scene scene = seen_from_lid_height(Container::Shape::box, -0.001);
+    const FilmedScene scene = seen_from_lid_height(Container::Shape::box, -0.001);
     const double offset = -0.019, r = 0.015;
     const Ball touching{{r - 0.5 * scene.container.depth, 0, scene.container.height - r + offset}, r, 0};
     Renderer renderer(scene, 1);
@@ -206,7 +207,7 @@ TEST(ContainerPicture, ALidThatSinksBelowTheEyeHidesGrains) {
 }
 
 TEST(ContainerPicture, AFloorThatMovesAloneLeavesTheLid) {
-    Scene scene = level_box();
+    FilmedScene scene = level_box();
     scene.drive.moves = Drive::Moves::floor;
     const View view = view_of(scene);
     Renderer renderer(scene, 1);
@@ -220,7 +221,7 @@ TEST(ContainerPicture, AFloorThatMovesAloneLeavesTheLid) {
 }
 
 TEST(ContainerPicture, FollowingHoldsTheContainerStill) {
-    Scene scene = level_box();
+    FilmedScene scene = level_box();
     scene.film.camera.follow = true;
     const View view = view_of(scene);
     Renderer renderer(scene, 1);
@@ -231,7 +232,7 @@ TEST(ContainerPicture, FollowingHoldsTheContainerStill) {
 }
 
 TEST(ContainerPicture, AnOpenTopLooksDifferent) {
-    Scene scene = level_box();
+    FilmedScene scene = level_box();
     const View view = view_of(scene);
     const double closed = lid_edge(Renderer(scene, 1).draw(frame_of({}), ""), view.port);
     scene.container.lid = false;
@@ -247,7 +248,7 @@ TEST(ContainerPicture, AnOpenTopLooksDifferent) {
 }
 
 TEST(ContainerPicture, APeriodicDepthHasNoPanes) {
-    Scene scene = level_box();
+    FilmedScene scene = level_box();
     scene.container.lid = false;
     const View view = view_of(scene);
     const int x = view.port.x + view.port.width / 2;
@@ -264,7 +265,7 @@ TEST(Framing, KeepsEverythingInThePictureAndFillsIt) {
                 for (const double field : {0.0, 25.0, 90.0})
                     for (const double azimuth : {0.0, 20.0, 135.0})
                         for (const double elevation : {-20.0, 10.0, 90.0}) {
-                            Scene scene = wedge(width, height);
+                            FilmedScene scene = wedge(width, height);
                             scene.container.shape = shape;
                             scene.container.height = tall;
                             scene.film.camera.azimuth = azimuth;
@@ -292,12 +293,12 @@ TEST(Framing, KeepsEverythingInThePictureAndFillsIt) {
 // Shaken gently, an open container ends at the picture's margin; shaken hard, there is room above its rim for
 // at least one throw of the bed: its height, and (2 pi f a)^2 / 2g above that.
 TEST(Framing, AnOpenTopLeavesRoomForGrainsInFlight) {
-    Scene scene = level_box();
+    FilmedScene scene = level_box();
     Container& box = scene.container;
     box.lid = false;
     box.height = 0.3;  // so tall that the picture's height is what binds
     scene.film.camera.field_of_view = 0;
-    scene.species = {species("small", 23000, 0.003, blue)};
+    set_species(scene, {{"small", 23000, 0.003, blue}});
     const double bed = 23000 * pi / 6 * std::pow(0.003, 3) / 0.55 / (2 * box.half_width * box.depth);
     const auto room = [&] {  // m, from the rim at the top of its stroke
         const View view = view_of(scene);
@@ -315,7 +316,7 @@ TEST(Framing, AnOpenTopLeavesRoomForGrainsInFlight) {
 }
 
 TEST(Framing, AzimuthTurnsTheCameraToTheRight) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.camera.azimuth = 30;
     scene.film.camera.elevation = 0;
     const View view = view_of(scene);

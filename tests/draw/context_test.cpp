@@ -13,6 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/picture/gl/objects.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -47,7 +48,7 @@ double alike(const Picture& a, const Picture& b, int least) {
 
 TEST(Context, EglDrawsWhatOSMesaDraws) {
     for (const auto shape : {Container::Shape::wedge, Container::Shape::cylinder}) {
-        Scene scene = wedge(960, 540);
+        FilmedScene scene = wedge(960, 540);
         scene.container.shape = shape;
         Renderer osmesa(scene, 1, Provider::osmesa), egl(scene, 1, Provider::egl);
         const Picture reference = osmesa.draw(heap(), "a caption");

@@ -4,6 +4,7 @@
 
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -17,8 +18,8 @@ double amplitude_of(double g_level, double frequency) {
 }
 
 // From 20 Hz at 1 s over 3 periods to 40 Hz, at 2 s to rest, from 3 s on taps.
-Scene changing() {
-    Scene scene = wedge();
+FilmedScene changing() {
+    FilmedScene scene = wedge();
     scene.drive.amplitude = amplitude_of(2, 20);
     scene.drive.stages = {{Kind::vibrate, 1, 3, 40, amplitude_of(3, 40)},
                           {Kind::rest, 2, 3, 0, 0},
@@ -26,7 +27,7 @@ Scene changing() {
     return scene;
 }
 
-std::vector<std::string> lines_at(const Scene& scene, double time) {
+std::vector<std::string> lines_at(const FilmedScene& scene, double time) {
     Frame frame;
     frame.time = time;
     frame.cycles = DriveSchedule(scene.drive).times().cycles(time);
@@ -34,7 +35,7 @@ std::vector<std::string> lines_at(const Scene& scene, double time) {
 }
 
 TEST(DriveWords, AreThoseOfTheStageThatIsOn) {
-    const Scene scene = changing();
+    const FilmedScene scene = changing();
     EXPECT_THAT(lines_at(scene, 0.5), ElementsAre("f = 20 Hz", "Γ = 2", "a = 1.24 mm"));
     // Half of the change, which takes 2 x 3 / 60 s: 30 Hz and Gamma 2.5.
     EXPECT_THAT(lines_at(scene, 1.05), ElementsAre("f = 30 Hz", "Γ = 2.5", "a = 690 µm"));
@@ -46,7 +47,7 @@ TEST(DriveWords, AreThoseOfTheStageThatIsOn) {
 
 // The ramp s(u) = 10 u^3 - 15 u^4 + 6 u^5: a half in its middle, where the container moves so far.
 TEST(DriveWords, GrowWithTheDriveAtFirst) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.drive.ramp = 4;
     scene.drive.amplitude = amplitude_of(3, 20);
     const auto at = [&](double cycles) {
@@ -71,7 +72,7 @@ TEST(DriveWords, GrowWithTheDriveAtFirst) {
 }
 
 TEST(CaptionWords, AreThereInTheirTime) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.captions = {{1, 2, "one", 0}, {2, 3, "two", 0}};
     const auto at = [&](double time) {
         Frame frame;

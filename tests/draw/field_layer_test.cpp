@@ -3,13 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {
 
-Scene with_field() {
-    Scene scene = wedge();
+FilmedScene with_field() {
+    FilmedScene scene = wedge();
     scene.film.shows.colour.by = GrainValue::vertical_velocity;
     scene.film.shows.colour.map = ColourMap::vik;
     scene.film.shows.colour.range = {-1, 1};
@@ -19,7 +20,7 @@ Scene with_field() {
 }
 
 // Of the layer where a place of its plane is seen; alpha 0 where it has no cell.
-Shapes::Vertex seen_at(const Scene& scene, const Frame& frame, const Vec3& place) {
+Shapes::Vertex seen_at(const FilmedScene& scene, const Frame& frame, const Vec3& place) {
     Shapes shapes;
     const View view = view_of(scene);
     FieldLayer(scene).draw(view, frame, shapes);
@@ -41,7 +42,7 @@ void expect_colour(const Shapes::Vertex& vertex, const Colour& colour) {
 }
 
 TEST(FieldLayer, HasTheColourOfTheGrainsThatAreNear) {
-    const Scene scene = with_field();
+    const FilmedScene scene = with_field();
     const Vec3 left(0, -0.04, 0.1), right(0, 0.04, 0.1);
     Frame frame = frame_of({{left}, {right}});
     frame.velocity = {Vec3(0, 0, 0.5), Vec3(0, 0, -0.5)};
@@ -52,7 +53,7 @@ TEST(FieldLayer, HasTheColourOfTheGrainsThatAreNear) {
 }
 
 TEST(FieldLayer, MeanIsWeightedByMass) {
-    const Scene scene = with_field();
+    const FilmedScene scene = with_field();
     const Vec3 place(0, 0, 0.08);
     Frame frame = frame_of({{place, 0.005}, {place, 0.010}});
     frame.velocity = {Vec3(0, 0, -0.9), Vec3(0, 0, 0.45)};
@@ -63,7 +64,7 @@ TEST(FieldLayer, MeanIsWeightedByMass) {
 // A grain of volume v has the solid fraction v / (2 pi w^2 d) in its middle, w being three quarters of the
 // mean diameter and d the depth. The layer has its whole strength from 0.3 on.
 TEST(FieldLayer, IsAsStrongAsItsCellsAreFull) {
-    const Scene scene = with_field();
+    const FilmedScene scene = with_field();
     const auto strongest = [&](const std::vector<Ball>& balls) {
         Shapes shapes;
         FieldLayer(scene).draw(view_of(scene), frame_of(balls), shapes);
@@ -80,7 +81,7 @@ TEST(FieldLayer, IsAsStrongAsItsCellsAreFull) {
 }
 
 TEST(FieldLayer, EndsAtTheWalls) {
-    Scene scene = with_field();
+    FilmedScene scene = with_field();
     scene.container.shape = Container::Shape::box;
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
@@ -99,7 +100,7 @@ TEST(FieldLayer, EndsAtTheWalls) {
 }
 
 TEST(FieldLayer, GoesWithTheContainer) {
-    const Scene scene = with_field();
+    const FilmedScene scene = with_field();
     const Vec3 place(0, 0, 0.08), moved(0, 0, 0.004);
     Frame frame = frame_of({{place + moved}});
     frame.velocity = {Vec3(0, 0, 0.5)};
@@ -118,7 +119,7 @@ TEST(FieldLayer, GoesWithTheContainer) {
 }
 
 TEST(FieldLayer, CoversPaleGrainsInThePicture) {
-    Scene scene = with_field();
+    FilmedScene scene = with_field();
     Frame frame = frame_of({{Vec3(0, 0, 0.08), 0.010}});
     frame.velocity = {Vec3(0, 0, 1)};
     Renderer with(scene, 1);

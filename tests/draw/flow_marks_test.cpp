@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/picture/marks/streamline.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -43,7 +44,7 @@ Vec3 coarse_grained(const Frame& frame, double width, double y, double z) {
 }
 
 TEST(VelocityField, IsMomentumOverMassUnderTheKernel) {
-    const Scene scene = wedge();
+    const FilmedScene scene = wedge();
     const Frame frame = rotating_grains();
     constexpr double width = 0.006;
     VelocityField field(scene, width, false);
@@ -63,7 +64,7 @@ TEST(VelocityField, IsMomentumOverMassUnderTheKernel) {
 }
 
 TEST(VelocityField, OfAPeriodIsDisplacementTimesFrequency) {
-    const Scene scene = wedge();
+    const FilmedScene scene = wedge();
     Frame frame = spread_grains();
     VelocityField field(scene, 0.006, true);
     field.take(frame);
@@ -79,7 +80,7 @@ TEST(VelocityField, OfAPeriodIsDisplacementTimesFrequency) {
 
 // From 20 Hz to 45 Hz: over the first three periods from 0.1 s on.
 TEST(VelocityField, OfAPeriodGoesByTheFrequencyThatIsOn) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.drive.stages = {{DriveStage::Kind::vibrate, 0.1, 3, 45, 0.001}};
     Frame frame = spread_grains();
     frame.displacement.assign(frame.size(), Vec3(0, 0.001, -0.002));
@@ -94,7 +95,7 @@ TEST(VelocityField, OfAPeriodGoesByTheFrequencyThatIsOn) {
 }
 
 TEST(VelocityField, NeedsThreeGrainsAndGoesWithTheContainer) {
-    const Scene scene = wedge();
+    const FilmedScene scene = wedge();
     const Vec3 moved(0, 0.003, 0.004);
     const auto field_of = [&](int grains) {
         Frame frame =
@@ -140,16 +141,16 @@ TEST(Streamlines, EndWhereTheFlowDoes) {
     EXPECT_TRUE(streamline(half, {0.02, 0}, 0.05, 0.001).empty());
 }
 
-Extent extent_of_marks(const Scene& scene, const Frame& frame) {
+Extent extent_of_marks(const FilmedScene& scene, const Frame& frame) {
     Shapes shapes;
     FlowMarks(scene, make_palette({1, 1, 1})).draw(view_of(scene), frame, shapes);
     return extent_of_vertices(shapes);
 }
 
 // Seen from the front without perspective, with arrows or streamlines on cells as wide as a third of the box.
-Scene flat_scene() {
-    Scene scene = wedge();
-    scene.species = {species("small", 3, 2e-4, blue)};
+FilmedScene flat_scene() {
+    FilmedScene scene = wedge();
+    set_species(scene, {{"small", 3, 2e-4, blue}});
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     return scene;
@@ -164,7 +165,7 @@ Frame moving(const std::vector<Ball>& balls, const Vec3& velocity) {
 // An arrow is about the middle of its cell, at the height 0.075. It ends in a point, behind which it is
 // widest: there is more of it on the side of its tip. It is never longer than one and a half cells.
 TEST(Arrows, GoWithTheFlowAndAreNotTooLong) {
-    Scene scene = flat_scene();
+    FilmedScene scene = flat_scene();
     scene.film.shows.arrows = {3, 0.1, false};
     const View view = view_of(scene);
     const Pixel middle = view.project(Vec3(0, 0, 0.075));
@@ -185,7 +186,7 @@ TEST(Arrows, GoWithTheFlowAndAreNotTooLong) {
 }
 
 TEST(Streamlines, LieAlongTheFlow) {
-    Scene scene = flat_scene();
+    FilmedScene scene = flat_scene();
     scene.film.shows.streamlines = {1, 0.1, false};
     std::vector<Ball> row;
     for (int k = 0; k < 400; ++k) row.push_back({Vec3(0, -0.06 + 0.0003 * k, 0.075), 1e-4, 0});
@@ -196,7 +197,7 @@ TEST(Streamlines, LieAlongTheFlow) {
 
 // Lines and arrows are drawn where the flow is, and nowhere else.
 TEST(Streamlines, AreInThePictureAndFadeWithTheFlow) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.words = WordPlace::none;
     Frame frame = rotating_grains();
     const Picture plain = Renderer(scene, 1).draw(frame, "");

@@ -5,7 +5,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/plan/reach.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -13,23 +13,23 @@ namespace {
 
 using enum CameraFrame;
 
-Scene framed(CameraFrame frame, Container::Shape shape = Container::Shape::box, int width = 1280,
-             int height = 720) {
-    Scene scene = wedge(width, height);
+FilmedScene framed(CameraFrame frame, Container::Shape shape = Container::Shape::box, int width = 1280,
+                   int height = 720) {
+    FilmedScene scene = wedge(width, height);
     scene.container.shape = shape;
     scene.container.height = 0.5;
-    scene.species = {species("small", 1500, 0.005, blue)};
+    set_species(scene, {{"small", 1500, 0.005, blue}});
     scene.film.camera.frame = frame;
     return scene;
 }
 
-double scale_of(const Scene& scene) {
+double scale_of(const FilmedScene& scene) {
     return view_of(scene).pixels_per_metre(framed_middle(scene));
 }
 
 TEST(FramedPart, IsAsHighAsTheKeySays) {
     const double a = 0.002;
-    Scene scene = framed(reach);
+    FilmedScene scene = framed(reach);
     EXPECT_DOUBLE_EQ(framed_part(scene).top, *estimated_reach(scene));
     EXPECT_TRUE(framed_part(scene).cut);
     scene.film.camera.reach = 0.2;
@@ -49,7 +49,7 @@ TEST(FramedPart, IsAsHighAsTheKeySays) {
 }
 
 TEST(FramedPart, AboveAnOpenTopIsWhatTheGrainsReach) {
-    Scene scene = framed(reach);
+    FilmedScene scene = framed(reach);
     scene.container.lid = false;
     scene.film.camera.reach = 0.6;
     EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.6);
@@ -64,7 +64,7 @@ TEST(FramedPart, FillsThePicture) {
         for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 360}})
             for (const double field : {0.0, 25.0, 60.0})
                 for (const double elevation : {-10.0, 10.0, 45.0}) {
-                    Scene scene = framed(reach, shape, width, height);
+                    FilmedScene scene = framed(reach, shape, width, height);
                     scene.film.camera.elevation = elevation;
                     scene.film.camera.field_of_view = field;
                     const View view = view_of(scene);
@@ -94,7 +94,7 @@ TEST(FramedPart, ABedIsLargerThanInAFrameOfAllTheContainer) {
 
 // Where the width binds, free height shows more of the container instead of lying empty below the floor.
 TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
-    Scene scene = framed(reach, Container::Shape::box, 720, 1280);
+    FilmedScene scene = framed(reach, Container::Shape::box, 720, 1280);
     const View view = view_of(scene);
     double lowest = 0;
     for (const Vec3& point : framing_points(scene)) lowest = std::max(lowest, view.project(point).y());
@@ -106,7 +106,7 @@ TEST(FramedPart, SlantedWallsStayInThePicture) {
     for (const auto& [width, height] : {std::pair{1280, 720}, {1000, 900}, {640, 360}, {720, 1280}})
         for (const double field : {0.0, 25.0})
             for (const double reach_height : {0.05, 0.1, 0.2, 0.4}) {
-                Scene scene = framed(reach, Container::Shape::wedge, width, height);
+                FilmedScene scene = framed(reach, Container::Shape::wedge, width, height);
                 scene.film.camera.reach = reach_height;
                 scene.film.camera.field_of_view = field;
                 const View view = view_of(scene);
@@ -125,8 +125,8 @@ TEST(FramedPart, SlantedWallsStayInThePicture) {
 TEST(FramedPart, GrainsOfTheShippedBedsCoverTwiceTheArea) {
     for (const char* name : {"wedge_segregation", "wedge_mixing", "teaching_brazil_nut"}) {
         const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";
-        const Scene scene = read_scene(file, {}, measurable_in),
-                    whole = read_scene(file, {"film.camera.frame=container"}, measurable_in);
+        const FilmedScene scene = read_filmed_scene(file, {}, measurable_in),
+                          whole = read_filmed_scene(file, {"film.camera.frame=container"}, measurable_in);
         // Grains cover the square of the scale.
         EXPECT_GE(std::pow(scale_of(scene) / scale_of(whole), 2), 2) << name;
     }
@@ -136,7 +136,7 @@ TEST(FramedPart, GrainsOfTheShippedBedsCoverTwiceTheArea) {
 TEST(FramedPart, HoldsForCamerasThatMove) {
     for (const auto& change : {+[](Camera& c) { c.orbit = 360, c.orbit_time = 5; },
                                +[](Camera& c) { c.target = Vec3(0, 0, 0.02); }}) {
-        Scene all = framed(container), some = framed(reach);
+        FilmedScene all = framed(container), some = framed(reach);
         change(all.film.camera), change(some.film.camera);
         EXPECT_GT(scale_of(some), 1.4 * scale_of(all));
     }

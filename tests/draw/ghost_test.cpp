@@ -6,13 +6,14 @@
 #include "render/picture/base/palette.hpp"
 #include "render/picture/whole/exposure.hpp"
 #include "render/picture/whole/renderer.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {
 
-Scene straight_on() {
-    Scene scene = wedge(960, 540);
+FilmedScene straight_on() {
+    FilmedScene scene = wedge(960, 540);
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     return scene;
@@ -44,7 +45,7 @@ int ball_at(const View& view, double x, double y) {
 }
 
 TEST(Ghosts, LetTheOthersShowThroughAndTakeNothingFromThem) {
-    Scene scene = straight_on();
+    FilmedScene scene = straight_on();
     const Frame frame = frame_of(kBalls);
     const Picture opaque = Renderer(scene, 1).draw(frame, "");
     scene.film.shows.hidden = {0};
@@ -73,7 +74,7 @@ TEST(Ghosts, LetTheOthersShowThroughAndTakeNothingFromThem) {
 }
 
 TEST(Ghosts, DrawTheSameForAnyNumberOfThreads) {
-    Scene scene = straight_on();
+    FilmedScene scene = straight_on();
     scene.film.shows.ghosts = {0};
     const Frame frame = frame_of(kBalls);
     const Picture alone = Renderer(scene, 1).draw(frame, "");
@@ -118,7 +119,7 @@ std::pair<int, int> whole(const View& view, double y) {
 }
 
 TEST(Exposure, ShowsEachMomentsGrainsAndTheLastOnesMarks) {
-    Scene scene = straight_on();
+    FilmedScene scene = straight_on();
     scene.film.shows.highlighted = {0};
     const auto at = [](double y) { return frame_of({{{0, y, 0.08}, 0.008, 0}}); };
     const Picture here = Renderer(scene, 1).draw(at(0.02), "");

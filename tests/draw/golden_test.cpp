@@ -12,8 +12,8 @@
 #include <random>
 
 #include "engine/measure/measure_table.hpp"
-#include "engine/scene/film/colours.hpp"
 #include "render/picture/panels/side_by_side.hpp"
+#include "render/scene/colours.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -132,8 +132,8 @@ Frame earlier(double time) {
     return frame;
 }
 
-Scene scene_for(const std::function<void(Film&)>& change) {
-    Scene scene = wedge(kWidth, kHeight);
+FilmedScene scene_for(const std::function<void(Film&)>& change) {
+    FilmedScene scene = wedge(kWidth, kHeight);
     scene.run.duration = 2;
     scene.drive.direction = Vec3::UnitZ();
     scene.film.look.ground = true;
@@ -161,7 +161,7 @@ void PrintTo(const Feature& feature, std::ostream* out) {
 class Golden : public testing::TestWithParam<Feature> {};
 
 TEST_P(Golden, Picture) {
-    const Scene scene = scene_for(GetParam().change);
+    const FilmedScene scene = scene_for(GetParam().change);
     Renderer renderer(scene, 2);
     renderer.draw(earlier(0.05), "");  // trails and heights at the start want one
     expect_golden(GetParam().name, renderer.draw(bed(), "slow motion, 1/10 speed"));
@@ -226,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(Feature, Golden, testing::ValuesIn(kFeatures),
 TEST(GoldenContainers, BoxAndCylinder) {
     for (const auto& [name, shape] :
          {std::pair{"box", Container::Shape::box}, {"cylinder", Container::Shape::cylinder}}) {
-        Scene scene = scene_for([](Film&) {});
+        FilmedScene scene = scene_for([](Film&) {});
         scene.container.shape = shape;
         scene.container.half_width = 0.05;
         scene.container.height = 0.1;
@@ -239,7 +239,7 @@ TEST(GoldenContainers, BoxAndCylinder) {
 
 // A chute in a box whose top is open: grains through both, beside the box, under it and in front of it.
 TEST(GoldenContainers, GrainsThroughWalls) {
-    Scene scene = scene_for([](Film& f) { f.camera.azimuth = 35, f.camera.elevation = 25; });
+    FilmedScene scene = scene_for([](Film& f) { f.camera.azimuth = 35, f.camera.elevation = 25; });
     scene.container.shape = Container::Shape::box;
     scene.container.half_width = 0.05;
     scene.container.height = 0.08;
@@ -261,7 +261,7 @@ TEST(GoldenContainers, GrainsThroughWalls) {
 }
 
 TEST(GoldenExposure, Streaks) {
-    const Scene scene = scene_for([](Film&) {});
+    const FilmedScene scene = scene_for([](Film&) {});
     Frame frame = bed();
     for (int k = 5; k > 0; --k) frame.exposed.push_back(std::make_shared<const Frame>(earlier(0.005 * k)));
     expect_golden("exposure", Renderer(scene, 2).draw(frame, "exposed for 0.03 s"));
@@ -270,7 +270,7 @@ TEST(GoldenExposure, Streaks) {
 TEST(GoldenSideBySide, TwoPanels) {
     std::vector<Panel> panels;
     for (const double g_level : {1.0, 3.0}) {
-        Scene scene = scene_for([](Film&) {});
+        FilmedScene scene = scene_for([](Film&) {});
         scene.drive.amplitude *= g_level;
         panels.push_back({scene, g_level < 2 ? "\xce\x93 = 1" : "\xce\x93 = 3"});
     }

@@ -7,6 +7,7 @@
 
 #include "render/picture/words/first_gutter.hpp"
 #include "render/picture/words/numbers_plan.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -17,14 +18,13 @@ struct Content {
     bool colours = false, text = false;
 };
 
-Scene scene_of(int width, int height, const Content& content) {
-    Scene scene = wedge(width, height);
+FilmedScene scene_of(int width, int height, const Content& content) {
+    FilmedScene scene = wedge(width, height);
     scene.film.camera.frame = CameraFrame::reach;
     scene.film.title = "Big and small grains in a vibrated wedge hopper";
-    scene.species.clear();
+    set_species(scene, {});
     for (std::size_t k = 0; k < content.species; ++k)
-        scene.species.push_back(
-            species(fmt::format("kind {}", k), 200, 0.004 + 0.0005 * static_cast<double>(k), blue));
+        add_species(scene, {fmt::format("kind {}", k), 200, 0.004 + 0.0005 * static_cast<double>(k), blue});
     for (std::size_t k = 0; k < content.plots; ++k)
         scene.film.shows.plots.push_back({"lacey", "Lacey mixing index", std::nullopt});
     if (content.colours)
@@ -46,7 +46,7 @@ Named named(const std::string& name, const Rectangle& r) {
     return {name, 1.0 * r.x, 1.0 * r.y, 1.0 * r.x + r.width, 1.0 * r.y + r.height};
 }
 
-std::vector<Named> blocks_of(const Scene& scene, const PictureLayout& layout) {
+std::vector<Named> blocks_of(const FilmedScene& scene, const PictureLayout& layout) {
     const Palette palette = make_palette(scene.film.background);
     const Writer measure{nullptr, layout.type, palette};
     std::vector<Named> blocks{named("port", layout.port)};
@@ -85,7 +85,7 @@ TEST(Layout, NothingLiesOnAnythingElse) {
         for (const std::size_t plots : {0u, 1u, 3u})
             for (const std::size_t kinds : {1u, 9u})
                 for (const bool more : {false, true}) {
-                    const Scene scene = scene_of(width, height, {plots, kinds, more, more});
+                    const FilmedScene scene = scene_of(width, height, {plots, kinds, more, more});
                     const PictureLayout layout = plan_layout(scene);
                     const std::vector<Named> blocks = blocks_of(scene, layout);
                     const std::string what = fmt::format("{}x{}, {} plots, {} species, more: {}", width,
@@ -106,7 +106,7 @@ TEST(Layout, NothingLiesOnAnythingElse) {
 }
 
 TEST(Layout, AWideBoxStandsBetweenWordsAboveAndBelow) {
-    Scene scene = scene_of(1280, 720, {0, 2});
+    FilmedScene scene = scene_of(1280, 720, {0, 2});
     scene.film.camera.azimuth = 0;
     scene.film.camera.frame = CameraFrame::container;
     scene.container.shape = Container::Shape::box;
@@ -120,7 +120,7 @@ TEST(Layout, AWideBoxStandsBetweenWordsAboveAndBelow) {
 }
 
 TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
-    const Scene roomy = scene_of(1280, 720, {0, 2});
+    const FilmedScene roomy = scene_of(1280, 720, {0, 2});
     const double whole = type_scale(roomy.film).main;
     EXPECT_DOUBLE_EQ(plan_layout(roomy).type.main, whole);
     // With one species more and more the letters become smaller before the first is missing.
@@ -137,7 +137,7 @@ TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
 
 // Nine species do not vanish: those that fit are there, and the others are counted.
 TEST(Layout, ALongLegendIsCutShort) {
-    const Scene scene = scene_of(640, 360, {2, 9, true, false});
+    const FilmedScene scene = scene_of(640, 360, {2, 9, true, false});
     const PictureLayout layout = plan_layout(scene);
     const Palette palette = make_palette(scene.film.background);
     const Writer measure{nullptr, layout.type, palette};
@@ -158,7 +158,7 @@ TEST(Layout, ALongLegendIsCutShort) {
 
 TEST(Layout, PlotsTakeFreeHeight) {
     for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}}) {
-        const Scene scene = scene_of(width, height, {1, 1});
+        const FilmedScene scene = scene_of(width, height, {1, 1});
         const PictureLayout layout = plan_layout(scene);
         const Palette palette = make_palette(scene.film.background);
         const NumbersPlan plan = plan_numbers({nullptr, layout.type, palette}, scene, layout.second.width,

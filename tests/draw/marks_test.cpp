@@ -13,13 +13,14 @@
 #include "render/picture/marks/trails.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/overlay.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {
 
-Scene with_plot(int width, int height) {
-    Scene scene = wedge(width, height);
+FilmedScene with_plot(int width, int height) {
+    FilmedScene scene = wedge(width, height);
     scene.run.duration = 4;
     scene.film.shows.plots = {{"lacey", "mixing", std::array<double, 2>{0, 1}}};
     return scene;
@@ -54,7 +55,7 @@ Pixel marker(const Picture& picture, const Rectangle& part, const Colour& accent
 
 TEST(Plots, TheMarkerIsWhereTheLastRowIs) {
     for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}}) {
-        const Scene scene = with_plot(width, height);
+        const FilmedScene scene = with_plot(width, height);
         const PictureLayout layout = plan_layout(scene);
         const TypeScale type = type_scale(scene.film);
         const Palette palette = make_palette(scene.film.background);
@@ -92,7 +93,7 @@ PlotFrame any_plot() {
 }
 
 TEST(Plots, LimitsOnlyGrowAndDependOnTheRowsAlone) {
-    const Scene scene = wedge(1280, 720);
+    const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette(scene.film.background);
     std::vector<std::array<double, 2>> rows;
@@ -123,7 +124,7 @@ TEST(Plots, LimitsOnlyGrowAndDependOnTheRowsAlone) {
 }
 
 TEST(Plots, KnowWhatColumnsCannotBeNegative) {
-    Scene scene = wedge(1280, 720);
+    FilmedScene scene = wedge(1280, 720);
     scene.container.height = 0.3;
     std::vector<std::string> names;
     for (const MeasureColumn& column : measure_columns(scene)) names.push_back(column.name);
@@ -142,7 +143,7 @@ TEST(Plots, KnowWhatColumnsCannotBeNegative) {
 
 // Of a measure that cannot be negative, whatever comes first.
 TEST(Plots, AxesOfWhatCannotBeNegativeBeginAtZero) {
-    const Scene scene = wedge(1280, 720);
+    const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);
     for (const auto& rows : {std::vector<std::array<double, 2>>{{0, 0}, {1, 0}, {2, 0.02}, {3, 0.04}},
                              {{0, 0.04}, {1, 0.02}, {2, 0.03}},
@@ -161,7 +162,7 @@ TEST(Plots, AxesOfWhatCannotBeNegativeBeginAtZero) {
 
 // The title with its unit is the same from the first row on where the size is known.
 TEST(Plots, TheUnitIsThatOfWhatIsExpected) {
-    const Scene scene = wedge(1280, 720);
+    const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);
     const auto title = [&](double expected, const std::vector<std::array<double, 2>>& rows) {
         PlotFrame frame = any_plot();
@@ -187,7 +188,7 @@ TEST(Plots, TheUnitIsThatOfWhatIsExpected) {
 
 // Four rows a period that swing by 1 about the number of the period.
 TEST(Plots, MeansOfAPeriodHaveNoSwing) {
-    const Scene scene = wedge(1280, 720);
+    const FilmedScene scene = wedge(1280, 720);
     PlotFrame shown = any_plot();
     shown.smooth = true;
     shown.range = std::array<double, 2>{-1, 3};
@@ -215,7 +216,7 @@ TEST(Plots, MeansOfAPeriodHaveNoSwing) {
 
 // They have no scale yet: their axis says 0 and nothing else, and no label runs out of the plot.
 TEST(Plots, ZerosAloneAreCalledZero) {
-    const Scene scene = wedge(1280, 720);
+    const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);
     Plot plot(any_plot(), type, make_palette(scene.film.background));
     plot.take(frame_with_rows({{0, 0}, {1, 0}, {2, 0}}));
@@ -229,7 +230,7 @@ TEST(Plots, ZerosAloneAreCalledZero) {
 }
 
 TEST(Plots, ThePictureDependsOnTheRowsAlone) {
-    const Scene scene = with_plot(960, 540);
+    const FilmedScene scene = with_plot(960, 540);
     std::vector<std::array<double, 2>> rows;
     Renderer renderer(scene, 1);
     for (int i = 0; i < 30; ++i) {
@@ -280,9 +281,9 @@ TEST(Plots, RowsWithoutAValueLeaveAGap) {
 }
 
 TEST(Arrows, PointTheirWay) {
-    Scene scene = wedge(960, 540);
+    FilmedScene scene = wedge(960, 540);
     scene.film.shows.arrows = {1, 0.1, false};
-    scene.species = {species("small", 3, 2e-4, blue)};
+    set_species(scene, {{"small", 3, 2e-4, blue}});
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     Frame frame = frame_of({{{0, 0, 0.07}, 1e-4, 0}, {{0, 0, 0.075}, 1e-4, 0}, {{0, 0, 0.08}, 1e-4, 0}});
@@ -298,7 +299,7 @@ TEST(Arrows, PointTheirWay) {
 }
 
 TEST(HiddenSpecies, LeaveThePictureAsIfTheyWereNotThere) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     std::vector<Ball> all, big;
     for (int k = 0; k < 60; ++k) {
         const Ball ball{
@@ -320,7 +321,7 @@ TEST(HiddenSpecies, LeaveThePictureAsIfTheyWereNotThere) {
 
 // Two frames of a bed, its first grain in the middle of all, with everything that leaves marks.
 struct MarkedBed {
-    Scene scene = wedge(480, 270);
+    FilmedScene scene = wedge(480, 270);
     std::vector<Frame> frames;
 
     MarkedBed() {
@@ -400,7 +401,7 @@ TEST(MarksOfGrainsThatAreGone, GoWithThem) {
 }
 
 TEST(Rings, GoAroundTheirGrain) {
-    Scene scene = wedge(960, 540);
+    FilmedScene scene = wedge(960, 540);
     scene.film.camera.field_of_view = 0;
     const Frame frame = frame_of({{{0, -0.02, 0.08}, 0.008, 0}, {{0, 0.02, 0.1}, 0.004, 1}});
     const Picture plain = Renderer(scene, 1).draw(frame, "");
@@ -416,7 +417,7 @@ TEST(Rings, GoAroundTheirGrain) {
 }
 
 TEST(Rings, GoAroundThoseThatMeetTheCondition) {
-    Scene scene = wedge(960, 540);
+    FilmedScene scene = wedge(960, 540);
     Frame frame =
         frame_of({{{0, -0.02, 0.08}, 0.008, 0}, {{0, 0.02, 0.1}, 0.004, 1}, {{0, 0, 0.12}, 0.005, 1}});
     frame.velocity = {{0, 0, 0.1}, {0, 0.3, 0}, {0, 0, -0.19}};
@@ -433,7 +434,7 @@ TEST(Rings, GoAroundThoseThatMeetTheCondition) {
 }
 
 TEST(Rings, OfAConditionGoAroundGrainsThatAreSeen) {
-    Scene scene = wedge(960, 540);
+    FilmedScene scene = wedge(960, 540);
     scene.film.words = WordPlace::none;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     // One behind a larger one, and one beside it.
@@ -456,7 +457,7 @@ TEST(Rings, OfAConditionGoAroundGrainsThatAreSeen) {
 }
 
 TEST(TrailsOfGrains, AreThePositionsOfTheLastFrames) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.shows.trails = {{}, {1}, 0.25};
     Trails trails(scene);
     const auto frame_at = [](int k) {

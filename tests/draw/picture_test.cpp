@@ -15,10 +15,10 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measure_table.hpp"
-#include "engine/scene/film/colours.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/gl/objects.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/colours.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -52,7 +52,7 @@ TEST(Pictures, TheSameFrameTwiceIsTheSamePicture) {
 }
 
 TEST(Pictures, AStillSceneIsThirtyTimesTheSamePicture) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.look.ground = true;
     Renderer renderer(scene, 2);
     Frame frame = scattered(800);
@@ -62,7 +62,7 @@ TEST(Pictures, AStillSceneIsThirtyTimesTheSamePicture) {
 
 // Walls and shadows are drawn again only where they have changed.
 TEST(Pictures, WhatMovesLeavesNothingBehind) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.look.ground = true;
     const Frame full = scattered(800), empty = frame_of({});
     std::vector<Frame> frames;
@@ -82,7 +82,7 @@ TEST(Pictures, WhatMovesLeavesNothingBehind) {
 // Drawn in turn into three pictures, each is as one drawn alone, and those with one number differ only where
 // they say that they may.
 TEST(Pictures, AreAlikeOutsideOfWhatMoves) {
-    const Scene scene = wedge();
+    const FilmedScene scene = wedge();
     Renderer renderer(scene, 1);
     std::array<Picture, 3> ring;
     for (std::size_t i = 0; i < 9; ++i) {
@@ -107,7 +107,7 @@ TEST(Pictures, AreAlikeOutsideOfWhatMoves) {
 
 // Laid over a colour, a transparent picture is the one drawn on that colour.
 TEST(Pictures, TransparentOnesHaveTheRightAlphaAlongEveryEdge) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.container.shape = Container::Shape::none;
     const Frame frame = scattered(300);
     const PictureLayout layout = bare_layout(scene.film);
@@ -174,7 +174,7 @@ void expect_same(const Picture& a, const Picture& b, const Rectangle& part) {
 
 TEST(Pictures, WordsAndGrainsKeepApart) {
     for (const auto& [width, height] : {std::pair{640, 360}, {360, 640}}) {
-        const Scene scene = wedge(width, height);
+        const FilmedScene scene = wedge(width, height);
         const PictureLayout layout = plan_layout(scene);
         Renderer renderer(scene, 1);
         Frame frame = frame_of({});
@@ -228,11 +228,11 @@ TEST(Overlay, WordsOnPlatesReadOverAnyGrain) {
     EXPECT_NEAR(wcag_contrast({0, 0, 0}, {255, 255, 255}), 21, 1e-9);
     for (const FilmLook::Style style : {FilmLook::Style::flat, FilmLook::Style::dark})
         for (const Colour& grain : {Colour{0, 0, 0}, Colour{1, 1, 1}}) {
-            Scene scene = wedge();
+            FilmedScene scene = wedge();
             scene.film.look = FilmLook::of(style);
             scene.film.background = default_background(style);
             scene.film.exaggerate = 2;  // said in the accent's colour
-            scene.species[0].colour = grain;
+            scene.colours[0] = grain;
             scene.film.words = WordPlace::plates;
             const Palette palette = make_palette(scene.film.background);
             // The time is always at the upper end of the second gutter.
@@ -246,7 +246,7 @@ TEST(Overlay, WordsOnPlatesReadOverAnyGrain) {
 }
 
 TEST(Overlay, PlatesLeaveTheRestOfThePicture) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.camera.zoom = 3;
     const PictureLayout layout = plan_layout(scene);
     EXPECT_TRUE(layout.plates);
@@ -291,7 +291,7 @@ TEST(Pictures, NoWordIsCutOff) {
                                         {640, 200},
                                         {1080, 1080},
                                         {1200, 1000}}) {
-        Scene scene = wedge(width, height);
+        FilmedScene scene = wedge(width, height);
         scene.film.title = "A title with an extraordinarilylongwordinitthatnogutterholds";
         scene.run.duration = 1;
         scene.film.axes = true;
@@ -347,7 +347,7 @@ TEST(Pictures, GuttersAndPortTileThePicture) {
 
 TEST(Pictures, BackgroundHasNoSeamAndIsOpaque) {
     for (const Colour& background : {Colour{1, 1, 1}, Colour{0.07, 0.08, 0.1}, Colour{0.5, 0.25, 0.75}}) {
-        Scene scene = wedge();
+        FilmedScene scene = wedge();
         scene.film.background = background;
         const Rectangle port = plan_layout(scene).port;
         Renderer renderer(scene, 1);
@@ -378,7 +378,7 @@ TEST(Overlay, SettlingIsSaid) {
 }
 
 TEST(Overlay, AHairBeforeAPeriodIsThatPeriod) {
-    const Scene scene = wedge();
+    const FilmedScene scene = wedge();
     const PictureLayout layout = plan_layout(scene);
     Renderer renderer(scene, 1);
     Frame frame = frame_of({});
@@ -409,7 +409,7 @@ TEST(Overlay, CycleAndPhaseAgree) {
 
 // The row of the accent-coloured pixel farthest to the right in the numbers' gutter: the middle of the dot
 // that shows the floor in its stroke.
-double floor_dot_row(const Scene& scene, const Picture& picture) {
+double floor_dot_row(const FilmedScene& scene, const Picture& picture) {
     const Rectangle part = plan_layout(scene).second;
     const Colour accent = make_palette(scene.film.background).accent;
     for (int x = part.x + part.width - 1; x >= part.x; --x) {
@@ -428,7 +428,7 @@ double floor_dot_row(const Scene& scene, const Picture& picture) {
 }
 
 TEST(Overlay, TheDialShowsWhereTheFloorIs) {
-    Scene scene = wedge(1280, 720);
+    FilmedScene scene = wedge(1280, 720);
     const double a = scene.drive.amplitude, radius = 2.2 * type_scale(scene.film).main;
     const auto row = [&](double phase, double offset) {
         Frame frame = frame_of({});

@@ -3,13 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {
 
-Scene straight_on() {
-    Scene scene = wedge(960, 540);
+FilmedScene straight_on() {
+    FilmedScene scene = wedge(960, 540);
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     return scene;
@@ -84,7 +85,7 @@ int pixels_like(const Picture& picture, const Rectangle& port, const Colour& col
 
 // Grain 0 stands before grain 1, which is pointed out.
 TEST(PointForces, ThePictureShowsTheGrainThroughPaleOnesAndItsArrows) {
-    const Scene scene = straight_on();
+    const FilmedScene scene = straight_on();
     const Frame frame =
         frame_of({{{0.015, 0, 0.08}, 0.008, 0}, {{-0.01, 0, 0.08}, 0.008, 1}, {{0, 0.04, 0.08}, 0.008, 0}});
     const View view = view_of(scene);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/picture/text/cairo_surface.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -20,14 +21,14 @@ FilmPlot plot_of(ProfileOf profile, bool across) {
     return plot;
 }
 
-Scene boxed() {
-    Scene scene = wedge();
+FilmedScene boxed() {
+    FilmedScene scene = wedge();
     scene.container.shape = Container::Shape::box;
     scene.film.camera.frame = CameraFrame::container;
     return scene;
 }
 
-Picture drawn(const Scene& scene, const FilmPlot& plot, const Frame& frame) {
+Picture drawn(const FilmedScene& scene, const FilmPlot& plot, const Frame& frame) {
     const Palette palette = make_palette({1, 1, 1});
     ProfilePlot profile(scene, plot, width, height, type_scale(scene.film), palette);
     EXPECT_TRUE(profile.take(frame));
@@ -38,7 +39,7 @@ Picture drawn(const Scene& scene, const FilmPlot& plot, const Frame& frame) {
     return picture;
 }
 
-std::array<double, 2> pixel_at(const Scene& scene, const FilmPlot& plot, double value, double place) {
+std::array<double, 2> pixel_at(const FilmedScene& scene, const FilmPlot& plot, double value, double place) {
     return ProfilePlot(scene, plot, width, height, type_scale(scene.film), make_palette({1, 1, 1}))
         .pixel_of(value, place);
 }
@@ -68,7 +69,7 @@ Frame two_layers(bool upright) {
 }
 
 TEST(ProfilePlots, SharesBySpeciesLieWhereTheyAre) {
-    const Scene scene = boxed();
+    const FilmedScene scene = boxed();
     for (const bool across : {false, true}) {
         const FilmPlot plot = plot_of(ProfileOf::share, across);
         const Picture picture = drawn(scene, plot, two_layers(across));
@@ -88,7 +89,7 @@ TEST(ProfilePlots, SharesBySpeciesLieWhereTheyAre) {
 
 // Four grains of 5 mm in a depth of 40 mm on a square lattice of 5 mm.
 TEST(ProfilePlots, SolidFractionsAreVolumeOverVolume) {
-    const Scene scene = boxed();
+    const FilmedScene scene = boxed();
     const FilmPlot plot = plot_of(ProfileOf::solid_fraction, false);
     const Picture picture = drawn(scene, plot, two_layers(false));
     const double solid = 4 * (pi / 6 * std::pow(0.005, 3)) / (0.04 * 0.005 * 0.005);
@@ -99,7 +100,7 @@ TEST(ProfilePlots, SolidFractionsAreVolumeOverVolume) {
 
 // Of an axis from -0.1 to 0.25: there is a tick at 0, and none at 0.15, as far from the other end.
 TEST(ProfilePlots, TicksStandAtTheirValues) {
-    const Scene scene = boxed();
+    const FilmedScene scene = boxed();
     FilmPlot plot = plot_of(ProfileOf::vertical_velocity, false);
     plot.range = std::array<double, 2>{-0.1, 0.25};
     const Picture picture = drawn(scene, plot, frame_of({}));
@@ -116,7 +117,7 @@ TEST(ProfilePlots, TicksStandAtTheirValues) {
 }
 
 TEST(ProfilePlots, HeightGoesUpAndWidthToTheRight) {
-    const Scene scene = boxed();
+    const FilmedScene scene = boxed();
     const FilmPlot over_height = plot_of(ProfileOf::solid_fraction, false),
                    over_width = plot_of(ProfileOf::solid_fraction, true);
     EXPECT_LT(pixel_at(scene, over_height, 0, 0.1)[1], pixel_at(scene, over_height, 0, 0.05)[1]);
@@ -127,7 +128,7 @@ TEST(ProfilePlots, HeightGoesUpAndWidthToTheRight) {
 
 // Axes stand still: what changes from frame to frame is the curve.
 TEST(ProfilePlots, VelocitiesFollowTheFrame) {
-    const Scene scene = boxed();
+    const FilmedScene scene = boxed();
     FilmPlot plot = plot_of(ProfileOf::vertical_velocity, true);
     plot.range = std::array<double, 2>{-0.2, 0.2};
     Frame frame = two_layers(false);

@@ -3,13 +3,14 @@
 
 #include "engine/state/glued_grains.hpp"
 #include "render/picture/grains/glued_spheres.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {
 
-Scene rough(std::vector<std::string> faces) {
-    Scene scene = wedge();
+FilmedScene rough(std::vector<std::string> faces) {
+    FilmedScene scene = wedge();
     WallGrains layer;
     layer.species = 1;
     layer.faces = std::move(faces);
@@ -18,17 +19,17 @@ Scene rough(std::vector<std::string> faces) {
     return scene;
 }
 
-std::size_t seen_of(const Scene& scene) {
+std::size_t seen_of(const FilmedScene& scene) {
     return GluedSpheres(scene).seen(view_of(scene), Frame()).size();
 }
 
 // Those between the eye and the bed would hide it.
 TEST(GluedSpheres, AreSeenWhereTheEyeLooksAtTheInnerSide) {
-    const auto all = [](const Scene& scene) {
+    const auto all = [](const FilmedScene& scene) {
         return glue_grains(scene, container_faces(scene.container, scene.drive)).size();
     };
     for (const char* face : {"left slant", "right slant", "left wall", "back", "floor"}) {
-        const Scene scene = rough({face});
+        const FilmedScene scene = rough({face});
         EXPECT_GT(all(scene), 10u);
         EXPECT_EQ(seen_of(scene), all(scene)) << face;
     }
@@ -38,7 +39,7 @@ TEST(GluedSpheres, AreSeenWhereTheEyeLooksAtTheInnerSide) {
 
 TEST(GluedSpheres, MoveWithTheirWall) {
     for (const bool floor : {false, true}) {
-        const Scene scene = rough({floor ? "floor" : "back"});
+        const FilmedScene scene = rough({floor ? "floor" : "back"});
         Frame frame;
         (floor ? frame.floor() : frame.container()).place = Vec3(0, 0, 0.013);
         const GluedSpheres spheres(scene);
@@ -51,8 +52,8 @@ TEST(GluedSpheres, MoveWithTheirWall) {
 
 // They are in the picture, and not in the colour of their species.
 TEST(GluedSpheres, AreDrawn) {
-    const Scene scene = rough({"back"});
-    Scene plain = scene;
+    const FilmedScene scene = rough({"back"});
+    FilmedScene plain = scene;
     plain.container.wall_grains.reset();
     Renderer with(scene, 1), without(plain, 1);
     const Picture a = with.draw(Frame(), "", 0), b = without.draw(Frame(), "", 0);
@@ -70,7 +71,7 @@ TEST(GluedSpheres, AreDrawn) {
 }
 
 TEST(Framing, HasAllOfTheTray) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.container.outlet = Outlet{Outlet::Shape::slot, 0.02, 0, 0.05};
     scene.container.tray = Tray{0.2, 0.1};
     const View view = view_of(scene);

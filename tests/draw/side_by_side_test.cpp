@@ -9,6 +9,7 @@
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/panels/panel_plots.hpp"
 #include "render/picture/plots/plot.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel {
@@ -16,8 +17,8 @@ namespace {
 
 using namespace test;
 
-Scene scene_with(double half_width, double g_level, double frequency = 20) {
-    Scene scene = wedge();
+FilmedScene scene_with(double half_width, double g_level, double frequency = 20) {
+    FilmedScene scene = wedge();
     scene.name = "wedge";
     scene.container.half_width = half_width;
     scene.container.half_angle = 10 * pi / 180;
@@ -26,7 +27,7 @@ Scene scene_with(double half_width, double g_level, double frequency = 20) {
     return scene;
 }
 
-std::vector<Panel> panels_of(const std::vector<Scene>& scenes) {
+std::vector<Panel> panels_of(const std::vector<FilmedScene>& scenes) {
     const std::vector<std::string> captions = captions_of(scenes);
     std::vector<Panel> panels;
     for (std::size_t i = 0; i < scenes.size(); ++i) panels.push_back({scenes[i], captions[i]});
@@ -56,7 +57,7 @@ bool apart(const Rectangle& a, const Rectangle& b) {
 
 // Each with two plots, marks and words of its own.
 std::vector<Panel> full_panels(std::size_t count) {
-    std::vector<Panel> panels = panels_of(std::vector<Scene>(count, scene_with(0.06, 2)));
+    std::vector<Panel> panels = panels_of(std::vector<FilmedScene>(count, scene_with(0.06, 2)));
     for (std::size_t i = 0; i < count; ++i) {
         FilmShows& shows = panels[i].scene.film.shows;
         shows.plots = {{"height_difference", "height difference", {}}, {"lacey", "mixing", {}}};
@@ -71,9 +72,9 @@ std::vector<Panel> full_panels(std::size_t count) {
 TEST(SideBySide, PanelsAndWordsNeitherOverlapNorLeaveThePicture) {
     for (const auto& [width, height] : {std::pair{1920, 1080}, {1280, 720}, {1080, 1920}, {800, 800}}) {
         for (std::size_t count = 2; count <= 12; ++count) {
-            const std::vector<Panel> panels = count <= 6
-                                                  ? panels_of(std::vector<Scene>(count, scene_with(0.06, 2)))
-                                                  : full_panels(count - 5);
+            const std::vector<Panel> panels =
+                count <= 6 ? panels_of(std::vector<FilmedScene>(count, scene_with(0.06, 2)))
+                           : full_panels(count - 5);
             const PanelLayout layout = layout_of(panels, film_of(width, height));
             ASSERT_EQ(layout.places.size(), panels.size());
             std::vector<Rectangle> parts = {layout.top, layout.bottom};
@@ -93,8 +94,8 @@ TEST(SideBySide, PanelsAndWordsNeitherOverlapNorLeaveThePicture) {
 
 // Live words under each panel follow its own measures, and change nothing else.
 TEST(SideBySide, LiveWordsAreThoseOfTheirPanel) {
-    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
-    for (Scene& scene : scenes) {
+    std::vector<FilmedScene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    for (FilmedScene& scene : scenes) {
         scene.film.shows.text = "mixing {lacey}";
         scene.film.shows.live_words = {{"mixing ", "lacey", "", 1}};
     }
@@ -126,8 +127,8 @@ FramePtr with_rows(const std::vector<double>& values) {
 }
 
 std::vector<Panel> plotted_panels() {
-    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
-    for (Scene& scene : scenes) {
+    std::vector<FilmedScene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    for (FilmedScene& scene : scenes) {
         scene.run.duration = 1;
         scene.film.shows.plots = {{"lacey", "mixing", {}}};
     }
@@ -238,9 +239,9 @@ TEST(SideBySide, TimeIsSaidOverEachPanelWhereItIsUnlike) {
 }
 
 TEST(SideBySide, MarksAreExplainedOnceOrUnderEach) {
-    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    std::vector<FilmedScene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
     const int bare = layout_of(panels_of(scenes), film_of(640, 960)).bottom.height;
-    for (Scene& scene : scenes) scene.film.shows.trails = {{0}, {}, 0.1};
+    for (FilmedScene& scene : scenes) scene.film.shows.trails = {{0}, {}, 0.1};
     const PanelLayout once = layout_of(panels_of(scenes), film_of(640, 960));
     EXPECT_GT(once.bottom.height, bare);
     EXPECT_EQ(once.places[0].foot.height, 0);
@@ -270,10 +271,10 @@ TEST(SideBySide, WithoutABackgroundThePaperShowsThrough) {
 }
 
 TEST(SideBySide, ColourBarsAreSaidOnceOrUnderEach) {
-    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    std::vector<FilmedScene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
     EXPECT_EQ(layout_of(panels_of(scenes), film_of(960, 540)).places[0].foot.height, 0);
     const int plain = layout_of(panels_of(scenes), film_of(960, 540)).bottom.height;
-    for (Scene& scene : scenes)
+    for (FilmedScene& scene : scenes)
         scene.film.shows.colour = {GrainValue::speed, ColourMap::viridis, {0, 0.3}, false, "cm/s", 5};
     EXPECT_TRUE(common_of(panels_of(scenes)).colours);
     EXPECT_EQ(layout_of(panels_of(scenes), film_of(960, 540)).places[0].foot.height, 0);
@@ -284,8 +285,8 @@ TEST(SideBySide, ColourBarsAreSaidOnceOrUnderEach) {
 }
 
 TEST(SideBySide, ATooSmallPictureHasNoPlaces) {
-    EXPECT_TRUE(
-        layout_of(panels_of(std::vector<Scene>(6, scene_with(0.06, 2))), film_of(160, 120)).places.empty());
+    EXPECT_TRUE(layout_of(panels_of(std::vector<FilmedScene>(6, scene_with(0.06, 2))), film_of(160, 120))
+                    .places.empty());
 }
 
 // In the middle of a container a ball of radius r is as wide as 2 r times the common scale, in each panel.
@@ -322,7 +323,7 @@ TEST(SideBySide, EqualFramesGiveEqualPanels) {
 TEST(SideBySide, ContainersTooUnlikeHaveAScaleEach) {
     const std::vector<Panel> near = panels_of({scene_with(0.075, 2), scene_with(0.05, 2)});
     EXPECT_GT(layout_of(near, film_of(1280, 720)).scale, 0);
-    Scene large = scene_with(0.075, 2);
+    FilmedScene large = scene_with(0.075, 2);
     for (double* length : {&large.container.half_width, &large.container.depth, &large.container.height,
                            &large.container.slant_height, &large.drive.amplitude})
         *length *= 5;
@@ -351,25 +352,25 @@ TEST(Captions, SayWhatTellsTheScenesApart) {
                 ElementsAre("f = 15 Hz", "f = 20 Hz"));
     EXPECT_THAT(captions_of({scene_with(0.06, 2, 15), scene_with(0.06, 3, 20)}),
                 ElementsAre("f = 15 Hz, Γ = 2", "f = 20 Hz, Γ = 3"));
-    Scene still = scene_with(0.06, 3);
+    FilmedScene still = scene_with(0.06, 3);
     still.drive = {};
     EXPECT_THAT(captions_of({still, scene_with(0.06, 3)}),
                 ElementsAre("no vibration", testing::HasSubstr("Γ = 3")));
-    Scene floating = scene_with(0.06, 3), further = scene_with(0.06, 6);
+    FilmedScene floating = scene_with(0.06, 3), further = scene_with(0.06, 6);
     floating.gravity = further.gravity = Vec3(0, 0, 0);
     EXPECT_THAT(captions_of({floating, further}),
                 ElementsAre(testing::HasSubstr("a = "), testing::HasSubstr("a = ")));
-    Scene other = scene_with(0.06, 3);
+    FilmedScene other = scene_with(0.06, 3);
     other.film.title = "Another";
     EXPECT_THAT(captions_of({scene_with(0.06, 3), other}), ElementsAre("A wedge", "Another"));
     other.drive.amplitude *= 2;
     EXPECT_THAT(captions_of({scene_with(0.06, 3), other}), ElementsAre("A wedge\nΓ = 3", "Another\nΓ = 6"));
     other.film.title = "A wedge at Γ = 6";
     EXPECT_THAT(captions_of({scene_with(0.06, 3), other}), ElementsAre("A wedge\nΓ = 3", "A wedge at Γ = 6"));
-    Scene named = scene_with(0.06, 3);
+    FilmedScene named = scene_with(0.06, 3);
     named.name = "second";
     EXPECT_THAT(captions_of({scene_with(0.06, 3), named}), ElementsAre("wedge", "second"));
-    Scene slow = scene_with(0.06, 3, 15), third = scene_with(0.06, 3, 15);
+    FilmedScene slow = scene_with(0.06, 3, 15), third = scene_with(0.06, 3, 15);
     third.film.title = "Another";
     EXPECT_THAT(captions_of({scene_with(0.06, 3), slow, third}),
                 ElementsAre("A wedge\nf = 20 Hz", "A wedge\nf = 15 Hz", "Another\nf = 15 Hz"));
@@ -377,7 +378,7 @@ TEST(Captions, SayWhatTellsTheScenesApart) {
 }
 
 TEST(SideBySide, OneRangeOfColoursHoldsInAllPanels) {
-    std::vector<Scene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
+    std::vector<FilmedScene> scenes = {scene_with(0.06, 1), scene_with(0.06, 3)};
     for (std::size_t i = 0; i < 2; ++i) {
         GrainColouring& colour = scenes[i].film.shows.colour;
         colour.by = GrainValue::speed;
@@ -399,8 +400,8 @@ TEST(SideBySide, OneRangeOfColoursHoldsInAllPanels) {
 
 // Grains fly higher at the stronger drive; the containers are alike.
 TEST(SideBySide, PanelsFrameOneHeight) {
-    std::vector<Scene> scenes = {scene_with(0.06, 2), scene_with(0.06, 5)};
-    for (Scene& scene : scenes) {
+    std::vector<FilmedScene> scenes = {scene_with(0.06, 2), scene_with(0.06, 5)};
+    for (FilmedScene& scene : scenes) {
         scene.film.camera.frame = CameraFrame::reach;
         scene.container.height = 0.5;
     }

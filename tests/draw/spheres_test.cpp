@@ -1,6 +1,7 @@
 // Grains in the picture against geometry.
 #include <gtest/gtest.h>
 
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -13,8 +14,8 @@ std::pair<double, double> silhouette(double c, double z, double r) {
     return {std::tan(direction - half), std::tan(direction + half)};
 }
 
-void expect_silhouette(Scene scene, Ball ball) {
-    scene.species.push_back(species("black", 1, 0.01, {0, 0, 0}));
+void expect_silhouette(FilmedScene scene, Ball ball) {
+    add_species(scene, {"black", 1, 0.01, {0, 0, 0}});
     ball.species = 2;
     const View view = view_of(scene);
     Renderer renderer(scene, 1);
@@ -36,26 +37,26 @@ void expect_silhouette(Scene scene, Ball ball) {
 
 TEST(Spheres, SilhouetteFollowsThePerspective) {
     expect_silhouette(wedge(), {{0.01, 0.02, 0.09}, 0.012});
-    Scene wide = wedge(960, 540);
+    FilmedScene wide = wedge(960, 540);
     wide.film.camera.field_of_view = 75;
     expect_silhouette(wide, {{0.01, -0.03, 0.11}, 0.011});
 }
 
 TEST(Spheres, SilhouetteOfAnOrthographicCamera) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.camera.field_of_view = 0;
     expect_silhouette(scene, {{0.0, -0.02, 0.08}, 0.012});
 }
 
 TEST(Spheres, TheFieldOfViewSpansThePicture) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.camera.field_of_view = 30;
     EXPECT_NEAR(view_of(scene).focal, 0.5 * scene.film.height / std::tan(15 * pi / 180), 1e-9);
 }
 
 // Along the row through both centres, the place where two overlapping spheres are equally near.
 TEST(Spheres, MeetAtTheirTrueIntersection) {
-    Scene scene = wedge(960, 540);
+    FilmedScene scene = wedge(960, 540);
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = 0;
     scene.film.camera.elevation = 0;
@@ -86,7 +87,7 @@ TEST(Spheres, MeetAtTheirTrueIntersection) {
 }
 
 TEST(Spheres, TheNearerOneHidesTheFarther) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     const View view = view_of(scene);
     const Vec3 at(0, 0, 0.09);
     const Vec3 behind = at + 0.01 * (at - view.eye).normalized();
@@ -105,8 +106,8 @@ TEST(Spheres, TheNearerOneHidesTheFarther) {
 }
 
 TEST(Spheres, SpeciesColoursComeOut) {
-    Scene scene = wedge();
-    scene.species.push_back(species("green", 1, 0.01, {0.0, 0.62, 0.45}));
+    FilmedScene scene = wedge();
+    add_species(scene, {"green", 1, 0.01, {0.0, 0.62, 0.45}});
     const View view = view_of(scene);
     Renderer renderer(scene, 1);
     for (int k = 0; k < 3; ++k) {
@@ -115,12 +116,12 @@ TEST(Spheres, SpeciesColoursComeOut) {
         const Pixel centre = view.project(at);
         const auto* pixel = picture.pixel(view.port.x + static_cast<int>(centre.x()),
                                           view.port.y + static_cast<int>(centre.y()));
-        EXPECT_NEAR(hue(pixel), hue(scene.species[static_cast<std::size_t>(k)].colour), 10) << k;
+        EXPECT_NEAR(hue(pixel), hue(scene.colours[static_cast<std::size_t>(k)]), 10) << k;
     }
 }
 
 TEST(Spheres, CrossingTheEyesPlaneDoesNotVanish) {
-    const Scene scene = wedge();
+    const FilmedScene scene = wedge();
     const View view = view_of(scene);
     Renderer renderer(scene, 1);
     const Picture empty = renderer.draw(frame_of({}), "");
@@ -138,9 +139,9 @@ TEST(Spheres, CrossingTheEyesPlaneDoesNotVanish) {
 
 // A disc of n pixels radius covers pi n^2 pixels, fractions counted: the edge is smooth and unbiased.
 TEST(Spheres, EdgesAreSmoothAndUnbiased) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.camera.field_of_view = 0;
-    scene.species = {species("dark", 1, 0.01, {0, 0, 0})};
+    set_species(scene, {{"dark", 1, 0.01, {0, 0, 0}}});
     const View view = view_of(scene);
     const double radius = 0.012, pixels = view.focal * radius;
     Renderer renderer(scene, 1);
@@ -166,9 +167,9 @@ TEST(Spheres, EdgesAreSmoothAndUnbiased) {
 }
 
 TEST(Spheres, EdgesBetweenGrainsAreSmooth) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.camera.field_of_view = 0;
-    scene.species = {species("black", 1, 0.01, {0, 0, 0}), species("white", 1, 0.02, {1, 1, 1})};
+    set_species(scene, {{"black", 1, 0.01, {0, 0, 0}}, {"white", 1, 0.02, {1, 1, 1}}});
     const View view = view_of(scene);
     const Vec3 at(0, 0, 0.1);
     Renderer renderer(scene, 1);

@@ -8,35 +8,48 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/picture/words/layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel::test {
 
 constexpr double pi = std::numbers::pi;
 inline const Colour blue{0.337, 0.706, 0.914}, orange{0.902, 0.624, 0.0};
 
-inline Species species(const std::string& name, std::int64_t count, double diameter, const Colour& colour) {
-    Species s;
-    s.name = name;
-    s.count = count;
-    s.diameter = {SizeSpread::Kind::fixed, diameter, diameter, diameter, 0};
+struct Grains {
+    std::string name;
+    std::int64_t count;
+    double diameter;  // m
+    Colour colour;
+};
+
+inline void add_species(FilmedScene& scene, const Grains& grains) {
+    Species& s = scene.species.emplace_back();
+    s.name = grains.name;
+    s.count = grains.count;
+    s.diameter = {SizeSpread::Kind::fixed, grains.diameter, grains.diameter, grains.diameter, 0};
     s.density = 2500;
-    s.colour = colour;
-    return s;
+    scene.colours.push_back(grains.colour);
 }
 
-inline Scene wedge(int width = 640, int height = 360) {
-    Scene scene;
+// The scene has these and no others.
+inline void set_species(FilmedScene& scene, const std::vector<Grains>& all) {
+    scene.species.clear();
+    scene.colours.clear();
+    for (const Grains& grains : all) add_species(scene, grains);
+}
+
+inline FilmedScene wedge(int width = 640, int height = 360) {
+    FilmedScene scene;
     scene.title = "A wedge";
     scene.film.title = scene.title;
     scene.film.width = width;
     scene.film.height = height;
-    scene.species = {species("small", 1500, 0.005, blue), species("big", 120, 0.010, orange)};
+    set_species(scene, {{"small", 1500, 0.005, blue}, {"big", 120, 0.010, orange}});
     Container& c = scene.container;
     c.half_width = 0.075;
     c.depth = 0.04;
@@ -70,7 +83,7 @@ inline Frame frame_of(const std::vector<Ball>& balls) {
     return frame;
 }
 
-inline View view_of(const Scene& scene) {
+inline View view_of(const FilmedScene& scene) {
     return frame_container(scene, plan_layout(scene));
 }
 

@@ -6,13 +6,14 @@
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/numbers_plan.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
 namespace {
 
-Scene scene_of(bool transparent) {
-    Scene scene = wedge(960, 540);
+FilmedScene scene_of(bool transparent) {
+    FilmedScene scene = wedge(960, 540);
     scene.film.transparent = transparent;
     scene.run.duration = 2;
     scene.film.shows.plots = {{"lacey", "mixing", std::array<double, 2>{0, 1}}};
@@ -60,7 +61,7 @@ constexpr Colour kPapers[] = {{1, 1, 1}, {0.5, 0.5, 0.5}, {0, 0, 0}};
 
 TEST(TransparentFilm, WordsReadOnAnyPaper) {
     for (const Colour& background : {Colour{1, 1, 1}, Colour{0.05, 0.06, 0.08}}) {
-        Scene scene = scene_of(false);
+        FilmedScene scene = scene_of(false);
         scene.film.background = background;
         const PictureLayout layout = plan_layout(scene);
         const Picture opaque = Renderer(scene, 1).draw(half_way(), "slow motion, 1/10 speed");
@@ -76,7 +77,7 @@ TEST(TransparentFilm, WordsReadOnAnyPaper) {
 }
 
 TEST(TransparentFilm, PlotsHaveNoBox) {
-    const Scene scene = scene_of(true);
+    const FilmedScene scene = scene_of(true);
     const PictureLayout layout = plan_layout(scene);
     const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette(scene.film.background);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/measure_table.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -26,7 +27,7 @@ TEST(PointOfAction, IsWhereAForceWithItsMomentCrossesTheWall) {
 }
 
 TEST(WallForces, ArrowEndsWhereTheForceActs) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     scene.film.shows.wall_forces = {true, 4};

@@ -6,6 +6,7 @@
 
 #include "render/picture/base/palette.hpp"
 #include "render/picture/grains/spheres.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -33,8 +34,8 @@ double meet(const RayOfSight& ray, const FreeWall& wall) {
 }
 
 // A plane in no container, leaning towards the eye or away from it, and a grain in the middle of it.
-Scene leaning_wall(double field_of_view, const Vec3& normal) {
-    Scene scene = wedge(960, 540);
+FilmedScene leaning_wall(double field_of_view, const Vec3& normal) {
+    FilmedScene scene = wedge(960, 540);
     scene.container.shape = Container::Shape::none;
     scene.drive.present = false;
     scene.film.camera.field_of_view = field_of_view;
@@ -47,7 +48,7 @@ Scene leaning_wall(double field_of_view, const Vec3& normal) {
     }
     scene.film.look.style = FilmLook::Style::flat;  // no shine on black grains
     scene.film.look.occlusion = scene.film.look.shadows = false;
-    scene.species.push_back(species("black", 1, 0.01, {0, 0, 0}));
+    add_species(scene, {"black", 1, 0.01, {0, 0, 0}});
     scene.start.grains.resize(2);  // as far as these the wall is drawn
     scene.start.grains[0].position = Vec3(-0.05, -0.05, 0);
     scene.start.grains[1].position = Vec3(0.05, 0.05, 0.1);
@@ -68,7 +69,7 @@ double share_of(const View& view, int x, int y, const std::function<bool(const R
     return hits / double{kFine * kFine};
 }
 
-void expect_cut_by_the_wall(const Scene& scene, const std::function<bool(const RayOfSight&)>& seen) {
+void expect_cut_by_the_wall(const FilmedScene& scene, const std::function<bool(const RayOfSight&)>& seen) {
     const View view = view_of(scene);
     Renderer renderer(scene, 2);
     const Picture empty = renderer.draw(frame_of({}), "");
@@ -90,7 +91,7 @@ void expect_cut_by_the_wall(const Scene& scene, const std::function<bool(const R
 
 TEST(WallOrder, AWallHidesAllThatIsBehindItAndNoMore) {
     for (const double field_of_view : {0.0, 40.0}) {
-        const Scene scene = leaning_wall(field_of_view, {1, 0.3, 0.4});
+        const FilmedScene scene = leaning_wall(field_of_view, {1, 0.3, 0.4});
         ASSERT_TRUE(view_of(scene).faces(scene.walls[0].point, scene.walls[0].normal));
         expect_cut_by_the_wall(
             scene, [&](const RayOfSight& ray) { return meet(ray, kThrough) < meet(ray, scene.walls[0]); });
@@ -98,7 +99,7 @@ TEST(WallOrder, AWallHidesAllThatIsBehindItAndNoMore) {
 }
 
 TEST(WallOrder, AWallHidesWhatACutLeaves) {
-    Scene scene = leaning_wall(30, {1, 0.3, 0.4});
+    FilmedScene scene = leaning_wall(30, {1, 0.3, 0.4});
     scene.film.look.cut.present = true;
     scene.film.look.cut.normal = Vec3(0, 0, 1);
     scene.film.look.cut.at = 0.06;
@@ -111,7 +112,7 @@ TEST(WallOrder, AWallHidesWhatACutLeaves) {
 }
 
 TEST(WallOrder, GlassTintsOnlyWhatIsBehindIt) {
-    Scene scene = leaning_wall(40, {-1, 0.3, -0.4});
+    FilmedScene scene = leaning_wall(40, {-1, 0.3, -0.4});
     ASSERT_FALSE(view_of(scene).faces(scene.walls[0].point, scene.walls[0].normal));
     const View view = view_of(scene);
     Renderer with(scene, 1);
@@ -139,13 +140,13 @@ TEST(WallOrder, GlassTintsOnlyWhatIsBehindIt) {
 }
 
 TEST(WallOrder, MarksStayOverGrainsThatComeThroughGlass) {
-    const auto ring = [](Scene scene) {
+    const auto ring = [](FilmedScene scene) {
         const View view = view_of(scene);
         const Picture plain = Renderer(scene, 1).draw(frame_of({kThrough}), "");
         scene.film.shows.highlighted = {0};
         return changed(plain, Renderer(scene, 1).draw(frame_of({kThrough}), ""), view.port, 60);
     };
-    Scene scene = leaning_wall(40, {-1, 0.3, -0.4});
+    FilmedScene scene = leaning_wall(40, {-1, 0.3, -0.4});
     const Extent through = ring(scene);
     scene.walls.clear();
     const Extent bare = ring(scene);
@@ -156,7 +157,7 @@ TEST(WallOrder, MarksStayOverGrainsThatComeThroughGlass) {
 }
 
 TEST(WallOrder, AGrainUnderTheFloorOrBehindASolidWallIsNotSeen) {
-    Scene scene = wedge(640, 360);
+    FilmedScene scene = wedge(640, 360);
     scene.film.camera.azimuth = 25;
     scene.film.camera.elevation = 25;
     for (const double field_of_view : {0.0, 30.0}) {
@@ -175,7 +176,7 @@ TEST(WallOrder, AGrainUnderTheFloorOrBehindASolidWallIsNotSeen) {
 }
 
 TEST(WallOrder, GrainsInsideAreLeftAlone) {
-    Scene scene = wedge(640, 360);
+    FilmedScene scene = wedge(640, 360);
     for (const double azimuth : {0.0, 30.0, 75.0}) {
         scene.film.camera.azimuth = azimuth;
         const View view = view_of(scene);

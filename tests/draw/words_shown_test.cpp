@@ -13,6 +13,7 @@
 #include "render/picture/words/first_gutter.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/picture/words/numbers_plan.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {
@@ -29,8 +30,8 @@ WordKinds none() {
     return kinds;
 }
 
-Scene with_all_words(int width, int height) {
-    Scene scene = wedge(width, height);
+FilmedScene with_all_words(int width, int height) {
+    FilmedScene scene = wedge(width, height);
     scene.container.outlet = Outlet{Outlet::Shape::slot, 0.02, 0, 0.05};
     scene.film.shows.outflow = true;
     scene.film.captions = {{0, 5, "Words that stand there for a while", 0}};
@@ -46,7 +47,7 @@ Frame flowing() {
     return frame;
 }
 
-std::vector<std::string> names_of(const Scene& scene) {
+std::vector<std::string> names_of(const FilmedScene& scene) {
     const Palette palette = make_palette(scene.film.background);
     const PictureLayout layout = plan_layout(scene);
     const Writer measure{nullptr, layout.type, palette};
@@ -63,7 +64,7 @@ int area(const Rectangle& r) {
 
 TEST(WordsShown, WithoutAnyTheGrainsHaveThePicture) {
     for (const auto& [width, height] : {std::pair{640, 360}, {360, 640}}) {
-        Scene scene = with_all_words(width, height);
+        FilmedScene scene = with_all_words(width, height);
         scene.film.word_kinds = none();
         const PictureLayout layout = plan_layout(scene);
         EXPECT_EQ(area(layout.port), width * height);
@@ -80,7 +81,7 @@ TEST(WordsShown, WithoutAnyTheGrainsHaveThePicture) {
 TEST(WordsShown, EachKindStandsAlone) {
     for (const auto& [width, height] : {std::pair{640, 360}, {360, 640}})
         for (const auto kind : every_kind) {
-            Scene scene = with_all_words(width, height);
+            FilmedScene scene = with_all_words(width, height);
             const int all = area(plan_layout(scene).port);
             scene.film.word_kinds = none();
             Renderer without(scene, 1, gl::Provider::automatic);
@@ -96,14 +97,14 @@ TEST(WordsShown, EachKindStandsAlone) {
 
 // The marks beside the floor are explained among the arrows, and go with them.
 TEST(WordsShown, MarksBesideTheFloorGoWithTheArrows) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     EXPECT_EQ(lab_marks(scene, scene.film.camera.azimuth).size(), 2u);
     scene.film.word_kinds.arrows = false;
     EXPECT_TRUE(lab_marks(scene, scene.film.camera.azimuth).empty());
 }
 
 TEST(WordsShown, AnEmptyTitleIsNone) {
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     EXPECT_THAT(names_of(scene), testing::Contains("title"));
     scene.film.title.clear();
     EXPECT_THAT(names_of(scene), testing::Not(testing::Contains("title")));
@@ -121,7 +122,7 @@ TEST(WordsShown, AnEmptyTitleIsNone) {
 }
 
 TEST(WordsShown, TextsFollow) {
-    Scene scene = with_all_words(640, 360);
+    FilmedScene scene = with_all_words(640, 360);
     const Frame frame = flowing();
     EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("12 of 1620 out"));
     EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("Words that stand"));
@@ -142,7 +143,7 @@ TEST(WordsShown, TextsFollow) {
 
 // Of grains that are still to come nobody knows how many will have flowed out of how many.
 TEST(WordsShown, OutflowOfFedGrainsNamesNoTotal) {
-    Scene scene = with_all_words(640, 360);
+    FilmedScene scene = with_all_words(640, 360);
     scene.species[0].fed = 300;
     EXPECT_THAT(note_text(scene, flowing()), testing::StartsWith("12 out\n"));
 }
@@ -165,14 +166,14 @@ TEST(WordsShown, PanelsFollow) {
 
 // A legend is higher by a line where a feed gives more than there are at the start.
 TEST(WordsShown, ALegendTellsFedGrainsFromThoseAtTheStart) {
-    Scene at_start = wedge(), fed = wedge(), both = wedge();
+    FilmedScene at_start = wedge(), fed = wedge(), both = wedge();
     fed.species[0].fed = fed.species[0].count;
     fed.species[0].count = 0;
     both.species[0].fed = 300;
     const Palette palette = make_palette(at_start.film.background);
     const TypeScale type = type_scale(at_start.film);
     const Writer measure{nullptr, type, palette};
-    const auto size = [&](const Scene& scene) { return legend_block(measure, scene, 0, 0, 0); };
+    const auto size = [&](const FilmedScene& scene) { return legend_block(measure, scene, 0, 0, 0); };
     EXPECT_NE(size(at_start).width, size(fed).width);
     EXPECT_EQ(size(at_start).height, size(fed).height);
     EXPECT_NEAR(size(both).height - size(fed).height, measure.write(0, 0, "0", measure.minor(), {}).height,
@@ -241,7 +242,7 @@ TEST(WordsShown, LettersWithoutAFontAreNamed) {
         EXPECT_EQ(chinese[0].script, "Chinese");
         EXPECT_EQ(chinese[0].package, "fonts-noto-cjk");
     }
-    Scene scene = wedge();
+    FilmedScene scene = wedge();
     scene.species[0].name = nowhere;
     EXPECT_EQ(texts_of_film(scene).size(), 3u);  // title and two species
     scene.film.word_kinds.legend = false;
@@ -252,7 +253,7 @@ TEST(WordsShown, LettersWithoutAFontAreNamed) {
 
 // Grains are as they are down to the floor, and gone where they leave.
 TEST(WordsShown, GrainsFadeBeforeTheyLeave) {
-    Scene scene = wedge(640, 360);
+    FilmedScene scene = wedge(640, 360);
     const View view = view_of(scene);
     EXPECT_TRUE(exit_fade(scene, view, 360).empty());
     scene.container.outlet = Outlet{Outlet::Shape::slot, 0.02, 0, 0.08};

@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/film/codec/smaller_film.hpp"
+#include "render/scene/keys/words.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 
@@ -98,7 +98,7 @@ class CappedFilmTest : public FilmTest, public ::testing::WithParamInterface<Fil
     std::int64_t size() const { return static_cast<std::int64_t>(std::filesystem::file_size(path())); }
     std::string make(std::optional<std::int64_t> cap, int width = wide, int height = high,
                      int quality = 18) const {
-        Scene scene = small_scene(width, height);
+        FilmedScene scene = small_scene(width, height);
         scene.film.format = GetParam();
         scene.film.rate = 25;
         scene.film.quality = quality;
@@ -193,7 +193,7 @@ class CappedGif : public FilmTest {
     std::filesystem::path path() const { return folder / "movie.gif"; }
     std::int64_t size() const { return static_cast<std::int64_t>(std::filesystem::file_size(path())); }
     std::string make(std::optional<std::int64_t> cap) const {
-        Scene scene = small_scene(160, 96);
+        FilmedScene scene = small_scene(160, 96);
         scene.film.format = FilmFormat::gif;
         scene.film.rate = 25;
         scene.film.max_size = cap;

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "render/film/production/film_maker.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel::test {
 
@@ -136,8 +137,8 @@ inline int grey_of(std::int64_t step) {
     return 2 + static_cast<int>(step * 15 % 37) * 7 % 259 % 252;
 }
 
-inline Scene small_scene(int width = 96, int height = 64) {
-    Scene scene;
+inline FilmedScene small_scene(int width = 96, int height = 64) {
+    FilmedScene scene;
     scene.name = "teaching";
     scene.title = scene.film.title = "Γ = 3, big and small";
     scene.film.width = width;

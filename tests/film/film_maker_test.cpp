@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/film/codec/work_folder.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 
@@ -68,7 +69,7 @@ TEST_F(FilmMakerTest, EveryFrameIsInTheFilmInOrderFirstAndLastAsDrawn) {
 
 // The first picture with a caption is held for 0.2 s of film: at 30 frames a second 6 more.
 TEST_F(FilmMakerTest, StandsStillWhereACaptionBegins) {
-    Scene scene = small_scene(96, 64);
+    FilmedScene scene = small_scene(96, 64);
     const double early = 0.5 * (frame_at(2)->time + frame_at(3)->time), late = frame_at(6)->time;
     scene.film.captions = {{early, late, "look", 0.2}, {late, 1e9, "again", 0}};
     FilmMaker maker(scene, options(), greys());
@@ -135,7 +136,7 @@ TEST_F(FilmMakerTest, FramesAloneAreNumberedExactPicturesWithTimeAndScene) {
         EXPECT_EQ(png.picture.pixel(50, 50)[1], grey_of(i));
         EXPECT_EQ(std::stod(png.texts.at("Time")), 0.25 * i);
         EXPECT_EQ(png.texts.at("Step"), std::to_string(i));
-        EXPECT_EQ(png.texts.at("Scene"), "teaching");
+        EXPECT_EQ(png.texts.at("FilmedScene"), "teaching");
         EXPECT_EQ(png.texts.at("Title"), "Γ = 3, big and small");
         EXPECT_EQ(png.texts.at("Playback"), "slow motion, 1/10 speed");
     }
@@ -150,7 +151,7 @@ TEST_F(FilmMakerTest, FilmAndFramesTogether) {
 }
 
 TEST_F(FilmMakerTest, ThePosterIsTheLastFrameOfTheLastLockedSegment) {
-    Scene scene = small_scene();
+    FilmedScene scene = small_scene();
     FilmSegment open, locked, close;
     open.duration = 2;
     locked.kind = FilmSegment::Kind::locked;
@@ -185,7 +186,7 @@ TEST_F(FilmMakerTest, WithoutFinishTheFilmPlaysAndHasAPoster) {
 // Left while pictures wait: what was encoded by then is in the film, and the report counts it.
 TEST_F(FilmMakerTest, WhoIsInAHurryLeavesAFilmOfTheLengthThatIsTold) {
     for (const FilmFormat format : {FilmFormat::mp4, FilmFormat::gif, FilmFormat::png}) {
-        Scene scene = small_scene();
+        FilmedScene scene = small_scene();
         scene.film.format = format;
         std::atomic<bool> hurry = false;
         FilmMaker maker(scene, options(), painting([&](const Frame& frame) {
@@ -302,7 +303,7 @@ TEST_F(FilmMakerTest, NoContextReachesTheEngine) {
 }
 
 TEST_F(FilmMakerTest, AFullDiskReachesTheEngineAndTheFilmSoFarPlays) {
-    const Scene scene = small_scene(160, 96);
+    const FilmedScene scene = small_scene(160, 96);
     {
         const FileSizeLimit limit(512 * 1024);
         FilmMaker maker(scene, options(), painting([](const Frame& frame) {
@@ -326,7 +327,7 @@ TEST_F(FilmMakerTest, KilledItPlaysUpToTheLastTwoSecondsAndHasAPoster) {
     ASSERT_EQ(pipe(pipe_ends), 0);
     const pid_t child = fork();
     if (child == 0) {
-        Scene scene = small_scene();
+        FilmedScene scene = small_scene();
         scene.run.duration = 1000;
         FilmMaker maker(scene, options(), greys());
         for (int i = 0; i < 200; ++i) maker.take(frame_at(i), "");

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/chapters/words.hpp"
 #include "render/film/codec/encoder.hpp"
+#include "render/scene/keys/words.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 
@@ -31,14 +31,14 @@ std::string bytes_of(const std::filesystem::path& path) {
 class FormatTest : public FilmTest, public ::testing::WithParamInterface<FilmFormat> {
   protected:
     // 25 frames a second suit every format: 4 hundredths for a GIF.
-    Scene scene(int width = 160, int height = 96) const {
-        Scene s = small_scene(width, height);
+    FilmedScene scene(int width = 160, int height = 96) const {
+        FilmedScene s = small_scene(width, height);
         s.film.format = GetParam();
         s.film.rate = 25;
         return s;
     }
     bool is_rgb() const { return GetParam() == FilmFormat::ffv1 || GetParam() == FilmFormat::gif; }
-    std::unique_ptr<FilmWriter> writer(const Scene& s) const {
+    std::unique_ptr<FilmWriter> writer(const FilmedScene& s) const {
         return make_film_writer(s, {folder, false, 2});
     }
     std::filesystem::path path() const { return folder / film_file_name(GetParam()); }
@@ -89,7 +89,7 @@ TEST_P(FormatTest, FlatColoursKeepTheirCodes) {
     const std::vector<std::array<int, 3>> colours{{255, 0, 0},     {0, 255, 0},   {0, 0, 255},
                                                   {128, 128, 128}, {0, 0, 0},     {230, 159, 0},
                                                   {255, 255, 255}, {86, 180, 233}};
-    Scene s = scene(64, 64);
+    FilmedScene s = scene(64, 64);
     s.film.quality = 8;
     const auto film_writer = writer(s);
     for (const auto& c : colours) film_writer->add(flat(64, 64, c[0], c[1], c[2]));
@@ -200,7 +200,7 @@ class LosslessFilm : public FilmTest {};
 
 TEST_F(LosslessFilm, Ffv1KeepsEveryByteAndAlphaWhenAsked) {
     for (const bool alpha : {false, true}) {
-        Scene scene = small_scene(70, 66);
+        FilmedScene scene = small_scene(70, 66);
         scene.film.format = FilmFormat::ffv1;
         scene.film.transparent = alpha;
         const auto writer = make_film_writer(scene, {folder, false, 1});
@@ -219,7 +219,7 @@ TEST_F(LosslessFilm, Ffv1KeepsEveryByteAndAlphaWhenAsked) {
 
 // A ball of many shades: 256 colours and Bayer's pattern, whose amplitude is bounded.
 TEST_F(LosslessFilm, AGifStaysNearItsPictures) {
-    Scene scene = small_scene(160, 96);
+    FilmedScene scene = small_scene(160, 96);
     scene.film.format = FilmFormat::gif;
     scene.film.rate = 50;
     const auto writer = make_film_writer(scene, {folder, false, 1});

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/drive_clock.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -41,8 +42,8 @@ Film film_of(std::vector<FilmSegment> segments, double rate = 30) {
 }
 
 // With a place for messages.
-Scene scene_with(const Film& film) {
-    Scene scene;
+FilmedScene scene_with(const Film& film) {
+    FilmedScene scene;
     scene.file = "a.toml";
     scene.film = film;
     return scene;
@@ -193,7 +194,7 @@ TEST(FilmSchedule, IsCountedAsItIsMade) {
     for (const double playback : {1e-320, 1e-3, 0.0007, 0.3, 1.0, 2.5, 1e16})
         for (const int every : {1, 4})
             for (const std::int64_t steps : {1, 999, 1000, 54'321}) {
-                const Scene scene =
+                const FilmedScene scene =
                     scene_with(film_of({motion(0.7, playback), locked(1.0, every, 0.9), motion({}, 1)}));
                 std::int64_t made = 0, counted = 0;
                 for (const SegmentCount& count : count_film(scene, clock, steps)) counted += count.shots;
@@ -209,7 +210,7 @@ TEST(FilmSchedule, AnEndlessPlaybackShowsTheStartAlone) {
 }
 
 std::string complaint_of(const Film& film, const Clock& clock, std::int64_t steps) {
-    Scene scene = scene_with(film);
+    FilmedScene scene = scene_with(film);
     scene.written["film.segment[0]"] = {"a.toml", 4, 1};
     scene.written["film.segment[0].playback"] = {"a.toml", 5, 2};
     try {

@@ -1,4 +1,5 @@
 #include "render/film/sampling/timeline.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,15 +14,15 @@ Clock clock_of(double frequency, std::int64_t period, double phase = 0) {
     return {1 / (frequency * static_cast<double>(period)), period, phase};
 }
 
-Scene driven(double frequency) {
-    Scene scene;
+FilmedScene driven(double frequency) {
+    FilmedScene scene;
     scene.drive.present = frequency > 0;
     scene.drive.frequency = frequency;
     return scene;
 }
 
-Scene scene_with(const Film& film) {
-    Scene scene;
+FilmedScene scene_with(const Film& film) {
+    FilmedScene scene;
     scene.film = film;
     return scene;
 }

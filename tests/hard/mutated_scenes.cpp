@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/keys/keys.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/hard/group.hpp"
@@ -88,7 +89,7 @@ std::string plausible(const Key& key, Dice& dice) {
 
 // An assignment to a key of the list, in the first element of its arrays.
 std::string assignment(Dice& dice) {
-    const Key& key = dice.of(scene_keys());
+    const Key& key = dice.of(filmed_scene_keys());
     std::string path = key.path;
     for (std::size_t at; (at = path.find("[]")) != std::string::npos;) path.replace(at, 2, "[0]");
     return path + "=" + (dice.one_in(3) ? absurd(dice) : plausible(key, dice));

@@ -14,8 +14,9 @@ namespace {
 TEST(WedgeCase, IsTheBedOfWedgeMixing) {
     Scene film = read_scene(fmt::format("{}/scenes/wedge_mixing.toml", GRAINREEL_SOURCE), {});
     const Scene timed = read_scene_text(wedge_scene(), "wedge.toml", {});
-    film.title = timed.title, film.film = timed.film;
-    for (std::size_t s = 0; s < film.species.size(); ++s) film.species[s].colour = timed.species[s].colour;
+    film.title = timed.title, film.film_text = timed.film_text;
+    for (std::size_t s = 0; s < film.species.size(); ++s)
+        film.species[s].colour_text = timed.species[s].colour_text;
     EXPECT_EQ(resolved_scene(film, make_plan(film)), resolved_scene(timed, make_plan(timed)));
 }
 

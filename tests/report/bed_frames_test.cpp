@@ -10,6 +10,7 @@
 #include <random>
 
 #include "render/page/bed/bed_frames.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -255,7 +256,7 @@ TEST(BedFrames, HaveTheFilmsColours) {
     frames[2].velocity.emplace_back(0, 0.3, 0);
     const MadeRun run(frames);
     const auto bytes_of = [&](GrainValue by, double high, double start) {
-        Scene scene;
+        FilmedScene scene;
         scene.film.shows.colour.by = by;
         scene.film.shows.colour.range = {0, high};
         scene.film.shows.colour.layers = 4;
@@ -284,7 +285,7 @@ TEST(BedFrames, HaveTheFilmsColours) {
 // How far a grain came since a moment a period earlier, where there is one.
 TEST(BedFrames, HaveWaysOverAPeriodWhereTheMomentBeforeIsKept) {
     std::vector<Frame> frames = random_frames(3, 5);
-    Scene scene;
+    FilmedScene scene;
     scene.drive.present = true;
     scene.drive.frequency = 1 / period;
     scene.film.shows.colour.by = GrainValue::displacement;

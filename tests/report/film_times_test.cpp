@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "render/page/film/film_times.hpp"
 #include "render/film/moments/film_times_table.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {
@@ -16,7 +16,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 // Shaken at 20 Hz for 1 s; film: what stands below [film].
-Scene scene_with(const std::string& film) {
+FilmedScene scene_with(const std::string& film) {
     const std::string text = R"(
 [[species]]
 name = "beads"
@@ -36,7 +36,7 @@ duration = "1 s"
 [film]
 rate = 30
 )" + film;
-    return read_scene_text(text, "made.toml", {}, measurable_in);
+    return read_filmed_scene_text(text, "made.toml", {}, measurable_in);
 }
 
 // What the run itself wrote needs no plan: a bed that lands every second period leaves out frames nobody
@@ -94,7 +94,7 @@ TEST(FilmTimes, AFilmOfAnotherLengthHasNone) {
 TEST(FilmTimes, OfAStoppedRunTheFirstFramesAreKnown) {
     EXPECT_THAT(film_times(scene_with(locked), 6, 0, false).times, SizeIs(6));
     // Here the run may have found out that the bed repeats itself every second period, and left out frames.
-    const Scene open = scene_with("[[film.segment]]\nkind = \"locked\"\n");
+    const FilmedScene open = scene_with("[[film.segment]]\nkind = \"locked\"\n");
     EXPECT_THAT(film_times(open, 6, 0, false).times, IsEmpty());
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "engine/files/fields_file.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {
@@ -19,7 +20,7 @@ namespace {
 // A grid of 2 cells across and 3 high, and in space of 2 in depth; all values of a cell come from its number.
 struct MadeFields {
     test::TemporaryFolder here;
-    Scene scene;
+    FilmedScene scene;
     FieldSet set;
     std::size_t deep;
 

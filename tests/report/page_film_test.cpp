@@ -8,6 +8,7 @@
 #include "render/film/codec/film_reader.hpp"
 #include "render/film/files/png.hpp"
 #include "render/page/film/page_film.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {
@@ -39,7 +40,7 @@ class PageFilmTest : public testing::Test {
     }
 
     TemporaryFolder here;
-    Scene scene;
+    FilmedScene scene;
 };
 
 TEST_F(PageFilmTest, ASmallFilmThatBrowsersPlayIsTakenAsItIs) {

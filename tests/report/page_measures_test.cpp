@@ -6,6 +6,7 @@
 
 #include "render/page/facts/run_facts.hpp"
 #include "render/page/page_measures.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {
@@ -17,7 +18,7 @@ using testing::IsEmpty;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 TEST(PageMeasures, PlotsOfTheFilmComeFirstAndWhatNeverChangesIsLeftOut) {
-    Scene scene;
+    FilmedScene scene;
     scene.film.shows.plots = {{"lost_J", "lost energy", {}, Dimension::energy}};
     MeasureTable table({"step", "time_s", "centre_z_m", "kinetic_J", "contact_number", "lost_J", "lacey"});
     table.add({0, 0, 0.1, 1, 4, 0, none});
@@ -33,7 +34,7 @@ TEST(PageMeasures, PlotsOfTheFilmComeFirstAndWhatNeverChangesIsLeftOut) {
 TEST(PageMeasures, LongTablesAreThinnedEvenly) {
     MeasureTable table({"time_s", "kinetic_J"});
     for (int row = 0; row < 9000; ++row) table.add({0.1 * row, 1.0 * row});
-    const PageMeasures page = page_measures(Scene(), table);
+    const PageMeasures page = page_measures(FilmedScene(), table);
     ASSERT_EQ(page.rows.size(), kMostRowsAtOnce);
     EXPECT_EQ(page.rows.front(), 0u);
     EXPECT_EQ(page.rows.back(), 8999u);
@@ -45,7 +46,7 @@ TEST(PageMeasures, WithoutTimeNothingIsCharted) {
     MeasureTable table({"kinetic_J"});
     table.add({1});
     table.add({2});
-    EXPECT_THAT(page_measures(Scene(), table).charted, IsEmpty());
+    EXPECT_THAT(page_measures(FilmedScene(), table).charted, IsEmpty());
 }
 
 TEST(RunFacts, AreWhatCanBeRead) {

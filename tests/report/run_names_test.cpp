@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -17,13 +17,13 @@ using testing::ElementsAre;
 // Runs of the small scene with some other values.
 struct Runs {
     test::TemporaryFolder here;
-    std::vector<Scene> scenes;
+    std::vector<FilmedScene> scenes;
     std::vector<std::string> folders;
 
     void add(const std::string& folder, const std::vector<std::string>& sets) {
         Assignments all;
         for (const std::string& set : sets) all.push_back(set);
-        scenes.push_back(read_scene_text(test::small_scene_text, "fifty.toml", all));
+        scenes.push_back(read_filmed_scene_text(test::small_scene_text, "fifty.toml", all));
         folders.push_back(folder);
         std::filesystem::create_directories(here / folder);
         test::write_text(here / (folder + "/scene.toml"),

@@ -8,12 +8,13 @@
 #include "engine/state/body.hpp"
 #include "render/page/bed/slabs.hpp"
 #include "render/picture/container/container_drawing.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
 
-Scene with(Container::Shape shape) {
-    Scene scene;
+FilmedScene with(Container::Shape shape) {
+    FilmedScene scene;
     scene.container.shape = shape;
     scene.container.half_width = 0.05;
     scene.container.depth = 0.03;
@@ -35,7 +36,7 @@ void expect_flat(const Slab& slab) {
 }
 
 TEST(Slabs, OfAWedgeEnclosesTheRoomThatTheGrainsHave) {
-    const Scene scene = with(Container::Shape::wedge);
+    const FilmedScene scene = with(Container::Shape::wedge);
     const std::vector<Slab> slabs = slabs_of(scene);
     EXPECT_EQ(slabs.size(), 8u);  // two walls of two parts each, floor, lid, two panes
     for (const Slab& slab : slabs) {
@@ -56,7 +57,7 @@ TEST(Slabs, OfAWedgeEnclosesTheRoomThatTheGrainsHave) {
 }
 
 TEST(Slabs, OfACylinderIsARoundWallWithoutSeams) {
-    const Scene scene = with(Container::Shape::cylinder);
+    const FilmedScene scene = with(Container::Shape::cylinder);
     double turned = 0;
     for (const Slab& slab : slabs_of(scene)) {
         expect_flat(slab);
@@ -71,7 +72,7 @@ TEST(Slabs, OfACylinderIsARoundWallWithoutSeams) {
 }
 
 TEST(Slabs, AFloorWithAnOutletIsThereUntilItOpens) {
-    Scene scene = with(Container::Shape::box);
+    FilmedScene scene = with(Container::Shape::box);
     scene.container.outlet = Outlet{Outlet::Shape::slot, 0.01, 2.5, 0.1};
     int before = 0, after = 0;
     for (const Slab& slab : slabs_of(scene)) {
@@ -86,7 +87,7 @@ TEST(Slabs, AFloorWithAnOutletIsThereUntilItOpens) {
 }
 
 TEST(Slabs, ATrayStandsStillBelow) {
-    Scene scene = with(Container::Shape::box);
+    FilmedScene scene = with(Container::Shape::box);
     scene.container.outlet = Outlet{Outlet::Shape::slot, 0.01, 0, 0.1};
     scene.container.tray = Tray{0.07, 0.08};
     double lowest = 0;
@@ -101,7 +102,7 @@ TEST(Slabs, ATrayStandsStillBelow) {
 }
 
 TEST(Slabs, PlanesHaveBodiesOfTheirOwn) {
-    Scene scene = with(Container::Shape::box);
+    FilmedScene scene = with(Container::Shape::box);
     scene.walls = {{"shelf", {0, 0, 0.05}, {0, 0, 1}, {0, 0, 0}, false}};
     const Slab& plane = slabs_of(scene).back();
     EXPECT_EQ(plane.body, kFirstPlaneBody);
@@ -110,7 +111,7 @@ TEST(Slabs, PlanesHaveBodiesOfTheirOwn) {
 }
 
 TEST(Slabs, TheBoxHasAllOfThem) {
-    const Scene scene = with(Container::Shape::box);
+    const FilmedScene scene = with(Container::Shape::box);
     const std::vector<Slab> slabs = slabs_of(scene);
     const Extent box = box_of(slabs, scene);
     const double thickness = drawn_thickness(scene.container);

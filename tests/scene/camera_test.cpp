@@ -3,6 +3,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -55,9 +56,9 @@ TEST(CameraKeys, AreWrittenBack) {
          {keyed, wedge_text + "[film]\naxes = true\n",
           wedge_text + "[film.camera]\norbit = -90\norbit_time = \"3 s\"\ntarget = [0, 0, 0.1]\n",
           wedge_text + "[film.camera]\nposition = [1, 0, 0.25]\norbit = 720\n"}) {
-        const Scene scene = read_text(text);
-        const Scene back =
-            read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in);
+        const FilmedScene scene = read_text(text);
+        const FilmedScene back =
+            read_filmed_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in);
         EXPECT_EQ(back.film, scene.film);
     }
 }
@@ -65,10 +66,11 @@ TEST(CameraKeys, AreWrittenBack) {
 TEST(CameraKeys, WhatIsFramedIsReadAndWrittenBack) {
     EXPECT_EQ(read_text(wedge_text).film.camera.frame, CameraFrame::reach);
     for (const char* words : {"frame = \"container\"\n", "frame = \"bed\"\n", "reach = \"90 mm\"\n"}) {
-        const Scene scene = read_text(wedge_text + "[film.camera]\n" + words);
+        const FilmedScene scene = read_text(wedge_text + "[film.camera]\n" + words);
         EXPECT_NE(scene.film, read_text(wedge_text).film) << words;
         EXPECT_EQ(
-            read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in).film,
+            read_filmed_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in)
+                .film,
             scene.film);
     }
     EXPECT_EQ(about_camera("frame = \"bed\"\nreach = 0.1\n"),

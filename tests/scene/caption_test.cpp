@@ -3,6 +3,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -13,7 +14,7 @@ std::string captioned(const std::string& captions) {
 }
 
 TEST(Captions, StayUntilTheNextOrTheEnd) {
-    const Scene scene = read_text(captioned(
+    const FilmedScene scene = read_text(captioned(
         "[[film.caption]]\nfrom = 0.5\ntext = \"one\"\n[[film.caption]]\nfrom = 1\nto = 1.2\ntext = "
         "\"two\"\n[[film.caption]]\nfrom = 1.5\ntext = \"three\"\nhold = \"2 s\"\n"));
     const std::vector<FilmCaption> expected = {{0.5, 1, "one", 0}, {1, 1.2, "two", 0}, {1.5, 2, "three", 2}};
@@ -21,7 +22,7 @@ TEST(Captions, StayUntilTheNextOrTheEnd) {
     EXPECT_FALSE(shows_caption(expected[0], 0.4999));
     EXPECT_TRUE(shows_caption(expected[0], 0.5));
     EXPECT_FALSE(shows_caption(expected[0], 1));
-    const Scene back = read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml");
+    const FilmedScene back = read_filmed_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml");
     EXPECT_EQ(back.film.captions, expected);
 }
 

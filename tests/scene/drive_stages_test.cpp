@@ -8,6 +8,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -59,9 +60,9 @@ TEST(DriveStageKeys, TakeWhatIsNotSaidFromTheStageBefore) {
 }
 
 TEST(DriveStageKeys, AResolvedSceneReadsBackAsItWas) {
-    const Scene scene = read_text(staged(four_stages));
+    const FilmedScene scene = read_text(staged(four_stages));
     const Plan plan = make_plan(scene);
-    const Scene back = read_scene_text(resolved_scene(scene, plan), "scene.toml");
+    const FilmedScene back = read_filmed_scene_text(resolved_scene(scene, plan), "scene.toml");
     EXPECT_EQ(back.drive, scene.drive);
     EXPECT_EQ(back.output, scene.output);  // by periods, as it was
     EXPECT_EQ(make_plan(back).clock.step, plan.clock.step);

@@ -8,6 +8,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -34,7 +35,7 @@ TEST(FeedKeys, DueIsRateTimesTime) {
 }
 
 TEST(FeedKeys, CountAndUntilMakeARate) {
-    const Scene scene = read_text(fed("count = 30\nfrom = 0.5\nuntil = 2\n"));
+    const FilmedScene scene = read_text(fed("count = 30\nfrom = 0.5\nuntil = 2\n"));
     EXPECT_DOUBLE_EQ(scene.feeds.at(0).rate, 20);
     EXPECT_EQ(scene.species[0].all(), 130);
     EXPECT_EQ(scene.grains(), 140);
@@ -53,31 +54,31 @@ TEST(FeedKeys, ReadBackAsTheyWereWritten) {
         with(fed("rate = 30\nvelocity = [0, 0, -1]\n[[feed]]\nspecies = \"big\"\ncount = 7\n"
                  "until = 1\nlow = [0, 0, 0.1]\nhigh = [0.01, 0.01, 0.12]\n"),
              "[run]", "[start]\nmethod = \"rain\"\nrain_rate = 500\n[run]");
-    const Scene scene = read_text(text);
-    const Scene again = read_text(resolved_scene(scene, make_plan(scene)));
+    const FilmedScene scene = read_text(text);
+    const FilmedScene again = read_text(resolved_scene(scene, make_plan(scene)));
     EXPECT_EQ(again.feeds, scene.feeds);
     EXPECT_EQ(again.start, scene.start);
     EXPECT_EQ(again.species, scene.species);
 }
 
 TEST(FeedKeys, AFedSpeciesNeedsNoCount) {
-    const Scene scene = read_text(with(fed("rate = 30\nspecies = \"big\"\n"), "count = 10\n", ""));
+    const FilmedScene scene = read_text(with(fed("rate = 30\nspecies = \"big\"\n"), "count = 10\n", ""));
     EXPECT_EQ(scene.species[1].count, 0);
     EXPECT_EQ(scene.species[1].all(), 60);
-    const Scene again = read_text(resolved_scene(scene, make_plan(scene)));
+    const FilmedScene again = read_text(resolved_scene(scene, make_plan(scene)));
     EXPECT_EQ(again.species, scene.species);
 }
 
 // Impacts are those of a fall from the highest place to the floor, and of a floor that comes up.
 TEST(FeedKeys, AFallDecidesTheStiffness) {
-    const Scene scene = read_text(fed("rate = 1\nvelocity = [0, 0, \"-3 m/s\"]\n"));
+    const FilmedScene scene = read_text(fed("rate = 1\nvelocity = [0, 0, \"-3 m/s\"]\n"));
     EXPECT_DOUBLE_EQ(make_plan(scene).impact_speed, std::sqrt(9 + 2 * 10 * 0.18) + scene.drive.speed());
 }
 
 // As many as fill a twentieth of the layer in the time that a grain falls through it: solid volume per area
 // and time = 0.05 x depth of the layer / time.
 TEST(RainKeys, TheRateIsThatOfAThinRain) {
-    const Scene scene = read_text(with(wedge_text, "[run]", "[start]\nmethod = \"rain\"\n[run]"));
+    const FilmedScene scene = read_text(with(wedge_text, "[run]", "[start]\nmethod = \"rain\"\n[run]"));
     const double deep = 4 * 0.01, time = std::sqrt(2 * deep / 10);
     const double area = scene.container.volume() / 0.18;
     const double grain = std::numbers::pi / 6 * (100 * std::pow(0.005, 3) + 10 * std::pow(0.01, 3)) / 110;

@@ -5,6 +5,7 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -22,7 +23,7 @@ std::string complaint(const std::string& text, const Assignments& sets) {
 }
 
 TEST(FieldKeys, OneLineIsEnough) {
-    const Scene scene = read_text(wedge_text, {"output.fields.grid=yz"});
+    const FilmedScene scene = read_text(wedge_text, {"output.fields.grid=yz"});
     const FieldOutput& fields = scene.output.fields;
     EXPECT_DOUBLE_EQ(fields.width, 0.5 * (100 * 5e-3 + 10 * 10e-3) / 110) << "half of the mean diameter";
     EXPECT_EQ(fields.cell, fields.width);
@@ -51,9 +52,9 @@ TEST(FieldKeys, WrittenSceneReadsBack) {
                                               {"output.fields.grid=yz", "output.fields.phase=90 deg"}},
           {wedge_text, {"output.fields.grid=xyz", "output.fields.kernel=lucy", "output.fields.samples=8"}},
           {box_text, {"output.fields.grid=yz", "output.fields.interval=0.05"}}}) {
-        const Scene scene = read_text(text, sets);
+        const FilmedScene scene = read_text(text, sets);
         const std::string written = resolved_scene(scene, make_plan(scene));
-        const Scene again = read_text(written);
+        const FilmedScene again = read_text(written);
         EXPECT_EQ(again.output.fields, scene.output.fields) << written;
     }
 }

@@ -11,6 +11,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -36,11 +38,11 @@ TEST(Keys, DocsTellWhatTheReaderKnows) {
     ASSERT_NE(end, std::string::npos);
     const auto start = begin + begin_mark.size();
     if (std::getenv("GRAINREEL_WRITE_DOCS") != nullptr) {
-        text.replace(start, end - start, key_table_markdown());
+        text.replace(start, end - start, key_table_markdown(filmed_scene_keys()));
         std::ofstream(page) << text;
         return;
     }
-    EXPECT_EQ(text.substr(start, end - start), key_table_markdown())
+    EXPECT_EQ(text.substr(start, end - start), key_table_markdown(filmed_scene_keys()))
         << "docs/reference/scenes.md is not what engine/scene/file/scene_keys.cpp says; write it anew with\n"
            "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=Keys.DocsTellWhatTheReaderKnows";
 }
@@ -72,7 +74,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string plotted = wedge_text + "[[film.plot]]\ny = \"lacey\"\n";
     const std::string cases[] = {wedge_text, box,    locked, motion, from_file, exact,     layers,
                                  fields,     outlet, rough,  fed,    staged,    captioned, plotted};
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : filmed_scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;
         if (const auto at = path.find("[]"); at != std::string::npos) path.replace(at, 2, "[0]");
@@ -86,12 +88,12 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
                 continue;
             std::string with_default;
             try {
-                const Scene scene = read_text(text, {path + "=" + key.fallback});
+                const FilmedScene scene = read_text(text, {path + "=" + key.fallback});
                 with_default = resolved_scene(scene, make_plan(scene));
             } catch (const UserError&) {
                 continue;  // of no use in this one
             }
-            const Scene plain = read_text(text);
+            const FilmedScene plain = read_text(text);
             EXPECT_EQ(with_default, resolved_scene(plain, make_plan(plain))) << key.path;
             tried = true;
         }
@@ -101,7 +103,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
 
 // An advice that is refused in its turn is none.
 TEST(Keys, ExamplesAreInsideTheirBounds) {
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : filmed_scene_keys()) {
         if (key.kind != KeyKind::quantity && key.kind != KeyKind::integer) continue;
         std::string text = key.example();
         if (text.front() == '"') text = text.substr(1, text.size() - 2);
@@ -126,22 +128,23 @@ TEST(Keys, DocsTellTheBoundsOfQuantities) {
 }
 
 TEST(Keys, NearestKeyForgivesSwapsAndSlips) {
-    EXPECT_EQ(advice_for_unknown_key("drive.freqeuncy"), "did you mean 'frequency'?");
-    EXPECT_EQ(advice_for_unknown_key("species[3].color"), "did you mean 'colour'?");
-    EXPECT_EQ(advice_for_unknown_key("container.slantheight"), "did you mean 'slant_height'?");
-    EXPECT_EQ(advice_for_unknown_key("film.camera.quality"), "it belongs in [film]");
+    EXPECT_EQ(advice_for_unknown_key("drive.freqeuncy", filmed_scene_keys()), "did you mean 'frequency'?");
+    EXPECT_EQ(advice_for_unknown_key("species[3].color", filmed_scene_keys()), "did you mean 'colour'?");
+    EXPECT_EQ(advice_for_unknown_key("container.slantheight", filmed_scene_keys()),
+              "did you mean 'slant_height'?");
+    EXPECT_EQ(advice_for_unknown_key("film.camera.quality", filmed_scene_keys()), "it belongs in [film]");
 }
 
 TEST(Keys, TablesAndArraysOfTables) {
-    EXPECT_TRUE(is_table_path("drive"));
-    EXPECT_TRUE(is_table_path("contact.wall"));
-    EXPECT_TRUE(is_table_path("species[7]"));
-    EXPECT_TRUE(is_table_array_path("species"));
-    EXPECT_TRUE(is_table_array_path("film.segment"));
-    EXPECT_FALSE(is_table_array_path("drive"));
-    EXPECT_FALSE(is_table_path("driv"));
-    EXPECT_EQ(find_key("species[12].count")->path, "species[].count");
-    EXPECT_EQ(find_key("species[12]"), nullptr);
+    EXPECT_TRUE(is_table_path("drive", filmed_scene_keys()));
+    EXPECT_TRUE(is_table_path("contact.wall", filmed_scene_keys()));
+    EXPECT_TRUE(is_table_path("species[7]", filmed_scene_keys()));
+    EXPECT_TRUE(is_table_array_path("species", filmed_scene_keys()));
+    EXPECT_TRUE(is_table_array_path("film.segment", filmed_scene_keys()));
+    EXPECT_FALSE(is_table_array_path("drive", filmed_scene_keys()));
+    EXPECT_FALSE(is_table_path("driv", filmed_scene_keys()));
+    EXPECT_EQ(find_key("species[12].count", filmed_scene_keys())->path, "species[].count");
+    EXPECT_EQ(find_key("species[12]", filmed_scene_keys()), nullptr);
 }
 
 }  // namespace

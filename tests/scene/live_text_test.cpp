@@ -1,4 +1,4 @@
-#include "engine/scene/film/live_text.hpp"
+#include "render/scene/live_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

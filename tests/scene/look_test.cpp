@@ -7,11 +7,12 @@
 #include <numbers>
 #include <string>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/film/grain_values.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "render/scene/grain_values.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -31,7 +32,7 @@ void expect_complaint(const std::vector<std::string>& set, const std::string& wo
 }
 
 TEST(Look, UsualRangesComeFromTheDrive) {
-    const Scene scene = read_text(wedge_text);
+    const FilmedScene scene = read_text(wedge_text);
     const double omega = 2 * std::numbers::pi * 20, plate = 3 * 10.0 / omega;  // a w = Gamma g / w
     // Of n layers, a blow comes back with e to the power of 2 n - 1 of its speed (the film's v, colours.md).
     double restitution = 0;
@@ -69,7 +70,7 @@ TEST(Look, UsualSpeedsFollowTheBed) {
 
 // Where 1 grain in 100 is faster than v, exp(-ln 100 E / (m v2 / 2)) of those of a mass have more than E.
 TEST(Look, UsualEnergiesHoldNinetyNineOfAHundred) {
-    const Scene scene = read_text(wedge_text, {"film.colour.by=kinetic-energy"});
+    const FilmedScene scene = read_text(wedge_text, {"film.colour.by=kinetic-energy"});
     const double energy = scene.film.shows.colour.range[1];
     const double speed = colour_of({"film.colour.by=speed"}).range[1];
     double above = 0;
@@ -87,7 +88,7 @@ TEST(Look, ShowNamesTheWords) {
     EXPECT_TRUE(some.title && some.scale);
     EXPECT_FALSE(some.legend || some.time || some.cycle || some.dial || some.drive || some.playback ||
                  some.arrows || some.counts || some.captions);
-    const Scene nothing = read_text(wedge_text, {"film.show=[]"});
+    const FilmedScene nothing = read_text(wedge_text, {"film.show=[]"});
     EXPECT_FALSE(nothing.film.word_kinds.title);
     EXPECT_EQ(read_text(resolved_scene(nothing, make_plan(nothing))).film.word_kinds,
               nothing.film.word_kinds);
@@ -107,7 +108,7 @@ TEST(Look, ShowNamesTheWords) {
 
 TEST(Look, ATitleMayBeEmpty) {
     EXPECT_EQ(read_text(wedge_text, {"title=A bed"}).film.title, "A bed");
-    const Scene without = read_text(wedge_text, {"title=A bed", "film.title="});
+    const FilmedScene without = read_text(wedge_text, {"title=A bed", "film.title="});
     EXPECT_EQ(without.film.title, "");
     EXPECT_EQ(read_text(resolved_scene(without, make_plan(without))).film.title, "");
 }
@@ -218,11 +219,18 @@ TEST(Look, ProfilesStandInPlaceOfColumns) {
     EXPECT_EQ(plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"period\"\nlabel = \"L\"\n").at(0).label, "L");
 }
 
+TEST(Look, WhatAPlotShowsIsMeasured) {
+    EXPECT_TRUE(read_text(wedge_text).instruments().empty());
+    const FilmedScene scene = read_text(wedge_text + "[[film.plot]]\ny = \"floor_force_z\"\n");
+    EXPECT_EQ(scene.instruments(), std::vector<std::string>{"walls"});
+    EXPECT_TRUE(scene.output.instruments.empty());
+}
+
 TEST(Look, WallForcesAreMeasuredAndScaledByTheWeight) {
-    const Scene scene = read_text(wedge_text, {"film.wall_forces=true"});
+    const FilmedScene scene = read_text(wedge_text, {"film.wall_forces=true"});
     EXPECT_NEAR(scene.film.shows.wall_forces.scale,
                 total_mass(scene) * scene.gravity.norm() * scene.drive.g_level(scene.gravity.norm()), 1e-12);
-    EXPECT_THAT(scene.output.instruments, testing::Contains("walls"));
+    EXPECT_THAT(scene.instruments(), testing::Contains("walls"));
     EXPECT_EQ(read_text(wedge_text, {"film.wall_forces=true", "film.wall_force_scale=\"3 N\""})
                   .film.shows.wall_forces.scale,
               3);

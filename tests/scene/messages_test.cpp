@@ -4,7 +4,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -22,7 +22,7 @@ std::string complaint(const std::string& text, const Assignments& sets = {}) {
 TEST(Messages, Files) {
     const auto of = [](const char* path) -> std::string {
         try {
-            read_scene(path, {}, measurable_in);
+            read_filmed_scene(path, {}, measurable_in);
         } catch (const UserError& error) {
             return error.what();
         }

@@ -12,6 +12,7 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/scene/bed.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -27,7 +28,7 @@ double sphere_mass(double diameter, double density) {
 // ---- the bed ----
 
 TEST(Bed, FillHeightFollowsTheWedge) {
-    Scene scene = read_text(wedge_text);
+    FilmedScene scene = read_text(wedge_text);
     const Container& c = scene.container;
     const double area_above = c.depth * 2 * c.half_width;
     const double volume_slanted = c.depth * c.slant_height * (c.floor_half_width() + c.half_width);
@@ -68,7 +69,7 @@ const std::vector<std::string> deep_and_hard = {"contact.restitution=0.5", "run.
                                                 "contact.friction=0"};
 
 TEST(PlanStiffness, ImpactBinds) {
-    const Scene scene = read_text(wedge_text, deep_and_hard);
+    const FilmedScene scene = read_text(wedge_text, deep_and_hard);
     const Plan plan = make_plan(scene);
     const double speed = 2.2 * scene.drive.amplitude * 2 * pi * 20;
     EXPECT_NEAR(plan.impact_speed, speed, 0.01 * speed);
@@ -87,7 +88,7 @@ TEST(PlanStiffness, ImpactBinds) {
 
 TEST(PlanStiffness, StaticLoadBindsUnderADeepHeavyBed) {
     // no drive, and a tight overlap: the fall while settling may go to 0.05 all the same
-    const Scene scene =
+    const FilmedScene scene =
         read_text(with(wedge_text, drive_text, ""), {"species.small.count=2000", "run.overlap=0.002"});
     const Plan plan = make_plan(scene);
     const double carried = std::min(plan.bed_height, 2 * scene.container.depth);
@@ -96,7 +97,7 @@ TEST(PlanStiffness, StaticLoadBindsUnderADeepHeavyBed) {
 }
 
 TEST(PlanStiffness, WaveBindsWithManyLayersAndAHighFrequency) {
-    const Scene scene =
+    const FilmedScene scene =
         read_text(wedge_text, {"species.small.count=3500", "drive.frequency=400", "drive.g_level=2"});
     const Plan plan = make_plan(scene);
     EXPECT_EQ(plan.between(0, 0).stiffness_reason, "wave");
@@ -106,14 +107,14 @@ TEST(PlanStiffness, WaveBindsWithManyLayersAndAHighFrequency) {
 
 TEST(PlanStiffness, SettlingMayBeSofter) {
     // no drive: only the fall, at the looser limit of 0.05
-    const Scene scene = read_text(with(wedge_text, drive_text, ""));
+    const FilmedScene scene = read_text(with(wedge_text, drive_text, ""));
     const Plan plan = make_plan(scene);
     EXPECT_DOUBLE_EQ(plan.impact_speed, std::sqrt(2 * 10 * (0.18 - plan.bed_height)) * 0.01 / 0.05);
     EXPECT_EQ(plan.clock.steps_per_period, 0);
 }
 
 TEST(PlanStiffness, AShallowBedIsThrownHigherThanADeepOne) {
-    const Scene one = read_text(wedge_text, {"species.small.count=1", "species.big.count=1"});
+    const FilmedScene one = read_text(wedge_text, {"species.small.count=1", "species.big.count=1"});
     const double e = 0.8;
     const double speed = make_plan(one).impact_speed / one.drive.speed();
     EXPECT_NEAR(speed, 3 * std::sqrt((1 + e) / (2 * (1 - e))), 1e-12);
@@ -165,7 +166,7 @@ TEST(PlanStiffness, WaltonBraunBranches) {
 
 // e(v) = sqrt(w0 / (w0 + S v)): what the scene says of one speed, at that speed; and at v* in the step.
 TEST(PlanContact, HardeningFollowsFromTheRestitutionAtOneSpeed) {
-    const Scene scene =
+    const FilmedScene scene =
         read_text(wedge_text, {"contact.stiffness=1e4", "contact.restitution_speed=\"20 cm/s\""});
     const Plan plan = make_plan(scene);
     const PairPlan& pair = plan.between(0, 0);
@@ -211,7 +212,7 @@ TEST(PlanDamping, RestitutionFollowsFromDamping) {
 }
 
 TEST(PlanDamping, DampingFollowsFromRestitution) {
-    const Scene scene =
+    const FilmedScene scene =
         read_text(with(box_text, "normal_damping = 2634", "restitution = 0.6"), {"contact.attraction=true"});
     const PairPlan pair = make_plan(scene).grain[0];
     const double natural = std::sqrt(1000 / (sphere_mass(0.001, 2500) / 2));
@@ -269,14 +270,15 @@ TEST(PlanStep, ContactTimeBindsForSmoothGrains) {
 }
 
 TEST(PlanStep, TheDenseBedBindsForStiffTangentialSprings) {
-    const Scene scene = read_text(box_text, {"contact.tangential_ratio=1.5", "run.steps_per_contact=8"});
+    const FilmedScene scene =
+        read_text(box_text, {"contact.tangential_ratio=1.5", "run.steps_per_contact=8"});
     const Plan plan = make_plan(scene);
     EXPECT_EQ(plan.step_reason, "stability of \"a\" among twelve neighbours");
     EXPECT_DOUBLE_EQ(plan.clock.step, 1.2 / std::sqrt(40 * 1500 / sphere_mass(0.001, 2500)));
 }
 
 TEST(PlanStep, StiffUnloadingBinds) {
-    const Scene scene =
+    const FilmedScene scene =
         read_text(with(box_text, "law = \"spring-dashpot\"\nstiffness = 1000\nnormal_damping = 2634\n",
                        "restitution = 0.1\nstiffness = 1000\n"),
                   {"run.steps_per_contact=4", "contact.friction=0", "species.b.count=1"});
@@ -289,7 +291,7 @@ TEST(PlanStep, StiffUnloadingBinds) {
 
 TEST(PlanStep, AMultipleOfEightMakesAPeriod) {
     for (const char* frequency : {"20 Hz", "7.3 Hz", "33.3 Hz", "120 Hz"}) {
-        const Scene scene = read_text(wedge_text, {std::string("drive.frequency=") + frequency});
+        const FilmedScene scene = read_text(wedge_text, {std::string("drive.frequency=") + frequency});
         const Plan plan = make_plan(scene);
         EXPECT_EQ(plan.clock.steps_per_period % 8, 0) << frequency;
         EXPECT_NEAR(
@@ -316,7 +318,7 @@ TEST(PlanStep, GivenIntervalsAndStep) {
 
 std::string warnings(const std::string& text, const std::vector<std::string>& sets) {
     std::string all;
-    for (const std::string& line : make_plan(read_text(text, sets)).warnings) all += line + "\n";
+    for (const std::string& line : plan_with_film(read_text(text, sets)).warnings) all += line + "\n";
     return all;
 }
 

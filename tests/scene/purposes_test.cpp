@@ -1,4 +1,4 @@
-#include "engine/scene/film/purposes.hpp"
+#include "render/scene/purposes.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,8 +8,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/text/data_size.hpp"
+#include "render/scene/keys/words.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -49,8 +49,8 @@ TEST(Purposes, SetDefaultsAlone) {
     EXPECT_EQ(plain.rate, 25);
     EXPECT_EQ(plain.max_size, 10'000'000);
     EXPECT_EQ(plain.preset, "slow");
-    const Scene own = read_text(wedge_text + "[film]\nsize = \"640x360\"\nmax_size = \"none\"\n",
-                                {"film.for=journal", "film.rate=30", "film.quality=25"});
+    const FilmedScene own = read_text(wedge_text + "[film]\nsize = \"640x360\"\nmax_size = \"none\"\n",
+                                      {"film.for=journal", "film.rate=30", "film.quality=25"});
     EXPECT_EQ(own.film.width, 640);
     EXPECT_EQ(own.film.rate, 30);
     EXPECT_EQ(own.film.quality, 25);
@@ -95,11 +95,12 @@ TEST(FilmFile, AGifGetsTheNearestRateThatItCanHave) {
         {30, 100 / 3.0}, {25, 25},        {24, 25},   {50, 50}, {60, 50},
         {240, 50},       {15, 100 / 7.0}, {12, 12.5}, {1, 1},   {29, 25}};
     for (const auto& [wanted, given] : cases) {
-        const Scene scene = read_text(wedge_text, {"film.format=gif", fmt::format("film.rate={}", wanted)});
+        const FilmedScene scene =
+            read_text(wedge_text, {"film.format=gif", fmt::format("film.rate={}", wanted)});
         EXPECT_NEAR(scene.film.rate, given, 1e-12) << wanted;
         EXPECT_EQ(scene.notes.empty(), wanted == given) << wanted;
     }
-    const Scene scene = read_text(wedge_text, {"film.format=gif"});
+    const FilmedScene scene = read_text(wedge_text, {"film.format=gif"});
     EXPECT_THAT(make_plan(scene).warnings[0], HasSubstr("33.33 frames/s in place of 30"));
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -14,8 +15,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // 500 grains of 4 mm in a box of 40 x 20 mm.
-Scene box() {
-    Scene scene;
+FilmedScene box() {
+    FilmedScene scene;
     Species grains;
     grains.name = "grains";
     grains.count = 500;
@@ -56,7 +57,7 @@ double highest_of_a_ball(double amplitude, double w) {
 }
 
 TEST(Reach, IsTheBedAtRestItsStrokeAndTheFlightOfATop) {
-    const Scene scene = box();
+    const FilmedScene scene = box();
     EXPECT_NEAR(*resting_top(scene), bed(), 1e-12);
     const double speed = 1.6 * 0.004 * 2 * pi * 15;
     EXPECT_NEAR(*estimated_reach(scene), bed() + 0.004 + speed * speed / (2 * 9.81), 1e-12);
@@ -65,13 +66,13 @@ TEST(Reach, IsTheBedAtRestItsStrokeAndTheFlightOfATop) {
 }
 
 TEST(Reach, OfABedShakenSidewaysHasNoStrokeUpwards) {
-    Scene upright = box(), sideways = box();
+    FilmedScene upright = box(), sideways = box();
     sideways.drive.direction = Vec3(0, 1, 0);
     EXPECT_NEAR(*estimated_reach(upright) - *estimated_reach(sideways), 0.004, 1e-12);
 }
 
 TEST(Reach, OfABedThatStaysOnTheFloorEndsWithItsStroke) {
-    Scene scene = box();
+    FilmedScene scene = box();
     scene.drive.amplitude = 0.001;
     ASSERT_LT(scene.drive.g_level(9.81), 1);
     EXPECT_NEAR(*estimated_reach(scene), bed() + 0.001, 1e-12);
@@ -80,7 +81,7 @@ TEST(Reach, OfABedThatStaysOnTheFloorEndsWithItsStroke) {
 }
 
 TEST(Reach, OfGrainsPlacedByHandIsTheirFlightUpwards) {
-    Scene scene = box();
+    FilmedScene scene = box();
     scene.drive.present = false;
     scene.species[0].count = 1;
     scene.start.grains = {{0, 0.004, Vec3(0, 0, 0.05), Vec3(0, 0, 1), Vec3(0, 0, 0)}};
@@ -88,12 +89,12 @@ TEST(Reach, OfGrainsPlacedByHandIsTheirFlightUpwards) {
 }
 
 TEST(Reach, IsNotGuessedWhereTheGrainsVolumeDoesNotTellIt) {
-    Scene empty = box(), weightless = box(), tilted = box(), planes = box();
+    FilmedScene empty = box(), weightless = box(), tilted = box(), planes = box();
     empty.container.shape = Container::Shape::none;
     weightless.gravity = {0, 0, 0};
     tilted.gravity = {0, 9.81 * std::sin(0.5), -9.81 * std::cos(0.5)};
     planes.walls = {FreeWall{}};
-    for (const Scene& scene : {empty, weightless, tilted, planes}) {
+    for (const FilmedScene& scene : {empty, weightless, tilted, planes}) {
         EXPECT_FALSE(resting_top(scene));
         EXPECT_FALSE(estimated_reach(scene));
     }

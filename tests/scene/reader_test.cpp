@@ -1,4 +1,4 @@
-#include "engine/scene/file/reader.hpp"
+#include "render/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/film/colours.hpp"
+#include "render/scene/colours.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -18,7 +18,7 @@ namespace {
 using std::numbers::pi;
 
 TEST(Reader, TakesValuesInSi) {
-    const Scene scene = read_text(wedge_text);
+    const FilmedScene scene = read_text(wedge_text);
     EXPECT_EQ(scene.name, "test");
     ASSERT_EQ(scene.species.size(), 2u);
     EXPECT_EQ(scene.species[1].name, "big");
@@ -33,29 +33,30 @@ TEST(Reader, TakesValuesInSi) {
 }
 
 TEST(Reader, AmplitudeFollowsFromTheGLevel) {
-    const Scene scene = read_text(wedge_text);
+    const FilmedScene scene = read_text(wedge_text);
     EXPECT_DOUBLE_EQ(scene.drive.amplitude, 3 * 10 / std::pow(2 * pi * 20, 2));
     EXPECT_DOUBLE_EQ(scene.drive.g_level(10), 3);
 }
 
 TEST(Reader, SpreadsAndMass) {
-    const Scene uniform = read_text(with(wedge_text, "\"5 mm\"", "{ min = \"4 mm\", max = \"6 mm\" }"));
+    const FilmedScene uniform = read_text(with(wedge_text, "\"5 mm\"", "{ min = \"4 mm\", max = \"6 mm\" }"));
     EXPECT_EQ(uniform.species[0].diameter.kind, SizeSpread::Kind::uniform);
     EXPECT_DOUBLE_EQ(uniform.species[0].diameter.mean, 0.005);
-    const Scene normal =
+    const FilmedScene normal =
         read_text(with(wedge_text, "\"5 mm\"", "{ mean = \"5 mm\", deviation = \"0.5 mm\" }"));
     EXPECT_EQ(normal.species[0].diameter.kind, SizeSpread::Kind::normal);
     EXPECT_DOUBLE_EQ(normal.species[0].diameter.smallest, 0.004);
     EXPECT_DOUBLE_EQ(normal.species[0].diameter.largest, 0.006);
-    const Scene mass = read_text(with(wedge_text, "density = 2500", "mass = \"0.2 g\""));
+    const FilmedScene mass = read_text(with(wedge_text, "density = 2500", "mass = \"0.2 g\""));
     EXPECT_DOUBLE_EQ(mass.species[0].density, 0.0002 / (pi / 6 * std::pow(0.005, 3)));
 }
 
 TEST(Reader, WallsInheritAndPairsOverride) {
-    const Scene scene = read_text(wedge_text +
-                                  "[contact.wall]\nfriction = 0.1\n"
-                                  "[[contact.pair]]\nbetween = [\"big\", \"small\"]\nrestitution = 0.5\n"
-                                  "[[contact.pair]]\nbetween = [\"wall\", \"big\"]\nfriction = inf\n");
+    const FilmedScene scene =
+        read_text(wedge_text +
+                  "[contact.wall]\nfriction = 0.1\n"
+                  "[[contact.pair]]\nbetween = [\"big\", \"small\"]\nrestitution = 0.5\n"
+                  "[[contact.pair]]\nbetween = [\"wall\", \"big\"]\nfriction = inf\n");
     EXPECT_EQ(scene.contact.wall[0].friction, 0.1);
     EXPECT_EQ(scene.contact.wall[0].restitution, 0.8);
     EXPECT_EQ(scene.between(0, 1).restitution, 0.5);
@@ -67,20 +68,20 @@ TEST(Reader, WallsInheritAndPairsOverride) {
 
 TEST(Reader, NoFrictionAnywhereLeavesOutTheTangentialLaw) {
     EXPECT_FALSE(read_text(with(wedge_text, "friction = 0.3", "friction = 0")).contact.rubs());
-    const Scene rough_wall =
+    const FilmedScene rough_wall =
         read_text(with(wedge_text, "friction = 0.3", "friction = 0") + "[contact.wall]\nfriction = 0.3\n");
     EXPECT_EQ(rough_wall.contact.grain[0].tangential, TangentialLaw::none);
     EXPECT_EQ(rough_wall.contact.wall[0].tangential, TangentialLaw::incremental_slip);
 }
 
 TEST(Reader, GravityMayBeAVector) {
-    const Scene scene = read_text(with(wedge_text, "gravity = 10.0", "gravity = [0, \"3 m/s2\", -4]"));
+    const FilmedScene scene = read_text(with(wedge_text, "gravity = 10.0", "gravity = [0, \"3 m/s2\", -4]"));
     EXPECT_EQ(scene.gravity, Vec3(0, 3, -4));
     EXPECT_DOUBLE_EQ(scene.drive.amplitude, 3 * 5 / std::pow(2 * pi * 20, 2));
 }
 
 TEST(Reader, SetsTakePrecedence) {
-    const Scene scene =
+    const FilmedScene scene =
         read_text(wedge_text, {"species[1].count=30", "species.small.count = 50", "drive.frequency=30 Hz",
                                "run.duration=\"1 s\"", "start.settle_limit=2", "title=a b = c",
                                "contact.wall.friction=inf", "film.camera.zoom=1.5"});
@@ -154,7 +155,7 @@ TEST(Reader, ListsAndTablesCanBeEmptiedFromTheCommandLine) {
 }
 
 TEST(Reader, KnowsWhereEveryValueStands) {
-    const Scene scene = read_text(wedge_text, {"run.duration=1"});
+    const FilmedScene scene = read_text(wedge_text, {"run.duration=1"});
     EXPECT_EQ(scene.where("species[1].count"), "test.toml:10:1");
     EXPECT_EQ(scene.where("drive.frequency"), "test.toml:24:1");
     EXPECT_EQ(scene.where("run.duration"), "--set run.duration");
@@ -172,26 +173,26 @@ std::string species_text(std::size_t n) {
 }
 
 TEST(Reader, DefaultColoursAreThoseThatOthersLeave) {
-    const Scene scene =
+    const FilmedScene scene =
         read_text(wedge_text + species_text(2), {"species.big.colour=sky-blue", "species[2].colour=#009e73"});
     const char* expected[] = {"orange", "sky-blue", "green", "yellow"};
-    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(scene.species[i].colour, *parse_colour(expected[i])) << i;
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(scene.colours[i], *parse_colour(expected[i])) << i;
 }
 
 TEST(Reader, MoreSpeciesThanColoursIsAWarning) {
-    const Scene eight = read_text(wedge_text + species_text(6));
+    const FilmedScene eight = read_text(wedge_text + species_text(6));
     for (std::size_t i = 0; i < 8; ++i)
-        for (std::size_t j = 0; j < i; ++j) EXPECT_NE(eight.species[i].colour, eight.species[j].colour);
-    EXPECT_TRUE(make_plan(eight).warnings.empty());
-    const Scene nine = read_text(wedge_text + species_text(7));
-    EXPECT_EQ(nine.species[8].colour, nine.species[0].colour);
+        for (std::size_t j = 0; j < i; ++j) EXPECT_NE(eight.colours[i], eight.colours[j]);
+    EXPECT_TRUE(plan_with_film(eight).warnings.empty());
+    const FilmedScene nine = read_text(wedge_text + species_text(7));
+    EXPECT_EQ(nine.colours[8], nine.colours[0]);
     const std::string warning =
         ": \"small\" and \"more6\" look alike: there are more species than default colours; give one a "
         "colour "
         "of its own, such as colour = \"#8b4513\"";
-    ASSERT_EQ(make_plan(nine).warnings.size(), 1u);
-    EXPECT_EQ(make_plan(nine).warnings[0], nine.where("species[0]") + warning);
-    EXPECT_TRUE(make_plan(read_text(wedge_text + species_text(7), {"species.more6.colour=#8b4513"}))
+    ASSERT_EQ(plan_with_film(nine).warnings.size(), 1u);
+    EXPECT_EQ(plan_with_film(nine).warnings[0], nine.where("species[0]") + warning);
+    EXPECT_TRUE(plan_with_film(read_text(wedge_text + species_text(7), {"species.more6.colour=#8b4513"}))
                     .warnings.empty());
 }
 
@@ -201,13 +202,13 @@ TEST(Reader, StartFileCountsFromTheScenesFolder) {
     std::ofstream(folder / "final.csv") << "x";
     std::ofstream(folder / "scene.toml")
         << wedge_text << "[start]\nmethod = \"file\"\nfile = \"./final.csv\"\n";
-    const Scene scene = read_scene(folder / "scene.toml", {}, measurable_in);
+    const FilmedScene scene = read_filmed_scene(folder / "scene.toml", {}, measurable_in);
     EXPECT_EQ(scene.start.file, (folder / "final.csv").string());
     std::filesystem::remove_all(folder);
 }
 
 TEST(Reader, DefaultFilmIsSlowAtBothEndsAndLockedBetween) {
-    const Scene scene = read_text(wedge_text, {"run.duration=10"});
+    const FilmedScene scene = read_text(wedge_text, {"run.duration=10"});
     ASSERT_EQ(scene.film.segments.size(), 3u);
     EXPECT_EQ(scene.film.segments[0].kind, FilmSegment::Kind::motion);
     EXPECT_DOUBLE_EQ(*scene.film.segments[0].duration, 0.4);
@@ -231,20 +232,21 @@ const std::string three_segments =
     "0.5\n";
 
 TEST(Reader, ARunShortenedOnTheCommandLineShortensItsSegments) {
-    const Scene scene = read_text(wedge_text + three_segments, {"run.duration=0.4"});
+    const FilmedScene scene = read_text(wedge_text + three_segments, {"run.duration=0.4"});
     EXPECT_DOUBLE_EQ(*scene.film.segments[0].duration, 0.1);
     EXPECT_DOUBLE_EQ(*scene.film.segments[2].duration, 0.1);
     EXPECT_FALSE(scene.film.segments[1].duration);
-    const Scene all = read_text(wedge_text + "[[film.segment]]\nduration = 2\n", {"run.duration=0.4"});
+    const FilmedScene all = read_text(wedge_text + "[[film.segment]]\nduration = 2\n", {"run.duration=0.4"});
     EXPECT_DOUBLE_EQ(*all.film.segments[0].duration, 0.4);
 }
 
 TEST(Reader, ShippedScenesAreRight) {
     for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
-        EXPECT_NO_THROW(make_plan(read_scene(entry.path(), {}, measurable_in))) << entry.path();
+        EXPECT_NO_THROW(plan_with_film(read_filmed_scene(entry.path(), {}, measurable_in))) << entry.path();
     }
-    const Scene scene = read_scene(GRAINREEL_SOURCE "/scenes/wedge_segregation.toml", {}, measurable_in);
+    const FilmedScene scene =
+        read_filmed_scene(GRAINREEL_SOURCE "/scenes/wedge_segregation.toml", {}, measurable_in);
     EXPECT_GE(scene.species[0].count, 1500);
     EXPECT_GE(scene.species[1].count, 40);
     EXPECT_EQ(scene.name, "wedge_segregation");
@@ -257,24 +259,24 @@ TEST(Reader, AnOutletIsSetByItsWidthWhateverTheSceneSays) {
          {"", "outlet = \"closed\"\n", "outlet = { width = 0.03 }\n", "[container.outlet]\nwidth = 0.03\n"}) {
         std::string text = wedge_text;
         text.insert(text.find(height) + height.size(), says);
-        const Scene scene = read_scene_text(text, "test.toml",
-                                            {"container.outlet.width=20 mm", "container.outlet.opens=0.5 s"});
+        const FilmedScene scene = read_filmed_scene_text(
+            text, "test.toml", {"container.outlet.width=20 mm", "container.outlet.opens=0.5 s"});
         ASSERT_TRUE(scene.container.outlet) << says;
         EXPECT_EQ(scene.container.outlet->half_width, 0.01) << says;
         EXPECT_EQ(scene.container.outlet->opens, 0.5) << says;
     }
-    EXPECT_FALSE(
-        read_scene_text(wedge_text, "test.toml", {"container.outlet.width=20 mm", "container.outlet=closed"})
-            .container.outlet);
+    EXPECT_FALSE(read_filmed_scene_text(wedge_text, "test.toml",
+                                        {"container.outlet.width=20 mm", "container.outlet=closed"})
+                     .container.outlet);
 }
 
 // A species may be there for the walls alone.
 TEST(Reader, ASpeciesOfGluedGrainsNeedsNoCount) {
     std::string text = wedge_text;
     text.insert(text.find("[contact]"), "[[species]]\nname = \"rough\"\ndiameter = \"4 mm\"\ndensity = 1\n");
-    EXPECT_THROW(read_scene_text(text, "test.toml"), UserError);
-    const Scene scene =
-        read_scene_text(text, "test.toml", {"container.wall_grains={species=\"rough\", faces=[\"floor\"]}"});
+    EXPECT_THROW(read_filmed_scene_text(text, "test.toml"), UserError);
+    const FilmedScene scene = read_filmed_scene_text(
+        text, "test.toml", {"container.wall_grains={species=\"rough\", faces=[\"floor\"]}"});
     EXPECT_EQ(scene.grains(), 110);
     ASSERT_TRUE(scene.container.wall_grains);
     EXPECT_EQ(scene.container.wall_grains->species, 2u);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
@@ -71,8 +71,8 @@ inline std::string with(std::string text, const std::string& from, const std::st
                                    : text.replace(at, from.size(), to);
 }
 
-inline Scene read_text(const std::string& text, const Assignments& sets = {}) {
-    return read_scene_text(text, "test.toml", sets, measurable_in);
+inline FilmedScene read_text(const std::string& text, const Assignments& sets = {}) {
+    return read_filmed_scene_text(text, "test.toml", sets, measurable_in);
 }
 
 // Two grains by hand in empty space, with a plane that comes nearer.

@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -44,7 +45,7 @@ Assignments until(const std::string& duration) {
 }
 
 TEST(Shorten, LeavesOutWhatComesLaterAndSaysSoInOneLine) {
-    const Scene scene = read_text(later_text, until("1 s"));
+    const FilmedScene scene = read_text(later_text, until("1 s"));
     EXPECT_EQ(scene.drive.stages.size(), 1u);
     ASSERT_EQ(scene.film.captions.size(), 1u);
     EXPECT_EQ(scene.film.captions[0].to, 1);
@@ -60,9 +61,9 @@ TEST(Shorten, LeavesOutWhatComesLaterAndSaysSoInOneLine) {
 
 // What is written reads back, and needs nothing of the command line then.
 TEST(Shorten, AShortenedSceneReadsBack) {
-    const Scene scene = read_text(later_text, until("1 s"));
-    const Scene again =
-        read_scene_text(resolved_scene(scene, make_plan(scene)), "again.toml", {}, measurable_in);
+    const FilmedScene scene = read_text(later_text, until("1 s"));
+    const FilmedScene again =
+        read_filmed_scene_text(resolved_scene(scene, make_plan(scene)), "again.toml", {}, measurable_in);
     EXPECT_EQ(again.drive, scene.drive);
     EXPECT_EQ(again.film.captions, scene.film.captions);
     EXPECT_EQ(again.container, scene.container);
@@ -79,7 +80,7 @@ TEST(Shorten, EveryShippedSceneMayBeShort) {
     for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
         for (const char* duration : {"run.duration=2 s", "run.duration=2.5 s"})
-            EXPECT_NO_THROW(make_plan(read_scene(entry.path(), {duration}, measurable_in)))
+            EXPECT_NO_THROW(make_plan(read_filmed_scene(entry.path(), {duration}, measurable_in)))
                 << entry.path() << " " << duration;
     }
 }

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -15,7 +16,7 @@ using testing::HasSubstr;
 
 std::string complaint(const std::string& text, const Assignments& sets, const char* file = "test.toml") {
     try {
-        read_scene_text(text, file, sets, measurable_in);
+        read_filmed_scene_text(text, file, sets, measurable_in);
     } catch (const UserError& error) {
         return error.what();
     }
@@ -88,11 +89,11 @@ TEST(Utf8, AnyTextThatIsTakenCanBeReadAgain) {
     for (char c = 1; c < 0x20; ++c) all += c;
     all += "\x7f\u0080\u2028\U0001F4A5";
     const std::string name = "xΓ \"'\\ \U0001F4A5";  // a name holds no control characters
-    Scene scene =
+    FilmedScene scene =
         read_text(wedge_text, {Assignment("film.title=" + all), Assignment("species.big.name=" + name)});
     scene.film.shows.text = all;
-    const Scene back =
-        read_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in);
+    const FilmedScene back =
+        read_filmed_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {}, measurable_in);
     EXPECT_EQ(back.film.title, scene.film.title);
     EXPECT_EQ(back.species[1].name, name);
     EXPECT_EQ(back.film.shows.text, all);

@@ -10,6 +10,7 @@
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/plan/plan_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -20,7 +21,7 @@ using testing::Not;
 
 std::string warnings(const std::string& text, Assignments sets = {}) {
     std::string all;
-    for (const std::string& line : make_plan(read_text(text, sets)).warnings) all += line + "\n";
+    for (const std::string& line : plan_with_film(read_text(text, sets)).warnings) all += line + "\n";
     return all;
 }
 
@@ -87,7 +88,7 @@ TEST(Warnings, OfOverlapsNameThePairThatHasThem) {
 
 // A lone grain never meets its like, and where there are no walls nothing meets one.
 TEST(Warnings, LeaveOutPairsThatCannotMeet) {
-    const Scene nut = read_text(nut_text);
+    const FilmedScene nut = read_text(nut_text);
     const Plan plan = make_plan(nut);
     std::vector<std::string> names;
     double shares = 0;
@@ -107,7 +108,7 @@ TEST(Warnings, LeaveOutPairsThatCannotMeet) {
                                       "[[wall]]\npoint = [0, 0, \"-3 mm\"]\nnormal = [0, 0, 2]\n"
                                       "velocity = [0, 0, \"10 cm/s\"]\n",
                                       "");
-    const Scene scene = read_text(no_walls);
+    const FilmedScene scene = read_text(no_walls);
     for (const ContactKind& kind : contact_kinds(scene, make_plan(scene))) EXPECT_FALSE(kind.at_wall);
 }
 
@@ -191,7 +192,7 @@ const Assignments spread{"species.bead.diameter={ min = \"1 mm\", max = \"4 mm\"
 TEST(PlanDamping, KeepsTheRestitutionThatIsAskedForAtEverySize) {
     Assignments asked = spread;
     asked.push_back("contact.restitution=0.5");
-    const Scene scene = read_text(nut_text, asked);
+    const FilmedScene scene = read_text(nut_text, asked);
     const Plan plan = make_plan(scene);
     for (const Touching& t : extremes(scene.species[0], &scene.species[0]))
         EXPECT_NEAR(restitution_of(plan.between(0, 0), t.effective_mass), 0.5, 1e-12);
@@ -211,7 +212,7 @@ TEST(PlanDamping, KeepsTheRestitutionThatIsAskedForAtEverySize) {
 TEST(PlanDamping, ThatIsGivenStaysAndTheRangeIsTold) {
     Assignments given = spread;
     for (const char* more : {"contact.normal_damping=500", "contact.stiffness=1e4"}) given.push_back(more);
-    const Scene scene = read_text(nut_text, given);
+    const FilmedScene scene = read_text(nut_text, given);
     const Plan plan = make_plan(scene);
     const PairPlan& pair = plan.between(0, 0);
     EXPECT_EQ(pair.normal_damping, 500);
@@ -226,7 +227,7 @@ TEST(PlanDamping, ThatIsGivenStaysAndTheRangeIsTold) {
 TEST(PlanDamping, ARestitutionThatFallsWithSpeedHasARangeToo) {
     const Assignments sets{"species.bead.diameter={ min = \"1 mm\", max = \"4 mm\" }",
                            "contact.restitution=0.7", "contact.restitution_speed=0.3 m/s"};
-    const Scene scene = read_text(nut_text, sets);
+    const FilmedScene scene = read_text(nut_text, sets);
     const Plan plan = make_plan(scene);
     const PairPlan& pair = plan.between(0, 0);
     const auto e = [&](double mass) {

@@ -5,13 +5,14 @@
 #include <filesystem>
 #include <sstream>
 
+#include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
 namespace {
 
 // What the writer promises to keep: the scene with the plan's choices filled in.
-Scene filled_in(Scene scene, const Plan& plan) {
+FilmedScene filled_in(FilmedScene scene, const Plan& plan) {
     const std::size_t count = scene.species.size();
     const auto stiffness = [](const PairPlan& pair) {
         return pair.modulus > 0 ? pair.modulus : pair.loading_stiffness;
@@ -25,6 +26,7 @@ Scene filled_in(Scene scene, const Plan& plan) {
         scene.contact.grain[glued * count + i].glued_stiffness = stiffness(plan.glued[i]);
     }
     scene.run.step = plan.clock.step;
+    scene.output.instruments = scene.instruments();
     scene.run.steps_per_contact.reset();
     // A drive that changes has its records by periods, which no interval can say.
     if (scene.output.trajectory && plan.trajectory_periods == 0)
@@ -34,7 +36,7 @@ Scene filled_in(Scene scene, const Plan& plan) {
     return scene;
 }
 
-std::string scene_without_remarks(const Scene& scene, const Plan& plan) {
+std::string scene_without_remarks(const FilmedScene& scene, const Plan& plan) {
     std::istringstream lines(resolved_scene(scene, plan));
     std::string text;
     for (std::string line; std::getline(lines, line);)
@@ -52,11 +54,11 @@ void expect_equal(std::vector<PairPlan> again, std::vector<PairPlan> plan) {
     }
 }
 
-void expect_round_trip(const Scene& original) {
+void expect_round_trip(const FilmedScene& original) {
     const Plan plan = make_plan(original);
     const std::string text = resolved_scene(original, plan);
-    const Scene back = read_scene_text(text, "scene.toml", {}, measurable_in);
-    const Scene expected = filled_in(original, plan);
+    const FilmedScene back = read_filmed_scene_text(text, "scene.toml", {}, measurable_in);
+    const FilmedScene expected = filled_in(original, plan);
     EXPECT_EQ(back.title, expected.title);
     EXPECT_EQ(back.species, expected.species);
     EXPECT_EQ(back.contact, expected.contact);
@@ -178,7 +180,7 @@ TEST(Writer, GhostsAndSpansReadBackBitByBit) {
     expect_round_trip(read_text(
         wedge_text, {"film.ghost=[\"big\"]", "film.text=\"{lacey}\\n{kinetic:mJ} \\\"so\\\"\"",
                      "film.segment=[{kind=\"locked\", average=3, duration=0.5}, {exposure=\"33.3 ms\"}]"}));
-    const Scene scene = read_text(
+    const FilmedScene scene = read_text(
         wedge_text, {"film.segment=[{kind=\"locked\", average=3, duration=0.5}, {exposure=\"40 ms\", "
                      "exposures=7}]"});
     EXPECT_EQ(scene.film.segments[0].average, 3);
@@ -190,7 +192,7 @@ TEST(Writer, ShippedScenesReadBackBitByBit) {
     for (const auto& entry : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
         SCOPED_TRACE(entry.path());
-        expect_round_trip(read_scene(entry.path(), {}, measurable_in));
+        expect_round_trip(read_filmed_scene(entry.path(), {}, measurable_in));
     }
 }
 

@@ -32,7 +32,7 @@ def includes_of(tree):
 
 
 def room_of(file):
-    """engine/scene/film/x.hpp is in engine/scene, engine/frame.hpp in engine."""
+    """engine/scene/keys/x.hpp is in engine/scene, engine/frame.hpp in engine."""
     return "/".join(file.split("/")[:-1][:2])
 
 

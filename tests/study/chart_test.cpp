@@ -12,6 +12,7 @@
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/table.hpp"
 #include "render/page/embed/html.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {
@@ -29,7 +30,7 @@ struct Made {
     std::vector<MemberResult> results;
 
     explicit Made(const std::string& text) : study(folder.read(text)) {
-        members = make_members(study, [](const Scene&, const Plan&) {});
+        members = make_members(study, [](const FilmedScene&, const Plan&) {});
         for (std::size_t m = 0; m < members.size(); ++m) {
             MemberResult result;
             result.state = State::complete;

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {
@@ -19,7 +19,7 @@ using namespace test;
 using testing::HasSubstr;
 
 std::vector<Member> members_of(const Study& study) {
-    return make_members(study, [](const Scene&, const Plan&) {});
+    return make_members(study, [](const FilmedScene&, const Plan&) {});
 }
 
 std::string name_of_first(const StudyFolderOfTest& folder, const std::string& text) {
@@ -45,8 +45,8 @@ TEST(StudyMembers, HaveTheSceneThatSetWouldMake) {
     const StudyFolderOfTest folder;
     const Study study = folder.read("set = [\"run.duration=0.1 s\"]\n" + small_study);
     const Member last = members_of(study).back();
-    const Scene scene = read_scene(study.scene, last.sets);
-    const Scene typed = read_scene(
+    const FilmedScene scene = read_filmed_scene(study.scene, last.sets);
+    const FilmedScene typed = read_filmed_scene(
         study.scene, {"run.duration=0.1 s", "drive.g_level=3", "species.big.diameter=6 mm", "run.seed=2"});
     EXPECT_EQ(resolved_scene(scene, make_plan(scene)), resolved_scene(typed, make_plan(typed)));
 }

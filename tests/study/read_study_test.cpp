@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "render/app/study/file/members.hpp"
 #include "render/app/study/file/study_keys.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {
@@ -84,7 +85,7 @@ TEST(StudyReader, MistakesHaveTheirPlace) {
         const std::string text = with_line(small_study, mistake.line, mistake.other);
         ASSERT_FALSE(text.empty()) << mistake.line;
         try {
-            make_members(folder.read(text), [](const Scene&, const Plan&) {});
+            make_members(folder.read(text), [](const FilmedScene&, const Plan&) {});
             ADD_FAILURE() << "accepted: " << mistake.other;
         } catch (const UserError& error) {
             EXPECT_THAT(error.what(), HasSubstr((folder / "study.toml").string() + mistake.place + ": "))
@@ -126,7 +127,7 @@ TEST(StudyKeys, EveryShippedStudyCanBeRead) {
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(GRAINREEL_SOURCE "/scenes/studies")) {
         if (entry.path().extension() != ".toml") continue;
-        EXPECT_NO_THROW(make_members(read_study(entry.path()), [](const Scene&, const Plan&) {}))
+        EXPECT_NO_THROW(make_members(read_study(entry.path()), [](const FilmedScene&, const Plan&) {}))
             << entry.path();
     }
 }

@@ -9,6 +9,7 @@
 #include "engine/base/nearest_image.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/state/wall_motion.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -89,7 +90,8 @@ void check_grains(const Scene& scene, const World& world, const Frame& frame,
                                     count[s], scene.species[s].name, scene.species[s].count));
 }
 
-void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame) {
+void check_drive(const Scene& scene, const Clock& clock, const Frame& moment,
+                 const std::string& frame) {
     check_times(scene, clock.step, static_cast<double>(moment.step), moment.time, moment.cycles, frame);
     const double turns = moment.phase - moment.cycles - clock.initial_phase;
     if (scene.drive.present && std::abs(turns - std::round(turns)) > same_time)

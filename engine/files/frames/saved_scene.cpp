@@ -8,7 +8,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/state/checkpoint_file.hpp"
 
 namespace grainreel {
@@ -40,24 +39,23 @@ Scene plain_scene_of_run(const fs::path& folder) {
     return scene;
 }
 
-std::string scene_text_of_checkpoint(const fs::path& checkpoint) {
+CheckpointScene scene_in_checkpoint(const fs::path& checkpoint) {
     const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
     if (!label)
         throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
                                     checkpoint.string()));
-    return label->scene;
-}
-
-Assignments started_from(const fs::path& checkpoint) {
     const std::string name = checkpoint.string();
-    return {{"start.method=file", name},
-            {"start.file=" + fs::absolute(checkpoint).string(), name},
-            {"start.keep_clock=true", name}};
+    return {{label->scene, checkpoint},
+            {{"start.method=file", name},
+             {"start.file=" + fs::absolute(checkpoint).string(), name},
+             {"start.keep_clock=true", name}}};
 }
 
-Scene plain_scene_of_checkpoint(const fs::path& checkpoint) {
-    return read_scene_text(scene_text_of_checkpoint(checkpoint), checkpoint, started_from(checkpoint),
-                           measurable_in);
+Scene scene_of_checkpoint(const fs::path& checkpoint) {
+    const auto [text, sets] = scene_in_checkpoint(checkpoint);
+    Scene scene;
+    read_scene_into(scene, text, sets, measurable_in);
+    return scene;
 }
 
 }  // namespace grainreel

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "engine/scene/file/reader.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 
@@ -17,13 +18,13 @@ std::filesystem::path file_of_run(const std::filesystem::path& folder, const cha
 // The scene.toml of a run's folder; named after the folder. Throws UserError for one that cannot be read.
 Scene plain_scene_of_run(const std::filesystem::path& folder);
 
-// The scene of a checkpoint as it was used; it starts from the checkpoint. Throws UserError where the file is
-// none.
-Scene plain_scene_of_checkpoint(const std::filesystem::path& checkpoint);
-
-// What makes a scene start from the checkpoint, which does not say how its grains came to be.
-Assignments started_from(const std::filesystem::path& checkpoint);
-// Its scene as text. Throws UserError likewise.
-std::string scene_text_of_checkpoint(const std::filesystem::path& checkpoint);
+// The text of a checkpoint's scene as it was used, and what makes it start from the checkpoint, which does not
+// say how its grains came to be. Whoever reads it adds own changes. Throws UserError where the file is none.
+struct CheckpointScene {
+    NamedText text;
+    Assignments sets;
+};
+CheckpointScene scene_in_checkpoint(const std::filesystem::path& checkpoint);
+Scene scene_of_checkpoint(const std::filesystem::path& checkpoint);
 
 }  // namespace grainreel

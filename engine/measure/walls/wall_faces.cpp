@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
+#include "engine/scene/measure_columns.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/face_names.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "engine/questions/expression.hpp"
 #include "engine/questions/snapshot.hpp"
-#include "engine/scene/film/film_shows.hpp"
 #include "engine/scene/text/units.hpp"
 
 namespace grainreel {
@@ -23,9 +22,9 @@ struct GrainColumn {
     std::vector<double> (*of)(const Snapshot& snapshot, const GrainList& grains);
     Needs needs = Needs::nothing;
     bool is_species = false;
-    bool costly = false;                 // looks for neighbours, or for the surface of the bed
-    std::optional<GrainValue> colour{};  // the film's colouring that shows the same
-    std::string also{};                  // another name of it, that of the colouring
+    bool costly = false;        // looks for neighbours, or for the surface of the bed
+    std::string coloured_as{};  // word of film.colour.by that shows the same; empty for none
+    std::string also{};         // another name of it, that of the colouring
 };
 
 // All of them.

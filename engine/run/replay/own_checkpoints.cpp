@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/replay/replay.hpp"
 #include "engine/start/continuation.hpp"
@@ -23,7 +24,7 @@ constexpr const char* kDamaged = "is damaged, or of another version of grainreel
 // What a scene that an earlier version kept means today: keys that it did not know have their defaults.
 std::string meant_today(const fs::path& checkpoint, const std::string& kept) {
     try {
-        const Scene scene = scene_of_checkpoint(checkpoint, {});
+        const Scene scene = scene_of_checkpoint(checkpoint);
         return scene_to_keep(scene, make_plan(scene));
     } catch (const UserError&) {
         return kept;

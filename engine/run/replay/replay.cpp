@@ -9,9 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/measure/columns.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/start/restart.hpp"
 
 namespace grainreel {
@@ -59,18 +57,13 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
     return make_plan(started_from(scene, kept.front().file));
 }
 
-Scene scene_of_checkpoint(const fs::path& checkpoint, const Assignments& sets) {
-    Assignments all = started_from(checkpoint);
-    all.insert(all.end(), sets.begin(), sets.end());
-    return read_scene_text(scene_text_of_checkpoint(checkpoint), checkpoint, all, measurable_in);
-}
-
 Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {
-    Scene scene = scene_of_checkpoint(checkpoint, {});
+    Scene scene = scene_of_checkpoint(checkpoint);
     // Instruments and fields see the run and change nothing of it.
     scene.output.instruments.clear();
+    scene.wishes = {};
     scene.output.fields = {};
-    return Simulation::at_checkpoint(scene, make_plan(scene), checkpoint, threads);
+    return Simulation::at_checkpoint(scene, make_plan(scene), checkpoint, threads, false, true);
 }
 
 Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,

@@ -11,6 +11,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/simulation/simulation.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 
@@ -22,10 +23,6 @@ using ReplayWatcher = std::function<bool(double done)>;
 // The plan of a run that has checkpoints. What its grains came from need not be there any more. Throws
 // UserError where there is no checkpoint.
 Plan plan_of_run(const Scene& scene, const std::filesystem::path& run);
-
-// The scene as it was used, with changes; it starts from the checkpoint. Throws UserError where the file is
-// none.
-Scene scene_of_checkpoint(const std::filesystem::path& checkpoint, const Assignments& sets);
 
 // A run with the scene that a checkpoint of it holds, as it was used; instruments and fields are left out.
 // Throws UserError where the checkpoint cannot be used.

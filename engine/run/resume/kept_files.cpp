@@ -12,6 +12,7 @@
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/plan/rhythm.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -74,7 +75,7 @@ std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
 }
 
 bool keeps_fields(const Scene& scene) {
-    const std::vector<std::string>& wanted = scene.output.instruments;
+    const std::vector<std::string> wanted = scene.instruments();
     return scene.output.fields.wanted() ||
            std::find(wanted.begin(), wanted.end(), observers::WallForces::instrument) != wanted.end();
 }

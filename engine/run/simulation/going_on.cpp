@@ -13,13 +13,14 @@
 namespace grainreel {
 
 Simulation Simulation::at_checkpoint(const Scene& scene, const Plan& plan,
-                                     const std::filesystem::path& checkpoint, int threads, bool may_change) {
+                                     const std::filesystem::path& checkpoint, int threads, bool may_change,
+                                     bool replays) {
     Scene there = scene;
     there.start = {};
     there.start.method = Start::Method::file;
     there.start.file = checkpoint.string();
     there.start.keep_clock = true;
-    return Simulation(std::make_unique<Impl>(there, plan, threads, may_change));
+    return Simulation(std::make_unique<Impl>(there, plan, threads, may_change, replays));
 }
 
 void Simulation::Impl::go_on() {
@@ -29,6 +30,7 @@ void Simulation::Impl::go_on() {
     const CheckpointHeader header =
         continue_from_checkpoint(scene, plan, grains, *loop, gathered, given, may_change);
     feeder.set_given(std::move(given));
+    if (replays) orientations = !grains.orientation.empty();
     set_orientations();
     step = header.step;
     start_energy = header.start_energy;

@@ -79,7 +79,7 @@ SettleReport Simulation::Impl::relax_taken(const std::function<bool(double, std:
 
 // They decide nothing: a run may begin or cease to keep them when it goes on.
 void Simulation::Impl::set_orientations() {
-    if (!scene.keeps_orientations())
+    if (!orientations)
         grains.orientation.clear();
     else if (grains.orientation.empty())
         grains.orientation.assign(grains.size(), Quaternion::Identity());

@@ -48,10 +48,11 @@ class Simulation {
     Simulation(const Scene& scene, const Plan& plan, int threads);
     // The run of the scene as a checkpoint of it has it, which may be its last step. Takes the place of the
     // scene's own start and of pack(). Throws UserError where the checkpoint cannot be used, or is of another
-    // run. may_change: the scene may be another one from then on, which the caller has checked.
+    // run. may_change: the scene may be another one from then on, which the caller has checked. replays: it
+    // has orientations where the checkpoint has them, whatever the scene says.
     static Simulation at_checkpoint(const Scene& scene, const Plan& plan,
                                     const std::filesystem::path& checkpoint, int threads,
-                                    bool may_change = false);
+                                    bool may_change = false, bool replays = false);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;

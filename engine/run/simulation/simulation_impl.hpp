@@ -22,7 +22,7 @@
 namespace grainreel {
 
 struct Simulation::Impl {
-    Impl(const Scene& s, const Plan& p, int threads, bool changes = false)
+    Impl(const Scene& s, const Plan& p, int threads, bool changes = false, bool replay = false)
         : scene(s),
           plan(p),
           team(threads > 0 ? threads : usable_processors()),
@@ -30,7 +30,8 @@ struct Simulation::Impl {
           bodies(bodies_of(s.drive, s.walls)),
           limits(health_limits(s, p)),
           observers(all_observers(), scene, plan),
-          may_change(changes) {
+          may_change(changes),
+          replays(replay) {
         if (!scene.start.packs()) take_grains();
     }
 
@@ -52,7 +53,9 @@ struct Simulation::Impl {
     bool opened = false;     // the container's outlet
 
     Observers observers;
-    bool may_change = false;            // whether a run that goes on may be another one from now on
+    bool may_change = false;  // whether a run that goes on may be another one from now on
+    bool replays = false;     // a run of before, for its moments
+    bool orientations = scene.keeps_orientations();
     std::optional<WallSums> wall_sums;  // of the last moment, where an observer needs them
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }

@@ -1,5 +1,5 @@
 // The chapters of a scene. Each adds its keys to the list of all, reads them and writes them back. The
-// chapters of [film] are in engine/scene/film/film_keys.hpp. Internal to the reader and the writer.
+// chapters of [film] are in render/scene/keys. Internal to the reader and the writer.
 #pragma once
 
 #include <string>
@@ -12,13 +12,15 @@
 
 namespace grainreel {
 
+class TableReader;
+
 // Title and gravity, above all tables.
 void list_top_level(keys::Keys& all);
 void read_top_level(Document& document, Scene& scene);
 void write_top_level(SceneText& out, const Scene& scene);
 
 void list_species(keys::Keys& all);
-void read_species(Document& document, Scene& scene);
+void read_species(Document& document, Scene& scene, TableReader* further);
 void write_species(SceneText& out, const Scene& scene);
 
 // Written with the reasons for each stiffness.
@@ -60,8 +62,6 @@ void write_run(SceneText& out, const Scene& scene, const Reasons& reasons);
 void list_fields(keys::Keys& all);
 void read_fields(Document& document, Scene& scene);  // after drive and run, and the count of fed grains
 void write_fields(SceneText& out, const Scene& scene);
-
-void read_film(Document& document, Scene& scene);  // after drive and run
 
 // Gives empty space the size of what happens in it, when all else is read.
 void size_empty_space(Scene& scene);

@@ -16,9 +16,9 @@
 #include "engine/scene/chapters/tray_keys.hpp"
 #include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/drive/stage_keys.hpp"
-#include "engine/scene/film/measure_columns.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/measure_columns.hpp"
 
 namespace grainreel {
 namespace {
@@ -31,9 +31,6 @@ constexpr double closest_packing = 0.64;  // of equal spheres at random
 // Over the largest diameter. From two on, no grain touches two images of another; half a diameter more is
 // what lists of neighbours may reach beyond contact.
 constexpr double shortest_period = 2.5;
-
-// Of the scene's size, from the camera to where it looks: nearer, and rounding says in which direction.
-constexpr double closest_camera = 1e-6;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
     throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
@@ -189,30 +186,6 @@ void check_drive(const Scene& scene) {
                  stroke, scene.container.height));
 }
 
-void check_film(const Scene& scene) {
-    const Film& film = scene.film;
-    const Camera& camera = film.camera;
-    const Extent extent = extent_of(scene);
-    const Vec3 looks_at = camera.target.value_or(extent.middle());
-    if (camera.position && (*camera.position - looks_at).norm() <= closest_camera * extent.size().norm())
-        fail(scene, "film.camera.position", "is where the camera looks; move it, or the target");
-    if (film.wall_ghost && !scene.drive.present)
-        fail(scene, "film.wall_ghost",
-             "shows where the walls rest, but nothing moves; add [drive] or take it out");
-    if (film.exaggerate == 1) return;
-    if (!scene.drive.present)
-        fail(scene, "film.exaggerate",
-             "enlarges the container's motion, but nothing moves; add [drive] or take it out");
-    const bool floor_only = scene.drive.moves == Drive::Moves::floor;
-    const bool wall_apart = std::any_of(scene.walls.begin(), scene.walls.end(), [](const FreeWall& wall) {
-        return !wall.moves || wall.velocity != Vec3(0, 0, 0);
-    });
-    if (floor_only || wall_apart)
-        fail(scene, "film.exaggerate",
-             "needs walls that all move together, or grains would be drawn inside those that do not; take it "
-             "out");
-}
-
 }  // namespace
 
 void check_scene(const Scene& scene) {
@@ -226,7 +199,6 @@ void check_scene(const Scene& scene) {
     check_outlet(scene);
     check_tray(scene);
     check_wall_grains(scene);
-    check_film(scene);
 }
 
 }  // namespace grainreel

@@ -124,7 +124,7 @@ void read_fields(Document& document, Scene& scene) {
 
 void write_fields(SceneText& out, const Scene& scene) {
     const FieldOutput& fields = scene.output.fields;
-    if (!fields.wanted() && scene.output.instruments.empty()) return;
+    if (!fields.wanted() && scene.instruments().empty()) return;
     out.table("output.fields");
     field_table().write(out, scene, fields);
 }

@@ -135,7 +135,7 @@ const KeyTable<Output>& output_table() {
             [](Document& document, const Scene&, const std::string& path, O& into) {
                 into.instruments = document.name_list(path);
             },
-            [](const O& from, const Scene&) { return names_text(from.instruments); })
+            [](const O&, const Scene& scene) { return names_text(scene.instruments()); })
             .written_at(1),
     };
     return table;

@@ -7,9 +7,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/table_reader.hpp"
 #include "engine/scene/chapters/wall_grain_keys.hpp"
-#include "engine/scene/film/colours.hpp"
-#include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {
@@ -98,7 +97,7 @@ void read_density(Document& document, const Scene&, const std::string& path, Spe
 }
 
 void read_colour_of(Document& document, const Scene&, const std::string& path, Species& species) {
-    if (document.has(path)) species.colour = read_colour(document, path, "\"orange\" or \"#e69f00\"");
+    species.colour_text = document.as_it_stands(path);
 }
 
 BoundKey<Species> diameter_key() {
@@ -138,8 +137,7 @@ BoundKey<Species> colour_key() {
         entry("colour", KeyKind::colour, note("the next Okabe-Ito colour that is free"),
               "\"#rrggbb\" or a name: black, white, grey, orange, sky-blue, green, yellow, blue, "
               "vermilion, purple."),
-        read_colour_of,
-        [](const Species& species, const Scene&) { return quoted(colour_text(species.colour)); });
+        read_colour_of, [](const Species& species, const Scene&) { return species.colour_text; });
 }
 
 const KeyTable<Species>& species_table() {
@@ -152,19 +150,6 @@ const KeyTable<Species>& species_table() {
         colour_key().read_at(2).decides_nothing(),
     };
     return table;
-}
-
-// Species without a colour get those that the others leave.
-void choose_colours(const Document& document, std::vector<Species>& species) {
-    std::vector<Colour> taken;
-    const auto has_own = [&](std::size_t i) { return document.has(fmt::format("species[{}].colour", i)); };
-    for (std::size_t i = 0; i < species.size(); ++i)
-        if (has_own(i)) taken.push_back(species[i].colour);
-    for (std::size_t i = 0; i < species.size(); ++i) {
-        if (has_own(i)) continue;
-        species[i].colour = default_colour(taken);
-        taken.push_back(species[i].colour);
-    }
 }
 
 }  // namespace
@@ -182,14 +167,18 @@ void list_species(Keys& all) {
     species_table().list(all, "species[]");
 }
 
-void read_species(Document& document, Scene& scene) {
+void read_species(Document& document, Scene& scene, TableReader* further) {
     const std::size_t count = document.size("species");
     if (count == 0)
         throw UserError(document.place("species") +
                         ": there are no grains; write [[species]] and below it name, count, "
                         "diameter and density");
-    species_table().read_elements(document, scene, "species", scene.species);
-    choose_colours(document, scene.species);
+    for (std::size_t i = 0; i < count; ++i) {
+        Species species;
+        species_table().read(document, scene, fmt::format("species[{}]", i), species);
+        scene.species.push_back(std::move(species));
+        if (further != nullptr) further->read_species(document, i);
+    }
 }
 
 void write_species(SceneText& out, const Scene& scene) {

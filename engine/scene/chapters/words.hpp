@@ -27,17 +27,4 @@ inline const Words<FieldOutput::Grid> field_grid_words{
 inline const Words<FieldOutput::Kernel> field_kernel_words{{"gaussian", FieldOutput::Kernel::gaussian},
                                                            {"lucy", FieldOutput::Kernel::lucy}};
 
-inline const Words<FilmLook::Style> style_words{
-    {"studio", FilmLook::Style::studio}, {"flat", FilmLook::Style::flat}, {"dark", FilmLook::Style::dark}};
-inline const Words<CameraFrame> camera_frame_words{
-    {"container", CameraFrame::container}, {"bed", CameraFrame::bed}, {"reach", CameraFrame::reach}};
-inline const Words<WordPlace> word_place_words{{"automatic", WordPlace::automatic},
-                                               {"gutters", WordPlace::gutters},
-                                               {"plates", WordPlace::plates},
-                                               {"none", WordPlace::none}};
-inline const Words<FilmFormat> film_format_words{{"mp4", FilmFormat::mp4},   {"webm", FilmFormat::webm},
-                                                 {"av1", FilmFormat::av1},   {"gif", FilmFormat::gif},
-                                                 {"ffv1", FilmFormat::ffv1}, {"png", FilmFormat::png},
-                                                 {"y4m", FilmFormat::y4m}};
-
 }  // namespace grainreel

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/table_reader.hpp"
 #include "engine/scene/drive/shorten.hpp"
 #include "engine/scene/file/scene_file.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"
@@ -33,44 +34,42 @@ void check_instruments(const Document& document, const Scene& scene) {
                                       fmt::join(known, ", ")));
 }
 
-// What the film shows is measured.
-void take_instruments_of_film(Scene& scene) {
-    std::vector<std::string>& taken = scene.output.instruments;
-    const auto take_instrument = [&](const std::string& name) {
-        if (std::find(taken.begin(), taken.end(), name) == taken.end()) taken.push_back(name);
-    };
-    const auto take = [&](const std::string& name) {
-        for (const MeasureColumn& column : scene.measurable.columns)
-            if (column.name == name && !column.instrument.empty()) take_instrument(column.instrument);
-    };
-    if (scene.film.shows.wall_forces.wanted) take_instrument("walls");
-    for (const FilmPlot& plot : scene.film.shows.plots) take(plot.column);
-    for (const LiveWords& words : scene.film.shows.live_words) take(words.column);
-}
-
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const Assignments& sets, const MeasurableIn& measurable) {
-    std::error_code ignored;
-    if (!file.has_parent_path() && !std::filesystem::exists(file, ignored))
-        if (const ShippedScene* shipped = shipped_scene(file.string()))
-            return read_scene_text(shipped->text, shipped->name + ".toml", sets, measurable);
-    return read_scene_text(load_scene_file(file, Pipes::taken), file, sets, measurable);
+    Scene scene;
+    read_scene_into(scene, text_of_scene(file), sets, measurable);
+    return scene;
 }
 
 Scene read_scene_text(std::string_view text, const std::filesystem::path& file, const Assignments& sets,
                       const MeasurableIn& measurable) {
-    check_name(file);
-    Document document(text, file.string());
+    Scene scene;
+    read_scene_into(scene, {std::string(text), file}, sets, measurable);
+    return scene;
+}
+
+NamedText text_of_scene(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!file.has_parent_path() && !std::filesystem::exists(file, ignored))
+        if (const ShippedScene* shipped = shipped_scene(file.string()))
+            return {std::string(shipped->text), shipped->name + ".toml"};
+    return {load_scene_file(file, Pipes::taken), file};
+}
+
+void read_scene_into(Scene& scene, const NamedText& from, const Assignments& sets,
+                     const MeasurableIn& measurable, TableReader* further) {
+    check_name(from.file);
+    Document document(from.text, from.file.string(), further != nullptr ? further->keys() : scene_keys());
     for (const Assignment& assignment : sets) document.set(assignment);
+    if (further == nullptr) scene.film_text = document.take_out("film");
     document.check_keys();
 
-    Scene scene;
-    scene.name = file.stem().string();
-    scene.file = file.string();
+    scene.name = from.file.stem().string();
+    scene.file = from.file.string();
     scene.written = document.written();
     read_top_level(document, scene);
-    read_species(document, scene);
+    read_species(document, scene, further);
     read_contact(document, scene);
     read_container(document, scene);
     read_walls(document, scene);
@@ -84,12 +83,11 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file, 
     read_fields(document, scene);
     if (measurable) scene.measurable = measurable(scene);
     check_instruments(document, scene);
-    read_film(document, scene);
-    take_instruments_of_film(scene);
+    if (further != nullptr) further->read_tables(document);
     size_empty_space(scene);
     document.check_all_read();
     check_scene(scene);
-    return scene;
+    if (further != nullptr) further->check();
 }
 
 }  // namespace grainreel

@@ -1,7 +1,6 @@
 #include "engine/scene/keys/keys.hpp"
 
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/film/film_keys.hpp"
 
 namespace grainreel {
 
@@ -17,7 +16,6 @@ const std::vector<Key>& scene_keys() {
         list_drive(all);
         list_start(all);
         list_run(all);
-        list_film(all);
         list_feeds(all);
         return all;
     }();

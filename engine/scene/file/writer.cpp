@@ -1,7 +1,6 @@
 #include "engine/scene/file/writer.hpp"
 
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/film/film_keys.hpp"
 
 namespace grainreel {
 
@@ -18,8 +17,7 @@ std::string written_scene(const Scene& scene, const Reasons& reasons) {
     write_drive(out, scene);
     write_start(out, scene);
     write_run(out, scene, reasons);
-    write_film(out, scene);
-    return out.take();
+    return out.take() + scene.film_text;
 }
 
 }  // namespace grainreel

@@ -32,6 +32,9 @@ class Document {
     // a table. Throws UserError when the place does not exist or the text is not UTF-8.
     void set(const Assignment& assignment);
 
+    // Takes a table out of the document and gives it as TOML, ready to stand in a scene file; empty where
+    // there is none. Throws UserError when the key is no table.
+    std::string take_out(const std::string& table);
     // Throws at the first key that is not in the list, or is a table and should not be, or the other way
     // round.
     void check_keys() const;
@@ -65,6 +68,8 @@ class Document {
     // absent. Throw UserError when the key is not a list, or is one.
     std::vector<std::string> value_list(const std::string& path);
     std::string value(const std::string& path);
+    // A value of any kind as TOML; empty when absent.
+    std::string as_it_stands(const std::string& path);
 
     double required_quantity(const std::string& path);
     std::string required_text(const std::string& path);

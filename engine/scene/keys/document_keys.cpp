@@ -153,6 +153,16 @@ void Document::set(const Assignment& assignment) {
     value.visit([&](const auto& found) { target.insert_or_assign(key, found); });
 }
 
+std::string Document::take_out(const std::string& table) {
+    const toml::node* const node = root_.get(table);
+    if (node == nullptr) return "";
+    if (!node->is_table()) fail(table, fmt::format("must be a table; write [{}] above its keys", table));
+    std::ostringstream text;
+    text << toml::table{{table, *node->as_table()}};
+    root_.erase(table);
+    return "\n" + text.str() + "\n";
+}
+
 void Document::check_keys() const {
     check_table("", root_);
 }

@@ -94,4 +94,9 @@ std::string Document::value(const std::string& path) {
     return in_one_line(*node);
 }
 
+std::string Document::as_it_stands(const std::string& path) {
+    const toml::node* node = read(path);
+    return node == nullptr ? "" : in_one_line(*node);
+}
+
 }  // namespace grainreel

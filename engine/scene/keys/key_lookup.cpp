@@ -191,7 +191,7 @@ std::string key_table_markdown(const std::vector<Key>& keys) {
     for (const Key& key : keys) {
         std::string inside = parent_of(key.path);
         std::string name = name_of(key.path);
-        if (find_key(inside) != nullptr) {  // a value that may be a table
+        if (find_key(inside, keys) != nullptr) {  // a value that may be a table
             name = name_of(inside) + "." + name;
             inside = parent_of(inside);
         }

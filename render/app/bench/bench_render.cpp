@@ -26,28 +26,28 @@
 #include "render/picture/spheres/light/lamp.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/picture/words/layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
 
 constexpr int kSignalBase = 128;
 
-Species species(const char* name, double diameter, const Colour& colour) {
+Species species(const char* name, double diameter) {
     Species s;
     s.name = name;
     s.diameter = {SizeSpread::Kind::fixed, diameter, diameter, diameter, 0};
     s.density = 2500;
-    s.colour = colour;
     return s;
 }
 
 // A box as high as the bed.
-Scene scene_of(const SettledBed& bed, const BenchRenderRequest& request) {
-    Scene scene;
+FilmedScene scene_of(const SettledBed& bed, const BenchRenderRequest& request) {
+    FilmedScene scene;
     scene.name = "bench";
     scene.film = request.film;
-    scene.species = {species("small", kPeersSmall, {0.337, 0.706, 0.914}),
-                     species("big", kPeersBig, {0.902, 0.624, 0.0})};
+    scene.species = {species("small", kPeersSmall), species("big", kPeersBig)};
+    scene.colours = {{0.337, 0.706, 0.914}, {0.902, 0.624, 0.0}};
     for (const std::int32_t kind : bed.grains.species) ++scene.species[static_cast<std::size_t>(kind)].count;
     scene.container.shape = Container::Shape::box;
     scene.container.half_width = 0.5 * bed.side;
@@ -76,7 +76,7 @@ Frame frame_of(const SettledBed& bed) {
 
 // Closer, until the grains fill the height of their part of the picture, or its width; then by the zoom asked
 // for.
-void fill_picture(Scene& scene, const Frame& frame) {
+void fill_picture(FilmedScene& scene, const Frame& frame) {
     scene.film.words = WordPlace::gutters;  // the zoom is not a user's
     const double zoom = std::exchange(scene.film.camera.zoom, 1.0);
     const View view = frame_container(scene, plan_layout(scene));
@@ -128,8 +128,8 @@ double coverage(Renderer& renderer, const Frame& frame) {
 // without them, since both are part of a grain's light.
 class StageTimes {
   public:
-    StageTimes(const Scene& scene, int threads) {
-        Scene less = scene;
+    StageTimes(const FilmedScene& scene, int threads) {
+        FilmedScene less = scene;
         add(less, threads);
         less.film.look.shadows = false;
         add(less, threads);
@@ -160,7 +160,7 @@ class StageTimes {
         std::unique_ptr<Renderer> renderer;
         std::array<std::vector<double>, kStages.size()> times;
     };
-    void add(const Scene& scene, int threads) {
+    void add(const FilmedScene& scene, int threads) {
         renderers_.push_back({std::make_unique<Renderer>(scene, threads), {}});
     }
     DrawTimes of(std::size_t variant) const {
@@ -229,7 +229,7 @@ int bench_render(const BenchRenderRequest& request, Reporter& reporter) {
         reporter.info("stopped; nothing was measured to its end");
         return kSignalBase + stop_signal();
     }
-    Scene scene = scene_of(bed, request);
+    FilmedScene scene = scene_of(bed, request);
     const Frame frame = frame_of(bed);
     fill_picture(scene, frame);
     StageTimes stages(scene, threads);

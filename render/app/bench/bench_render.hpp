@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/scene/scene.hpp"
 #include "render/app/report/reporter.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -11,6 +11,7 @@
 #include "render/film/codec/codec.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/film_limits.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -41,7 +42,8 @@ std::int64_t frames_of(const std::vector<SegmentCount>& film) {
     return frames;
 }
 
-void print_files(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {
+void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+                 Listing& list) {
     const std::int64_t pictures = frames_of(film), held = held_frames(scene.film);
     const DiskEstimate disk = estimate_disk(scene, plan, pictures + held);
     list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {} frames, plays for {}", scene.film.width,
@@ -73,7 +75,8 @@ void print_files(const Scene& scene, const Plan& plan, const std::vector<Segment
                               data_size_text(disk.checkpoints), data_size_text(disk.film_moments)));
 }
 
-void print_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list) {
+void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+                Listing& list) {
     const auto grains = static_cast<double>(scene.grains());
     const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
     list.line("memory",

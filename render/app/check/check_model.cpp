@@ -7,6 +7,7 @@
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/app/check/check_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -18,7 +19,7 @@ std::string stiffness_text(const PairPlan& pair) {
 
 }  // namespace
 
-void print_model(const Scene& scene, const Plan& plan, Listing& list) {
+void print_model(const FilmedScene& scene, const Plan& plan, Listing& list) {
     std::vector<std::string> in, out;
     const auto any = [&](auto&& is) {
         const auto of = [&](const PairPlan& pair) { return is(pair.model); };
@@ -75,7 +76,7 @@ std::string restitution_text(const Plan& plan, const PairPlan& pair, const Speci
     return low == high ? low : low + " to " + high;
 }
 
-std::vector<Kind> kinds_of(const Scene& scene, const Plan& plan, const Species* glued) {
+std::vector<Kind> kinds_of(const FilmedScene& scene, const Plan& plan, const Species* glued) {
     std::vector<Kind> kinds;
     const auto add = [&](const std::string& name, const PairPlan& pair, const Species& a, const Species* b) {
         kinds.push_back({name, restitution_text(plan, pair, a, b), &pair, &a, b});
@@ -97,7 +98,7 @@ std::vector<Kind> kinds_of(const Scene& scene, const Plan& plan, const Species* 
 
 }  // namespace
 
-void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out) {
+void print_contacts(const FilmedScene& scene, const Plan& plan, std::ostream& out) {
     const bool rough = !plan.glued.empty();
     const Species glued = rough ? glued_species(scene) : Species();
     std::size_t widest = 8, longest = 6;

@@ -12,8 +12,8 @@
 
 #include "engine/base/utf8.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -37,12 +37,14 @@ std::string metres_text(double metres);
 std::string span_text(double seconds);
 std::string grouped(std::int64_t count);  // 1234567 as "1,234,567"
 
-void print_setup(const Scene& scene, const Plan& plan, Listing& list);
-void print_model(const Scene& scene, const Plan& plan, Listing& list);
-void print_contacts(const Scene& scene, const Plan& plan, std::ostream& out);
-void print_files(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list);
+void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list);
+void print_model(const FilmedScene& scene, const Plan& plan, Listing& list);
+void print_contacts(const FilmedScene& scene, const Plan& plan, std::ostream& out);
+void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+                 Listing& list);
 // Measures the machine when its cache has nothing (cost_estimate.hpp).
-void print_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film, Listing& list);
+void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+                Listing& list);
 
 std::int64_t frames_of(const std::vector<SegmentCount>& film);
 

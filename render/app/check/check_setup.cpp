@@ -8,6 +8,7 @@
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "render/app/check/check_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -48,7 +49,7 @@ std::string container_text(const Container& c) {
                        metres_text(c.height), top);
 }
 
-std::string rough_text(const Scene& scene) {
+std::string rough_text(const FilmedScene& scene) {
     const WallGrains& layer = *scene.container.wall_grains;
     const Species& species = scene.species[layer.species];
     const std::size_t count = glue_grains(scene, container_faces(scene.container, scene.drive)).size();
@@ -63,13 +64,13 @@ std::string wall_text(const FreeWall& wall) {
     return wall.moves ? text + ", follows the drive" : text;
 }
 
-std::string feed_text(const Scene& scene, const Feed& feed) {
+std::string feed_text(const FilmedScene& scene, const Feed& feed) {
     const double end = std::min(feed.until.value_or(scene.run.duration), scene.run.duration);
     return fmt::format("{} {} at {:.4g} 1/s, from {:.4g} to {:.4g} s", grouped(feed.due(scene.run.duration)),
                        scene.species[feed.species].name, feed.rate, feed.from, end);
 }
 
-std::string drive_text(const Scene& scene) {
+std::string drive_text(const FilmedScene& scene) {
     const Drive& d = scene.drive;
     if (!d.present) return "none";
     const double g = scene.gravity.norm();
@@ -86,7 +87,7 @@ std::string drive_text(const Scene& scene) {
 }
 
 // "from 2.01 s over 3 periods: 12 Hz, amplitude 5 mm, gamma 3"
-std::string stage_text(const Scene& scene, const DriveSchedule& schedule, std::size_t number) {
+std::string stage_text(const FilmedScene& scene, const DriveSchedule& schedule, std::size_t number) {
     const DriveStage& stage = scene.drive.stages[number - 1];
     const double begins = schedule.begins(number), settled = schedule.settled(number);
     std::string text = fmt::format("from {:.6g} s", begins);
@@ -104,7 +105,7 @@ std::string stage_text(const Scene& scene, const DriveSchedule& schedule, std::s
     return text;
 }
 
-void print_stages(const Scene& scene, Listing& list) {
+void print_stages(const FilmedScene& scene, Listing& list) {
     if (!scene.drive.changes()) return;
     const DriveSchedule schedule(scene.drive);
     for (std::size_t k = 1; k <= scene.drive.stages.size(); ++k)
@@ -113,7 +114,7 @@ void print_stages(const Scene& scene, Listing& list) {
 
 }  // namespace
 
-void print_setup(const Scene& scene, const Plan& plan, Listing& list) {
+void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list) {
     list.line("scene", fmt::format("{} ({})", scene.title, scene.file));
     list.line("grains", fmt::format("{}, {:.3g} kg", grouped(scene.grains()), total_mass(scene)));
     for (const Species& s : scene.species) {

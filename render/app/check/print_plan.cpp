@@ -8,11 +8,12 @@
 #include "engine/plan/rain_plan.hpp"
 #include "render/app/check/check_parts.hpp"
 #include "render/film/sampling/film_limits.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
 
-std::string start_text(const Scene& scene, const Plan& plan) {
+std::string start_text(const FilmedScene& scene, const Plan& plan) {
     if (scene.start.packs() && scene.grains_at_start() == 0) return "empty; all grains come by [[feed]]";
     const std::string settling =
         fmt::format("then settling for {} at most", span_text(scene.start.settle_limit));
@@ -32,7 +33,7 @@ std::string start_text(const Scene& scene, const Plan& plan) {
     return "the grains as listed";
 }
 
-void print_time(const Scene& scene, const Plan& plan, Listing& list) {
+void print_time(const FilmedScene& scene, const Plan& plan, Listing& list) {
     const std::int64_t period = plan.clock.steps_per_period;
     list.line("step",
               fmt::format("{}{}, chosen for: {}", span_text(plan.clock.step),
@@ -49,7 +50,7 @@ void print_time(const Scene& scene, const Plan& plan, Listing& list) {
 
 }  // namespace
 
-void print_plan(const Scene& scene, const Plan& plan, std::ostream& out) {
+void print_plan(const FilmedScene& scene, const Plan& plan, std::ostream& out) {
     Listing list(out);
     print_setup(scene, plan, list);
     list.gap();
@@ -71,7 +72,7 @@ void print_plan(const Scene& scene, const Plan& plan, std::ostream& out) {
     for (const std::string& line : warnings) list.line("warning", line);
 }
 
-PlanWords plan_words(const Scene& scene, const Plan& plan) {
+PlanWords plan_words(const FilmedScene& scene, const Plan& plan) {
     std::ostringstream printed, contacts;
     Listing list(printed);
     print_setup(scene, plan, list);

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // The plan of a scene in words: what is modelled and what is left out, how it will be computed, what will
 // come out of it and what it will cost. Ends with the plan's warnings and the film's.
-void print_plan(const Scene& scene, const Plan& plan, std::ostream& out);
+void print_plan(const FilmedScene& scene, const Plan& plan, std::ostream& out);
 
 // The part of it that holds for a run that is over: lines of a name (empty where the line goes on with the
 // one before) and a text, and the table of contacts, in columns.
@@ -21,6 +21,6 @@ struct PlanWords {
     std::vector<std::pair<std::string, std::string>> lines;
     std::string contacts;
 };
-PlanWords plan_words(const Scene& scene, const Plan& plan);
+PlanWords plan_words(const FilmedScene& scene, const Plan& plan);
 
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 
 #include "render/app/check/check_parts.hpp"
 #include "render/app/estimate/disk_estimate.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -16,7 +17,7 @@ constexpr double poster_seconds = 0.5, poster_bytes = 0.5e6;
 
 }  // namespace
 
-void StudyEstimate::add_setting(const Scene& scene, const Plan& plan) {
+void StudyEstimate::add_setting(const FilmedScene& scene, const Plan& plan) {
     const ThreadPlan threads{1, 1, 1, true};
     if (settings_.empty()) {
         machine_.lattice_one = machine_.lattice_team = usual_lattice;

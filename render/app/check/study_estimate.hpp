@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/app/estimate/cost_estimate.hpp"
 #include "render/app/study/file/members.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -22,7 +22,7 @@ class StudyEstimate {
     // measured: false reckons with a machine of the kind, which does for comparing members.
     StudyEstimate(int jobs, bool films, bool measured) : jobs_(jobs), films_(films), measured_(measured) {}
 
-    void add_setting(const Scene& scene, const Plan& plan);
+    void add_setting(const FilmedScene& scene, const Plan& plan);
     MemberEstimate of(const Member& member) const;
     // s, until the last of these members is done when so many run at a time, each begun when another ends.
     double wall_seconds(const std::vector<const Member*>& members) const;

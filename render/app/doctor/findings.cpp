@@ -13,11 +13,11 @@
 
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/lattice_speed.hpp"
-#include "engine/scene/chapters/words.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/picture/gl/context.hpp"
 #include "render/picture/words/missing_letters.hpp"
+#include "render/scene/keys/words.hpp"
 
 namespace grainreel {
 namespace {

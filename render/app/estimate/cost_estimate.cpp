@@ -11,6 +11,7 @@
 #include "render/app/estimate/engine_cost.hpp"
 #include "render/app/estimate/film_probe.hpp"
 #include "render/app/estimate/speed_cache.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -43,8 +44,8 @@ double film_processor_seconds(const std::vector<SegmentCount>& film, const Machi
 }
 
 // What the picture depends on, and no more of the scene than can be helped.
-std::string look_of(const Scene& scene, const Plan& plan, const ThreadPlan& threads) {
-    Scene look = scene;
+std::string look_of(const FilmedScene& scene, const Plan& plan, const ThreadPlan& threads) {
+    FilmedScene look = scene;
     look.run = Run();
     look.output = Output();
     return fmt::format("{:016x}-{}-{}", std::hash<std::string>()(resolved_scene(look, plan)), threads.raster,
@@ -53,7 +54,7 @@ std::string look_of(const Scene& scene, const Plan& plan, const ThreadPlan& thre
 
 }  // namespace
 
-CostEstimate estimate_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+CostEstimate estimate_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
                            const ThreadPlan& threads, const MachineFigures& machine) {
     CostEstimate cost;
     const EngineCost engine = engine_cost(scene, plan);
@@ -85,7 +86,7 @@ CostEstimate estimate_cost(const Scene& scene, const Plan& plan, const std::vect
     return cost;
 }
 
-MachineFigures machine_figures(const Scene& scene, const Plan& plan, const ThreadPlan& threads,
+MachineFigures machine_figures(const FilmedScene& scene, const Plan& plan, const ThreadPlan& threads,
                                bool has_film) {
     SpeedCache cache;
     const auto engine = [&](int team) {

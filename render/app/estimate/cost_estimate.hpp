@@ -8,6 +8,7 @@
 #include "engine/scene/scene.hpp"
 #include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -33,12 +34,12 @@ struct CostEstimate {
 };
 
 // Engine and film take turns on one or two processors and work beside each other on more (thread_plan.hpp).
-CostEstimate estimate_cost(const Scene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+CostEstimate estimate_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
                            const ThreadPlan& threads, const MachineFigures& machine);
 
 // From the cache, or measured now and put there: half a second or so, and as much for a film not seen before.
 // film: false leaves out what its frames cost.
-MachineFigures machine_figures(const Scene& scene, const Plan& plan, const ThreadPlan& threads,
+MachineFigures machine_figures(const FilmedScene& scene, const Plan& plan, const ThreadPlan& threads,
                                bool film = true);
 
 }  // namespace grainreel

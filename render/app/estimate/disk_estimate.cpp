@@ -5,6 +5,7 @@
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "render/film/sampling/film_limits.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -24,7 +25,7 @@ std::int64_t moments(std::int64_t steps, double every) {
 
 }  // namespace
 
-DiskEstimate estimate_disk(const Scene& scene, const Plan& plan, std::int64_t pictures) {
+DiskEstimate estimate_disk(const FilmedScene& scene, const Plan& plan, std::int64_t pictures) {
     const auto grains = static_cast<double>(scene.grains());
     DiskEstimate disk;
     if (plan.trajectory_every > 0) {

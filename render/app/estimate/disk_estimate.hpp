@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -18,6 +18,6 @@ struct DiskEstimate {
 };
 
 // pictures: of the film; 0 without one.
-DiskEstimate estimate_disk(const Scene& scene, const Plan& plan, std::int64_t pictures);
+DiskEstimate estimate_disk(const FilmedScene& scene, const Plan& plan, std::int64_t pictures);
 
 }  // namespace grainreel

@@ -10,6 +10,7 @@
 #include "engine/start/relax.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/scheme.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -50,14 +51,14 @@ double contact_cost(const PairPlan& pair) {
 }
 
 // The law that most contacts follow: that of the commonest species.
-const PairPlan& commonest(const Scene& scene, const Plan& plan) {
+const PairPlan& commonest(const FilmedScene& scene, const Plan& plan) {
     std::size_t most = 0;
     for (std::size_t s = 0; s < scene.species.size(); ++s)
         if (scene.species[s].all() > scene.species[most].all()) most = s;
     return plan.between(most, most);
 }
 
-bool is_gas(const Scene& scene) {
+bool is_gas(const FilmedScene& scene) {
     return scene.gravity.norm() == 0;
 }
 
@@ -66,13 +67,13 @@ bool rubs(const PairPlan& pair) {
 }
 
 // What a grain saves of its lists where steps are short: up to all of kLists.
-double saved_of_lists(const Scene& scene, const Plan& plan) {
+double saved_of_lists(const FilmedScene& scene, const Plan& plan) {
     const double steps = std::sqrt(mean_diameter(scene) / scene.gravity.norm()) / plan.clock.step;
     return kLists * (1 - std::min(1.0, kStepsOfLists / steps));
 }
 
 // Over that of the lattice.
-double grain_cost(const Scene& scene, const Plan& plan, double contacts) {
+double grain_cost(const FilmedScene& scene, const Plan& plan, double contacts) {
     const PairPlan& pair = commonest(scene, plan);
     const double free = is_gas(scene) ? (rubs(pair) ? 1.0 : 0.5) * kGrainOfGas
                         : rubs(pair)  ? kGrain - saved_of_lists(scene, plan)
@@ -84,7 +85,7 @@ double grain_cost(const Scene& scene, const Plan& plan, double contacts) {
     return (free + kContact * contacts * contact_cost(pair)) * forces * size;
 }
 
-double contacts_at_rest(const Scene& scene, const Plan& plan) {
+double contacts_at_rest(const FilmedScene& scene, const Plan& plan) {
     if (is_gas(scene)) return 0;
     return rubs(commonest(scene, plan)) ? kAtRest : kAtRestWithoutFriction;
 }
@@ -94,13 +95,13 @@ double contacts_when_shaken(double at_rest, double level) {
     return level <= 1 ? at_rest : kThrown + (at_rest - kThrown) * std::exp(-kFallsOff * (level - 1));
 }
 
-double level_along_gravity(const Scene& scene, double frequency, double amplitude) {
+double level_along_gravity(const FilmedScene& scene, double frequency, double amplitude) {
     const Vec3 down = scene.gravity.normalized();
     const Drive of_stage{true, frequency, amplitude};
     return of_stage.g_level(scene.gravity.norm()) * std::abs(scene.drive.direction.dot(down));
 }
 
-double contacts_in_stage(const Scene& scene, double at_rest, const DriveStage& stage) {
+double contacts_in_stage(const FilmedScene& scene, double at_rest, const DriveStage& stage) {
     if (stage.kind == DriveStage::Kind::rest) return at_rest;
     const double shaken =
         contacts_when_shaken(at_rest, level_along_gravity(scene, stage.frequency, stage.amplitude));
@@ -120,7 +121,7 @@ double contacts_while_growing(double at_rest, double level) {
 }
 
 // Of the grains that the scene lists, how many there are in the mean over the run.
-double present(const Scene& scene, const Plan& plan) {
+double present(const FilmedScene& scene, const Plan& plan) {
     auto grains = static_cast<double>(scene.grains());
     const double end = scene.run.duration;
     for (const Feed& feed : scene.feeds) {
@@ -133,7 +134,7 @@ double present(const Scene& scene, const Plan& plan) {
     return std::max(1.0, grains * (1 - leave * open));
 }
 
-double packing_cost(const Scene& scene, const Plan& plan, double& steps) {
+double packing_cost(const FilmedScene& scene, const Plan& plan, double& steps) {
     if ((!scene.start.packs() && !plan.start.relaxes) || scene.grains_at_start() == 0) return 0;
     const auto grains = static_cast<double>(scene.grains_at_start());
     const double dense = grain_cost(scene, plan, contacts_at_rest(scene, plan));
@@ -155,9 +156,9 @@ double packing_cost(const Scene& scene, const Plan& plan, double& steps) {
     return steps * (grains * dense + kStep);
 }
 
-double measuring_cost(const Scene& scene, const Plan& plan, double grains, double contacts) {
+double measuring_cost(const FilmedScene& scene, const Plan& plan, double grains, double contacts) {
     const auto steps = static_cast<double>(plan.steps);
-    const auto& instruments = scene.output.instruments;
+    const std::vector<std::string> instruments = scene.instruments();
     const bool balance =
         std::find(instruments.begin(), instruments.end(), "energy_balance") != instruments.end();
     const double others = static_cast<double>(instruments.size()) - (balance ? 1 : 0);
@@ -169,7 +170,7 @@ double measuring_cost(const Scene& scene, const Plan& plan, double grains, doubl
 
 }  // namespace
 
-double mean_contacts(const Scene& scene, const Plan& plan) {
+double mean_contacts(const FilmedScene& scene, const Plan& plan) {
     const double at_rest = contacts_at_rest(scene, plan), end = scene.run.duration;
     if (is_gas(scene)) return 0;
     // What runs out is loose, and what has run out lies or is gone.
@@ -195,7 +196,7 @@ double mean_contacts(const Scene& scene, const Plan& plan) {
     return flowing * sum / end;
 }
 
-EngineCost engine_cost(const Scene& scene, const Plan& plan) {
+EngineCost engine_cost(const FilmedScene& scene, const Plan& plan) {
     EngineCost cost;
     const double grains = present(scene, plan), contacts = mean_contacts(scene, plan);
     cost.packing = packing_cost(scene, plan, cost.packing_steps);

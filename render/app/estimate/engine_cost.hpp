@@ -7,7 +7,7 @@
 #pragma once
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -19,9 +19,9 @@ struct EngineCost {
 };
 
 // Rows of measures, instruments and fields are in the run.
-EngineCost engine_cost(const Scene& scene, const Plan& plan);
+EngineCost engine_cost(const FilmedScene& scene, const Plan& plan);
 
 // Contacts a grain, the mean over the run.
-double mean_contacts(const Scene& scene, const Plan& plan);
+double mean_contacts(const FilmedScene& scene, const Plan& plan);
 
 }  // namespace grainreel

@@ -14,6 +14,7 @@
 #include "engine/scene/bed.hpp"
 #include "render/app/report/stop_signal.hpp"
 #include "render/film/production/film_maker.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -65,7 +66,7 @@ void add_grain(Frame& frame, std::size_t species, double radius, const Vec3& pos
 }
 
 // Which species come one after another, so that all are spread over the bed.
-std::vector<std::size_t> spread_species(const Scene& scene) {
+std::vector<std::size_t> spread_species(const FilmedScene& scene) {
     std::vector<std::size_t> all;
     for (std::size_t s = 0; s < scene.species.size(); ++s)
         all.insert(all.end(), static_cast<std::size_t>(scene.species[s].all()), s);
@@ -98,7 +99,7 @@ struct FilmUse {
 };
 
 // Of a film of so many frames, or fewer where they take long.
-FilmUse use_of_film(const Scene& scene, const ThreadPlan& threads, const Frame& bed, int most,
+FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const Frame& bed, int most,
                     const HeldSignals& signals) {
     const ProbeFolder folder;
     FilmOptions options;
@@ -125,7 +126,7 @@ FilmUse use_of_film(const Scene& scene, const ThreadPlan& threads, const Frame& 
 
 }  // namespace
 
-Frame stacked_bed(const Scene& scene) {
+Frame stacked_bed(const FilmedScene& scene) {
     Frame frame;
     if (scene.start.method == Start::Method::grains) {
         for (const ListedGrain& grain : scene.start.grains)
@@ -152,7 +153,7 @@ Frame stacked_bed(const Scene& scene) {
     return frame;
 }
 
-std::optional<FilmSpeed> probe_film(const Scene& scene, const ThreadPlan& threads) {
+std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& threads) {
     if (scene.grains() > most_grains) return std::nullopt;
     const HeldSignals signals;  // the folder of the film is to go first
     try {

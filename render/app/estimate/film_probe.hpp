@@ -5,9 +5,9 @@
 #include <string>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/app/estimate/speed_cache.hpp"
 #include "render/film/request/thread_plan.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -17,9 +17,9 @@ constexpr double film_setup_seconds = 0.2;
 // Draws and encodes some frames of the scene's grains, stacked as the bed will lie, in a folder that is gone
 // afterwards. None when that is not possible here (no OpenGL, no codec, no room),
 // and of beds of more than 200,000 grains.
-std::optional<FilmSpeed> probe_film(const Scene& scene, const ThreadPlan& threads);
+std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& threads);
 
 // The scene's grains in a stack from the floor up, as loose as a shaken bed. Exposed for tests.
-Frame stacked_bed(const Scene& scene);
+Frame stacked_bed(const FilmedScene& scene);
 
 }  // namespace grainreel

@@ -8,7 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/film/grain_values.hpp"
+#include "engine/scene/text/fitting_unit.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {

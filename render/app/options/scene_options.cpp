@@ -6,9 +6,9 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/chapters/words.hpp"
-#include "engine/scene/film/purposes.hpp"
 #include "render/app/options/option_groups.hpp"
+#include "render/scene/keys/words.hpp"
+#include "render/scene/purposes.hpp"
 
 namespace grainreel {
 

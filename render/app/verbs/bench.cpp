@@ -8,13 +8,13 @@
 
 #include "engine/base/error.hpp"
 #include "engine/lab/bench/bench_run.hpp"
-#include "engine/scene/film/colours.hpp"
 #include "render/app/bench/bench_render.hpp"
 #include "render/app/bench/bench_text.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/report/share_watcher.hpp"
 #include "render/app/verbs/verb.hpp"
+#include "render/scene/colours.hpp"
 
 namespace grainreel {
 namespace {

@@ -9,6 +9,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -22,8 +23,8 @@ class Check final : public Verb {
     void add_options(CLI::App& parser) override { add_scene(parser, scene_, sets_); }
 
     int run(Reporter&) override {
-        const Scene scene = read_scene(scene_, sets_, measurable_in);
-        const Plan plan = make_plan(scene);
+        const FilmedScene scene = read_filmed_scene(scene_, sets_, measurable_in);
+        const Plan plan = plan_with_film(scene);
         check_start(scene, plan);
         std::ostringstream text;
         print_plan(scene, plan, text);

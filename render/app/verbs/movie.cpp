@@ -5,7 +5,6 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
@@ -13,6 +12,7 @@
 #include "render/app/verbs/verb.hpp"
 #include "render/app/watch/watch_child.hpp"
 #include "render/film/run/movie_run.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -39,8 +39,8 @@ class Movie final : public Verb {
         film_.command = command;
         film_.program = program_info();
         if (!no_page_) film_.page = page_of_ended_run();
-        const Scene scene = read_scene(scene_, sets_, measurable_in);
-        const Plan plan = make_plan(scene);
+        const FilmedScene scene = read_filmed_scene(scene_, sets_, measurable_in);
+        const Plan plan = plan_with_film(scene);
         std::optional<Listening> listening;
         if (watched_) listening.emplace(listen_at(place_));
         MovieRun movie(film_, reporter, scene, plan);

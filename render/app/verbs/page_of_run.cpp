@@ -5,6 +5,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/film/sources/recorded_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -34,9 +35,9 @@ bool kept_moments(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<PlannedScene> planned_scene(const Scene& scene) {
+std::optional<PlannedScene> planned_scene(const FilmedScene& scene) {
     try {
-        Plan plan = make_plan(scene);
+        Plan plan = plan_with_film(scene);
         PlanWords words = plan_words(scene, plan);
         return PlannedScene{std::move(plan), std::move(words.lines), std::move(words.contacts)};
     } catch (const UserError&) {

@@ -7,6 +7,8 @@
 
 #include "engine/run/folder/run_request.hpp"
 #include "render/page/report.hpp"
+#include "render/film/request/film_request.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -20,7 +22,7 @@ std::optional<ReportMade> make_page_of(const std::vector<std::filesystem::path>&
                                        const PageProgress& progress);
 
 // None where this version of the program would not run the scene.
-std::optional<PlannedScene> planned_scene(const Scene& scene);
+std::optional<PlannedScene> planned_scene(const FilmedScene& scene);
 
 // Makes report.html in the folder of a run that has just ended, however it ended.
 PageMaker page_of_ended_run();

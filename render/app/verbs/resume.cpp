@@ -31,6 +31,8 @@
 #include "render/film/run/resumed_film.hpp"
 #include "render/film/request/thread_plan.hpp"
 #include "render/film/sources/recorded_scene.hpp"
+#include "engine/run/driver/key_moments.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -79,7 +81,7 @@ class Resume final : public Verb {
         std::shared_ptr<FolderLock> lock = locked(folder);
         put_back_former(folder, reporter);
         if (is_only_page_missing(folder)) return make_missing_page(folder, reporter);
-        Scene scene = scene_to_go_on(folder, {});
+        FilmedScene scene = scene_to_go_on(folder, {});
         Plan plan = plan_of_run(scene, folder);
         std::vector<AcceptedChange> changes;
         if (!accept_.empty()) {
@@ -165,7 +167,7 @@ class Resume final : public Verb {
         const std::size_t equals = one.find('=');
         const std::string key = one.substr(0, equals), value = one.substr(equals);
         if (key != "contact.friction" && key != "contact.rolling_friction") return {{one, "--accept"}};
-        const std::size_t species = read_scene(file, {}, measurable_in).species.size();
+        const std::size_t species = read_filmed_scene(file, {}, measurable_in).species.size();
         Assignments all;
         for (std::size_t k = 0; k < species * (species + 3) / 2; ++k)
             all.push_back({fmt::format("contact.pair[{}].{}{}", k, key.substr(sizeof "contact." - 1), value),
@@ -175,13 +177,14 @@ class Resume final : public Verb {
 
     // The run is another one from the checkpoint on, which is saved again with what it is now, so that later
     // moments come back from it as they were.
-    void take_up(const std::vector<AcceptedChange>& changes, const fs::path& folder, Scene& scene, Plan& plan,
-                 ResumePoint& point, int threads) const {
+    void take_up(const std::vector<AcceptedChange>& changes, const fs::path& folder, FilmedScene& scene,
+                 Plan& plan, ResumePoint& point, int threads) const {
         const double time = plan.clock.time(point.simulation.step());
-        Scene changed = scene_to_go_on(folder, {});
+        FilmedScene changed = scene_to_go_on(folder, {});
         const std::string words = words_of_changes(scene, changed, changes);
         changed.drive = drive_changed_at(time, scene, changed, changes);
         add_caption_of_change(changed, time, words);
+        tell_engine(changed);
         const Plan changed_plan = plan_of_run(changed, folder);
         check_overlap_stays(scene, plan, changed_plan);
         point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
@@ -194,7 +197,7 @@ class Resume final : public Verb {
     }
 
     // With the end that is asked for, and values that were given with --accept; `undone` goes before those.
-    Scene scene_to_go_on(const fs::path& folder, const Assignments& undone) const {
+    FilmedScene scene_to_go_on(const fs::path& folder, const Assignments& undone) const {
         const fs::path file = scene_file(folder);
         Assignments sets;
         if (threads_) sets.push_back({fmt::format("run.threads={}", *threads_), "--threads"});
@@ -202,7 +205,7 @@ class Resume final : public Verb {
             if (undone.empty() && one.find('=') != std::string::npos)
                 for (Assignment& set : spelled_out(one, file)) sets.push_back(std::move(set));
         sets.insert(sets.end(), undone.begin(), undone.end());
-        const Scene before = read_scene(file, sets, measurable_in);
+        const FilmedScene before = read_filmed_scene(file, sets, measurable_in);
         const std::vector<KeptCheckpoint> kept = kept_checkpoints(folder);
         if (kept.empty())
             throw UserError(
@@ -220,11 +223,11 @@ class Resume final : public Verb {
                             until_ || more_ ? (until_ ? "--until" : "--for") : folder.string(), reached));
         if (until_ || more_)
             sets.push_back({fmt::format("run.duration={} s", end), until_ ? "--until" : "--for"});
-        return read_scene(file, sets, measurable_in);
+        return read_filmed_scene(file, sets, measurable_in);
     }
 
     // run.json and the pictures name the scene that the run was made of.
-    static void name_as_before(Scene& scene, const fs::path& folder) {
+    static void name_as_before(FilmedScene& scene, const fs::path& folder) {
         const std::string file = scene_in_run_json(folder / "run.json");
         if (file.empty()) return;
         scene.file = file;

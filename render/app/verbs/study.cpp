@@ -22,6 +22,7 @@
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/table.hpp"
 #include "render/app/verbs/verb.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -74,7 +75,7 @@ class StudyVerb final : public Verb {
                                                  : std::vector<ReferencePoint>());
         StudyEstimate estimate(request_.jobs, request_.films, dry_);
         members_ = make_members(
-            study, [&](const Scene& scene, const Plan& plan) { estimate.add_setting(scene, plan); });
+            study, [&](const FilmedScene& scene, const Plan& plan) { estimate.add_setting(scene, plan); });
         folder_.path =
             std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
         check_folder();

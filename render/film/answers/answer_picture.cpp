@@ -11,6 +11,7 @@
 #include "render/film/request/thread_plan.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/whole/renderer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -21,8 +22,8 @@ bool is_among(const std::vector<std::int32_t>& ids, std::int32_t id) {
 }
 
 // Whether the film's cut takes one of these grains away.
-bool cut_hides(const Scene& scene, const Snapshot& snapshot, const std::vector<std::int32_t>& ids) {
-    const std::vector<HalfSpace> halves = kept_by_cut(scene.film.look.cut, snapshot.frame);
+bool cut_hides(const Snapshot& snapshot, const FilmCut& cut, const std::vector<std::int32_t>& ids) {
+    const std::vector<HalfSpace> halves = kept_by_cut(cut, snapshot.frame);
     return std::any_of(ids.begin(), ids.end(), [&](std::int32_t id) {
         const std::optional<std::size_t> grain = snapshot.place_of(id);
         return grain && std::any_of(halves.begin(), halves.end(), [&](const HalfSpace& half) {
@@ -32,7 +33,7 @@ bool cut_hides(const Scene& scene, const Snapshot& snapshot, const std::vector<s
 }
 
 // Of one moment, which nothing came before.
-Scene scene_of_moment(Scene scene, const Snapshot& snapshot, const AnswerMarks& marks) {
+FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const AnswerMarks& marks) {
     FilmShows& shows = scene.film.shows;
     shows.plots.clear();
     shows.wall_forces = {};
@@ -48,7 +49,7 @@ Scene scene_of_moment(Scene scene, const Snapshot& snapshot, const AnswerMarks& 
     for (const std::int32_t id : marks.grains)
         if (const auto grain = snapshot.place_of(id))
             std::erase(shows.hidden, static_cast<std::size_t>(snapshot.frame.species[*grain]));
-    if (cut_hides(scene, snapshot, marks.grains)) scene.film.look.cut = {};
+    if (cut_hides(snapshot, scene.film.look.cut, marks.grains)) scene.film.look.cut = {};
     return scene;
 }
 
@@ -66,9 +67,9 @@ void check_picture_file(const std::filesystem::path& file) {
         throw UserError(fmt::format("--png {}: exists already; choose another name", file.string()));
 }
 
-void draw_answer(const Scene& with_film, const Snapshot& snapshot, const AnswerMarks& marks, double film_time,
-                 const std::filesystem::path& file, gl::Provider provider) {
-    const Scene scene = scene_of_moment(with_film, snapshot, marks);
+void draw_answer(const Snapshot& snapshot, const FilmedScene& filmed, const AnswerMarks& marks,
+                 double film_time, const std::filesystem::path& file, gl::Provider provider) {
+    const FilmedScene scene = scene_of_moment(filmed, snapshot, marks);
     Frame frame = snapshot.frame;
     if (scene.film.shows.force_chains)
         std::erase_if(frame.touches, [&](const Touch& touch) {

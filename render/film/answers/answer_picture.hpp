@@ -8,6 +8,8 @@
 #include "engine/questions/snapshot.hpp"
 #include "engine/state/point_force.hpp"
 #include "render/picture/gl/provider.hpp"
+#include "render/picture/marks/point_forces.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -21,9 +23,9 @@ struct AnswerMarks {
 
 // As the scene's film would show the moment, with that in it. What the film takes from earlier moments and
 // from measures is left out; a cut or a hidden species gives way where it would take away a grain of the
-// answer. with_film: the snapshot's scene, with its film. Throws UserError where the file is there already.
-void draw_answer(const Scene& with_film, const Snapshot& snapshot, const AnswerMarks& marks, double film_time,
-                 const std::filesystem::path& file, gl::Provider provider);
+// answer. Throws UserError where the file is there already.
+void draw_answer(const Snapshot& snapshot, const FilmedScene& scene, const AnswerMarks& marks,
+                 double film_time, const std::filesystem::path& file, gl::Provider provider);
 
 // The same mistakes, before anything is asked.
 void check_picture_file(const std::filesystem::path& file);

@@ -27,7 +27,9 @@ void open_table(FilmedRecord& one, const fs::path& file, const Assignments& sets
     if (!sets.empty())
         throw UserError(fmt::format("{}: there is no scene.toml beside {}, so nothing of it can be set",
                                     sets.front().place(), file.string()));
-    one.film.emplace(one.state->scene());
+    FilmedScene& film = one.film.emplace();
+    static_cast<Scene&>(film) = one.state->scene();
+    film.colours.resize(film.species.size());
 }
 
 }  // namespace

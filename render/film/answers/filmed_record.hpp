@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/questions/record.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/sources/recorded_run.hpp"
 
@@ -14,11 +14,11 @@ namespace grainreel {
 
 struct FilmedRecord {
     const Record* record = nullptr;
-    const Scene& scene() const { return run ? run->scene() : *film; }  // with its film
+    const FilmedScene& scene() const { return run ? run->scene() : *film; }  // with its film
 
     std::unique_ptr<const RecordedRun> run;    // of a run's folder
     std::unique_ptr<const Record> state;       // of a single state
-    std::optional<Scene> film;                 // likewise
+    std::optional<FilmedScene> film;                 // likewise
 };
 
 // A run's folder. sets: as for a RecordedRun. Throws UserError likewise.

@@ -12,12 +12,12 @@
 namespace grainreel {
 namespace {
 
-View view_of(const Scene& scene, const Frame& shown, double film_time) {
+View view_of(const FilmedScene& scene, const Frame& shown, double film_time) {
     const View view = CameraPath(scene, plan_layout(scene)).at(film_time);
     return scene.film.camera.follow ? view.moved_by(shown.container().place) : view;
 }
 
-AlongRay along(const Scene& scene, const Frame& shown) {
+AlongRay along(const FilmedScene& scene, const Frame& shown) {
     AlongRay along;
     for (const HalfSpace& half : kept_by_cut(scene.film.look.cut, shown))
         along.kept.push_back({half.normal, half.distance});
@@ -28,7 +28,8 @@ AlongRay along(const Scene& scene, const Frame& shown) {
 
 }  // namespace
 
-PixelPicker::PixelPicker(const Scene& scene, const Snapshot& s, double film_time) : scene_(scene), snapshot_(s) {
+PixelPicker::PixelPicker(const Snapshot& s, const FilmedScene& scene, double film_time)
+    : snapshot_(s), scene_(scene) {
     Exaggeration exaggeration(scene.film.exaggerate);
     ShownGrains not_hidden(scene, scene.film.shows.hidden);
     const Frame& shown = exaggeration.shown(s.frame);

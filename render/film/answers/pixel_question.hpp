@@ -5,15 +5,16 @@
 #include "engine/questions/ray.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "render/picture/base/view.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // A moment as the scene's film shows it: its size, camera, cut, hidden species. Ghosts are seen through.
 class PixelPicker {
   public:
-    // scene: that of the snapshot, with its film. film_time: s since the film's first frame: where a camera that
-    // moves is then. Scene and snapshot must outlive this.
-    PixelPicker(const Scene& scene, const Snapshot& snapshot, double film_time);
+    // film_time: s since the film's first frame: where a camera that moves is then. Snapshot and scene must
+    // outlive this.
+    PixelPicker(const Snapshot& snapshot, const FilmedScene& scene, double film_time);
 
     // The ray that a pixel looks along; x, y: of the picture, from its top left corner, a pixel's middle at
     // + 0.5. Throws UserError outside the part of the picture that shows the bed.
@@ -22,8 +23,8 @@ class PixelPicker {
     Answer at(double x, double y, bool through) const;
 
   private:
-    const Scene& scene_;
     const Snapshot& snapshot_;
+    const FilmedScene& scene_;
     Frame shown_;
     View view_;
 };

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -5,11 +5,12 @@
 #include "render/film/codec/capped_film.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/gif_film.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
 
-EncoderSettings encoder_settings(const Scene& scene, const FilmWriterOptions& options) {
+EncoderSettings encoder_settings(const FilmedScene& scene, const FilmWriterOptions& options) {
     EncoderSettings settings;
     settings.codec = &codec_of(scene.film.format);
     settings.path = options.to_stdout ? to_stdout : options.folder / film_file_name(scene.film.format);
@@ -35,7 +36,7 @@ std::string left_film_name(FilmFormat format) {
     return format == FilmFormat::gif ? GifFilm::spool_name() : film_file_name(format);
 }
 
-std::unique_ptr<FilmWriter> make_film_writer(const Scene& scene, const FilmWriterOptions& options) {
+std::unique_ptr<FilmWriter> make_film_writer(const FilmedScene& scene, const FilmWriterOptions& options) {
     if (scene.film.format == FilmFormat::png) return nullptr;
     const EncoderSettings settings = encoder_settings(scene, options);
     if (scene.film.format == FilmFormat::gif) return std::make_unique<GifFilm>(settings, scene.film.max_size);

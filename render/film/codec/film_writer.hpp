@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -39,6 +39,6 @@ std::string film_file_name(FilmFormat format);
 std::string left_film_name(FilmFormat format);
 
 // Creates the film's file. Null for a film of PNG pictures. Throws RunError.
-std::unique_ptr<FilmWriter> make_film_writer(const Scene& scene, const FilmWriterOptions& options);
+std::unique_ptr<FilmWriter> make_film_writer(const FilmedScene& scene, const FilmWriterOptions& options);
 
 }  // namespace grainreel

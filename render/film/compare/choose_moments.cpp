@@ -12,6 +12,7 @@
 #include "render/film/sampling/pacing.hpp"
 #include "render/film/compare/comparison.hpp"
 #include "render/film/sources/choice.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -19,8 +20,8 @@ namespace {
 
 constexpr double hair = 1e-9;  // s
 
-std::vector<Scene> scenes_of(const Comparison& all) {
-    std::vector<Scene> scenes;
+std::vector<FilmedScene> scenes_of(const Comparison& all) {
+    std::vector<FilmedScene> scenes;
     for (const auto& member : all.members) scenes.push_back(member->scene());
     return scenes;
 }
@@ -77,7 +78,7 @@ bool take_moments_of_schedule(Comparison& all) {
     const bool any_moment = std::all_of(all.members.begin(), all.members.end(), [](const auto& member) {
         return member->source().supply().any_moment;
     });
-    Scene film = all.film;
+    FilmedScene film = all.film;
     if (!any_moment) film.film.segments = of_single_moments(segments_of(film.film));
     for (FilmSegment& segment : film.film.segments) segment = spanning(segment, common_periods(all));
     Pictures pictures;
@@ -95,11 +96,11 @@ bool take_moments_of_schedule(Comparison& all) {
 }
 
 void warn_of_schedule(Comparison& all) {
-    const std::vector<Scene> scenes = scenes_of(all);
+    const std::vector<FilmedScene> scenes = scenes_of(all);
     for (std::string& line : pace_warnings(all.film, all.members[all.reference]->clock()))
         all.warnings.push_back(std::move(line));
     std::set<double> frequencies;
-    for (const Scene& scene : scenes) {
+    for (const FilmedScene& scene : scenes) {
         if (!scene.drive.present || !frequencies.insert(scene.drive.frequency).second) continue;
         for (std::string& strobe : strobe_warnings(all.film.film, scene.drive, scene.run.duration))
             all.warnings.push_back(std::move(strobe));

@@ -10,13 +10,14 @@
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/compare/vary.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 namespace {
 
-std::vector<Scene> scenes_of(const Comparison& all) {
-    std::vector<Scene> scenes;
+std::vector<FilmedScene> scenes_of(const Comparison& all) {
+    std::vector<FilmedScene> scenes;
     for (const auto& member : all.members) scenes.push_back(member->scene());
     return scenes;
 }
@@ -51,7 +52,7 @@ void leave_out_captions(const CompareRequest& what, Comparison& all) {
 }
 
 void make_panels(const CompareRequest& what, Comparison& all) {
-    const std::vector<Scene> scenes = scenes_of(all);
+    const std::vector<FilmedScene> scenes = scenes_of(all);
     std::vector<std::string> captions = all.labels.empty() ? captions_of(scenes) : all.labels;
     if (what.captions) captions = split(*what.captions);
     for (const std::string& caption : captions)
@@ -92,10 +93,10 @@ void make_panels(const CompareRequest& what, Comparison& all) {
 }
 
 // Name, title and film of the whole: those of the first, a title only when all have it.
-Scene whole(const std::vector<Scene>& scenes) {
-    Scene film = scenes.front();
+FilmedScene whole(const std::vector<FilmedScene>& scenes) {
+    FilmedScene film = scenes.front();
     film.name.clear();
-    for (const Scene& scene : scenes) {
+    for (const FilmedScene& scene : scenes) {
         film.name += (film.name.empty() ? "" : "-vs-") + scene.name;
         if (scene.film.title != film.film.title) film.film.title.clear();
     }

@@ -12,13 +12,14 @@
 #include "render/film/sampling/timeline.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/film/compare/member.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 struct Comparison {
     std::vector<std::unique_ptr<Member>> members;
     std::vector<Panel> panels;        // as drawn, in the same order
-    Scene film;                       // stands for the whole: name, title, size, rate, segments, duration
+    FilmedScene film;                 // stands for the whole: name, title, size, rate, segments, duration
     Pictures pictures;                // of every member
     std::size_t reference = 0;        // the panel by whose drive the film goes
     bool by_schedule = true;          // the film's segments chose the moments; else a finished run did

@@ -6,10 +6,11 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-Member::Member(const Scene& scene, const Plan& plan, int threads)
+Member::Member(const FilmedScene& scene, const Plan& plan, int threads)
     : driver_(std::make_unique<RunDriver>(scene, plan, threads)),
       source_(std::make_unique<SceneRun>(scene, *driver_)) {}
 

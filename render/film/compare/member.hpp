@@ -15,6 +15,7 @@
 #include "render/film/sources/scene_run.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/revisited_run.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -22,12 +23,12 @@ class Member {
   public:
     using GoOn = FrameSource::GoOn;
 
-    Member(const Scene& scene, const Plan& plan, int threads);
+    Member(const FilmedScene& scene, const Plan& plan, int threads);
     explicit Member(std::unique_ptr<RevisitedRun> record)
         : record_(record.get()), source_(std::move(record)) {}
 
     const FrameSource& source() const { return *source_; }
-    const Scene& scene() const { return source_->scene(); }
+    const FilmedScene& scene() const { return source_->scene(); }
     const FrameArchive* archive() const { return source_->archive(); }  // null for what is run
     const RunDriver* run() const { return driver_.get(); }              // null for a record
     const RevisitedRun* record() const { return record_; }              // null for what is run

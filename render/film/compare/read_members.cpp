@@ -12,6 +12,7 @@
 #include "engine/scene/file/reader.hpp"
 #include "render/film/compare/comparison.hpp"
 #include "render/film/compare/vary.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
@@ -74,24 +75,24 @@ void check_not_set_too(const CompareRequest& what, const std::vector<Input>& inp
 }
 
 // Each has a folder of its own in that of the comparison.
-void number_names(std::vector<Scene>& scenes) {
+void number_names(std::vector<FilmedScene>& scenes) {
     std::set<std::string> taken{"frames"};
-    for (Scene& scene : scenes) {
+    for (FilmedScene& scene : scenes) {
         const std::string name = scene.name;
         for (int number = 2; !taken.insert(scene.name).second; ++number)
             scene.name = fmt::format("{}-{}", name, number);
     }
 }
 
-std::vector<Scene> read_scenes(const CompareRequest& what, const std::vector<Input>& inputs,
-                               const Assignments& more) {
-    std::vector<Scene> scenes;
+std::vector<FilmedScene> read_scenes(const CompareRequest& what, const std::vector<Input>& inputs,
+                                     const Assignments& more) {
+    std::vector<FilmedScene> scenes;
     for (const Input& input : inputs) {
         if (input.is_run()) continue;
         check_not_pipe(input.path);
         Assignments sets = input.sets(what);
         sets.insert(sets.end(), more.begin(), more.end());
-        scenes.push_back(read_scene(input.path, sets, measurable_in));
+        scenes.push_back(read_filmed_scene(input.path, sets, measurable_in));
         if (input.value) scenes.back().name = name_with(scenes.back().name, *input.value);
     }
     number_names(scenes);
@@ -99,11 +100,14 @@ std::vector<Scene> read_scenes(const CompareRequest& what, const std::vector<Inp
 }
 
 // All scenes end when the shortest does; a film's segments are shortened with it.
-std::vector<Scene> read_scenes_of_one_length(const CompareRequest& what, const std::vector<Input>& inputs,
-                                             std::vector<std::string>& warnings) {
-    std::vector<Scene> scenes = read_scenes(what, inputs, {});
+std::vector<FilmedScene> read_scenes_of_one_length(const CompareRequest& what,
+                                                   const std::vector<Input>& inputs,
+                                                   std::vector<std::string>& warnings) {
+    std::vector<FilmedScene> scenes = read_scenes(what, inputs, {});
     if (scenes.empty()) return scenes;
-    const auto by_duration = [](const Scene& a, const Scene& b) { return a.run.duration < b.run.duration; };
+    const auto by_duration = [](const FilmedScene& a, const FilmedScene& b) {
+        return a.run.duration < b.run.duration;
+    };
     const auto [shortest, longest] = std::minmax_element(scenes.begin(), scenes.end(), by_duration);
     if (shortest->run.duration == longest->run.duration) return scenes;
     warnings.push_back(fmt::format("{} lasts {:.6g} s, {} {:.6g} s: all are run and shown for {:.6g} s",
@@ -112,7 +116,7 @@ std::vector<Scene> read_scenes_of_one_length(const CompareRequest& what, const s
     return read_scenes(what, inputs, {fmt::format("run.duration={}", shortest->run.duration)});
 }
 
-void check_start(const Scene& scene) {
+void check_start(const FilmedScene& scene) {
     if (scene.start.keep_clock)
         throw UserError(
             fmt::format("{}: goes on at the clock of its start file, but scenes that are compared "
@@ -120,12 +124,12 @@ void check_start(const Scene& scene) {
                         scene.where("start.keep_clock")));
 }
 
-ThreadPlan plan_threads_for(const std::vector<Scene>& scenes) {
+ThreadPlan plan_threads_for(const std::vector<FilmedScene>& scenes) {
     if (scenes.empty()) return drawing_threads(0);
     const int wanted = scenes.front().run.threads;
     const int processors = wanted > 0 ? wanted : usable_processors();
     std::int64_t grains = 0;
-    for (const Scene& scene : scenes) grains += scene.grains();
+    for (const FilmedScene& scene : scenes) grains += scene.grains();
     ThreadPlan threads = plan_threads(processors, true, grains);
     threads.engine = std::max(1, threads.engine / static_cast<int>(scenes.size()));  // for each
     return threads;
@@ -142,7 +146,7 @@ std::unique_ptr<Member> member_of_run(const CompareRequest& what, const Input& i
 void read_members(const CompareRequest& what, Comparison& all) {
     const std::vector<Input> inputs = inputs_of(what);
     check_not_set_too(what, inputs);
-    const std::vector<Scene> scenes = read_scenes_of_one_length(what, inputs, all.warnings);
+    const std::vector<FilmedScene> scenes = read_scenes_of_one_length(what, inputs, all.warnings);
     all.threads = plan_threads_for(scenes);
     std::size_t next = 0;
     std::set<std::string> said;
@@ -156,15 +160,15 @@ void read_members(const CompareRequest& what, Comparison& all) {
             say(all.members.back()->source().news());
             continue;
         }
-        const Scene& scene = scenes[next++];
+        const FilmedScene& scene = scenes[next++];
         check_start(scene);
-        const Plan plan = make_plan(scene);
+        const Plan plan = plan_with_film(scene);
         say(plan.warnings);
         all.members.push_back(std::make_unique<Member>(scene, plan, all.threads.engine));
     }
     if (!what.vary) return;
     std::vector<Assignment> values;
-    std::vector<Scene> varied;
+    std::vector<FilmedScene> varied;
     for (const Input& input : inputs) values.push_back(*input.value);
     for (const auto& member : all.members) varied.push_back(member->scene());
     all.labels = labels_of(values, varied);

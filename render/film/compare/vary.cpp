@@ -13,6 +13,8 @@
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/filmed_scene.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
@@ -78,16 +80,17 @@ bool is_number(const std::string& text) {
 }
 
 // The key that the value was given to, "species[1].density" for "species.big.density"; none of a table.
-std::string path_of(const Assignment& value, const Scene& scene) {
+std::string path_of(const Assignment& value, const FilmedScene& scene) {
     std::string longest;
     for (const auto& [path, where] : scene.written)
-        if (where.file == value.place() && find_key(path) != nullptr && path.size() > longest.size())
+        if (where.file == value.place() && find_key(path, filmed_scene_keys()) != nullptr &&
+            path.size() > longest.size())
             longest = path;
     return longest;
 }
 
 std::string with_unit(const std::string& text, const std::string& path) {
-    const Key* key = path.empty() ? nullptr : find_key(path);
+    const Key* key = path.empty() ? nullptr : find_key(path, filmed_scene_keys());
     const bool measured =
         key != nullptr && key->dimension != Dimension::number &&
         (key->kind == KeyKind::quantity || key->kind == KeyKind::diameter || key->kind == KeyKind::gravity);
@@ -104,7 +107,7 @@ std::string words_of_key(const std::string& key) {
 }
 
 // As the frames say it; empty for a key without a symbol.
-std::string with_symbol(const std::string& path, const Scene& scene) {
+std::string with_symbol(const std::string& path, const FilmedScene& scene) {
     if (path == "drive.frequency") return "f = " + frequency_text(scene.drive.frequency);
     if (path == "drive.g_level") return fmt::format("Γ = {:.4g}", scene.drive.g_level(scene.gravity.norm()));
     if (path == "drive.amplitude") return "a = " + length_text(scene.drive.amplitude);
@@ -138,7 +141,8 @@ std::vector<Assignment> read_vary(const std::string& typed) {
     return assignments;
 }
 
-std::vector<std::string> labels_of(const std::vector<Assignment>& values, const std::vector<Scene>& scenes) {
+std::vector<std::string> labels_of(const std::vector<Assignment>& values,
+                                   const std::vector<FilmedScene>& scenes) {
     std::vector<std::string> symbols, words;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::string path = path_of(values[i], scenes[i]);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -16,7 +16,8 @@ std::vector<Assignment> read_vary(const std::string& typed);
 
 // What tells the panels apart: "Γ = 2", "friction = 0.3", "density of big = 2500 kg/m3". scenes: read with
 // the values, in the same order.
-std::vector<std::string> labels_of(const std::vector<Assignment>& values, const std::vector<Scene>& scenes);
+std::vector<std::string> labels_of(const std::vector<Assignment>& values,
+                                   const std::vector<FilmedScene>& scenes);
 
 // Whether the value changes what happens in the scene, and not its picture or its random choices alone.
 bool changes_the_scene(const Assignment& value);

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/film/sampling/film_limits.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -46,7 +47,7 @@ bool may_need_copy(const Film& film, std::int64_t pictures) {
            estimate_is_good_to * estimated_film_size(film, pictures) > static_cast<double>(kMostFilmOnPage);
 }
 
-EncoderSettings settings_of_copy(const Scene& scene, const fs::path& path, int width, int height,
+EncoderSettings settings_of_copy(const FilmedScene& scene, const fs::path& path, int width, int height,
                                  int threads) {
     EncoderSettings settings;
     settings.path = path;
@@ -59,7 +60,7 @@ EncoderSettings settings_of_copy(const Scene& scene, const fs::path& path, int w
     return settings;
 }
 
-PageCopy::PageCopy(const Scene& scene, const fs::path& folder, int threads)
+PageCopy::PageCopy(const FilmedScene& scene, const fs::path& folder, int threads)
     : format_(scene.film.format),
       file_(folder / kPageCopy),
       work_(folder / fmt::format("{}.part", kPageCopy)),

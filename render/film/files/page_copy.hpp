@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "engine/scene/scene.hpp"
 #include "render/film/codec/colour_conversion.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/ffmpeg_handles.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -24,13 +24,13 @@ bool plays_in_browsers(FilmFormat format);
 bool may_need_copy(const Film& film, std::int64_t pictures);
 
 // Of a film of that height.
-EncoderSettings settings_of_copy(const Scene& scene, const std::filesystem::path& path, int width, int height,
-                                 int threads);
+EncoderSettings settings_of_copy(const FilmedScene& scene, const std::filesystem::path& path, int width,
+                                 int height, int threads);
 
 class PageCopy {
   public:
     // Creates the file under a name for work. Throws RunError.
-    PageCopy(const Scene& scene, const std::filesystem::path& folder, int threads);
+    PageCopy(const FilmedScene& scene, const std::filesystem::path& folder, int threads);
     // Without finish(): the file goes.
     ~PageCopy();
     PageCopy(const PageCopy&) = delete;

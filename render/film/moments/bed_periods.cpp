@@ -6,10 +6,11 @@
 #include <fmt/format.h>
 
 #include "engine/scene/bed.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-BedPeriods::BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots,
+BedPeriods::BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,
                        const std::vector<FilmSegment>& segments, bool may_leave_out)
     : clock_(clock),
       wanted_(scene.film.periods),

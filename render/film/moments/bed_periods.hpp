@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/measure/bed/period_multiple.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -18,9 +18,10 @@ class BedPeriods {
     // shots: of the whole film; which of them are shown counts from the first of a segment, so that a run
     // that is taken up shows the same. may_leave_out: some of them; else all are shown.
     // segments: of the film, which need not be the scene's own.
-    BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots,
+    BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,
                const std::vector<FilmSegment>& segments, bool may_leave_out);
-    BedPeriods(const Scene& scene, const Clock& clock, const std::vector<Shot>& shots, bool may_leave_out)
+    BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,
+               bool may_leave_out)
         : BedPeriods(scene, clock, shots, segments_of(scene.film), may_leave_out) {}
 
     // What measures say by then (columns bed_periods and period_difference_m).

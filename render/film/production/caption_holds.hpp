@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

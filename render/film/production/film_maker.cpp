@@ -12,6 +12,7 @@
 #include "render/film/production/bounded_queue.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/production/picture_files.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -31,7 +32,7 @@ constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn 
 constexpr std::chrono::milliseconds turn_patience(250);
 constexpr std::chrono::milliseconds glance(50);  // how often who is in a hurry is asked
 
-std::size_t frames_that_wait(const Scene& scene, const FilmOptions& options) {
+std::size_t frames_that_wait(const FilmedScene& scene, const FilmOptions& options) {
     if (!options.take_turns) return waiting_frames;
     std::int64_t moments = 1;  // that a picture is exposed over
     for (const FilmSegment& segment : scene.film.segments)
@@ -56,7 +57,7 @@ struct Drawn {
 }  // namespace
 
 struct FilmMaker::Impl {
-    Impl(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer)
+    Impl(const FilmedScene& scene, const FilmOptions& options, DrawerMaker make_drawer)
         : holds(scene.film),
           files(scene, options),
           make(std::move(make_drawer)),
@@ -191,7 +192,7 @@ struct FilmMaker::Impl {
     std::thread drawing, encoding;
 };
 
-FilmMaker::FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer)
+FilmMaker::FilmMaker(const FilmedScene& scene, const FilmOptions& options, DrawerMaker make_drawer)
     : impl_(std::make_unique<Impl>(scene, options, std::move(make_drawer))) {}
 
 FilmMaker::~FilmMaker() = default;

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/gl/provider.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -64,8 +64,8 @@ using DrawerMaker = std::function<std::unique_ptr<Drawer>()>;
 class FilmMaker {
   public:
     // Creates the film's file and folder. Throws RunError when they cannot be written.
-    FilmMaker(const Scene& scene, const FilmOptions& options);  // draws with the Renderer
-    FilmMaker(const Scene& scene, const FilmOptions& options, DrawerMaker make_drawer);
+    FilmMaker(const FilmedScene& scene, const FilmOptions& options);  // draws with the Renderer
+    FilmMaker(const FilmedScene& scene, const FilmOptions& options, DrawerMaker make_drawer);
     ~FilmMaker();  // abandons what is queued; the film on disk still plays
 
     // Waits until the drawer is made and says what it is. Throws RunError when it cannot be made.

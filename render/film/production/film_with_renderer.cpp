@@ -2,13 +2,14 @@
 #include "render/film/production/film_maker.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/whole/renderer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
 
 class RendererDrawer final : public Drawer {
   public:
-    RendererDrawer(const Scene& scene, const FilmOptions& options)
+    RendererDrawer(const FilmedScene& scene, const FilmOptions& options)
         : renderer_(with_orbit(scene, options), options.raster_threads, options.gl), rate_(scene.film.rate) {
         if (options.start) renderer_.start_from(*options.start);
     }
@@ -20,7 +21,7 @@ class RendererDrawer final : public Drawer {
     std::string last_note() const override { return renderer_.colour_note(); }
 
   private:
-    static Scene with_orbit(Scene scene, const FilmOptions& options) {
+    static FilmedScene with_orbit(FilmedScene scene, const FilmOptions& options) {
         settle_orbit(scene.film.camera, static_cast<double>(options.pictures) / scene.film.rate);
         return scene;
     }
@@ -32,7 +33,7 @@ class RendererDrawer final : public Drawer {
 
 }  // namespace
 
-FilmMaker::FilmMaker(const Scene& scene, const FilmOptions& options)
+FilmMaker::FilmMaker(const FilmedScene& scene, const FilmOptions& options)
     : FilmMaker(scene, options,
                 [scene, options] { return std::make_unique<RendererDrawer>(scene, options); }) {}
 

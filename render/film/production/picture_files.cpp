@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -32,7 +33,7 @@ std::string flash_remedy(const Film& film) {
 std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
                               const std::string& playback) {
     return {{"Title", title},
-            {"Scene", scene},
+            {"FilmedScene", scene},
             {"Time", fmt::format("{:.9g} s", frame.time)},
             {"Drive phase", fmt::format("{:.9g}", frame.phase)},
             {"Step", std::to_string(frame.step)},
@@ -40,7 +41,7 @@ std::vector<PngText> texts_of(const std::string& scene, const std::string& title
             {"Software", "grainreel"}};
 }
 
-PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
+PictureFiles::PictureFiles(const FilmedScene& scene, const FilmOptions& options)
     : folder_(options.folder),
       check_folder_(options.check_folder),
       name_(scene.name),
@@ -68,7 +69,7 @@ PictureFiles::PictureFiles(const Scene& scene, const FilmOptions& options)
 }
 
 // What an earlier film left goes in any case.
-void PictureFiles::open_copy(const Scene& scene, const FilmOptions& options) {
+void PictureFiles::open_copy(const FilmedScene& scene, const FilmOptions& options) {
     std::error_code ignored;
     std::filesystem::remove(folder_ / kPageCopy, ignored);
     if (!options.page_copy || !may_need_copy(scene.film, options.pictures)) return;
@@ -134,7 +135,7 @@ void PictureFiles::finish() {
     check_folder_();
     if (sheet_ && count_ > 0)
         write_png(folder_ / "sheet.png", sheet_->draw(last_.picture),
-                  {{"Title", title_}, {"Scene", name_}, {"Software", "grainreel"}});
+                  {{"Title", title_}, {"FilmedScene", name_}, {"Software", "grainreel"}});
     if (film_) film_->finish();
     with_copy([&](PageCopy& copy) { copy.finish(folder_ / film_file_); });
     complete_ = true;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/files/flash_watch.hpp"
 #include "render/film/files/page_copy.hpp"
@@ -17,6 +16,7 @@
 #include "render/film/production/film_maker.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/panels/contact_sheet.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -33,7 +33,7 @@ std::vector<PngText> texts_of(const std::string& scene, const std::string& title
 class PictureFiles {
   public:
     // Creates the film's file and the folder of frames. Throws RunError.
-    PictureFiles(const Scene& scene, const FilmOptions& options);
+    PictureFiles(const FilmedScene& scene, const FilmOptions& options);
 
     // Takes the next picture and gives a picture back whose buffer may be drawn over. Throws RunError.
     Picture add(DrawnFrame drawn);
@@ -55,7 +55,7 @@ class PictureFiles {
     std::vector<std::string> notes() const;
 
   private:
-    void open_copy(const Scene& scene, const FilmOptions& options);
+    void open_copy(const FilmedScene& scene, const FilmOptions& options);
     // Does something to the copy. One that fails goes, and the film goes on.
     void with_copy(const std::function<void(PageCopy&)>& act);
     void consider_poster(const DrawnFrame& drawn);

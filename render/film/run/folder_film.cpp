@@ -10,13 +10,13 @@
 
 namespace grainreel {
 
-void FolderFilm::check(const Scene& scene, std::int64_t frames) const {
+void FolderFilm::check(const FilmedScene& scene, std::int64_t frames) const {
     if (request_.to_stdout && !(request_.film && scene.film.format == FilmFormat::y4m))
         throw UserError("--out -: stdout takes a film in y4m alone; add --format y4m, or name a folder");
     if (request_.film) check_max_size(scene, frames);
 }
 
-void FolderFilm::open(const Scene& scene, std::int64_t pictures, FramePtr start, DrawerMaker draw) {
+void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr start, DrawerMaker draw) {
     if (!wanted()) return;
     FilmOptions film;
     film.folder = desk_.folder->path();

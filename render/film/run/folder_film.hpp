@@ -7,7 +7,7 @@
 
 #include "engine/run/folder/run_desk.hpp"
 #include "engine/run/folder/side_work.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/request/film_request.hpp"
 #include "render/film/request/thread_plan.hpp"
@@ -23,13 +23,13 @@ class FolderFilm final : public SideWork {
     // Whether pictures are asked for at all.
     bool wanted() const { return request_.film || request_.frames; }
     // What scene and options ask of the film's file. Throws UserError.
-    void check(const Scene& scene, std::int64_t frames) const;
+    void check(const FilmedScene& scene, std::int64_t frames) const;
     void use_threads(const ThreadPlan& threads) { threads_ = threads; }
     const ThreadPlan& threads() const { return threads_; }
 
     // Of so many pictures. start: from which start heights are counted; null: from the film's first picture.
     // draw: what makes pictures; none for the Renderer. Nothing happens where no pictures are wanted.
-    void open(const Scene& scene, std::int64_t pictures, FramePtr start = nullptr, DrawerMaker draw = {});
+    void open(const FilmedScene& scene, std::int64_t pictures, FramePtr start = nullptr, DrawerMaker draw = {});
     // Takes pictures while it is open.
     FilmMaker& maker() { return *film_; }
     // Progress of what is drawn alone.

@@ -11,33 +11,33 @@ namespace grainreel {
 
 namespace {
 
-Pictures schedule(const FilmRequest& request, const Scene& scene, const Plan& plan) {
+Pictures schedule(const FilmRequest& request, const FilmedScene& scene, const Plan& plan) {
     if (!request.film && !request.frames) return {};
     const bool may_leave_out = true;
     return {instants_of(scene, plan.clock, plan.steps), scene.film.segments, may_leave_out};
 }
 
-ThreadPlan threads_for(const FilmRequest& request, const Scene& scene) {
+ThreadPlan threads_for(const FilmRequest& request, const FilmedScene& scene) {
     const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
     return plan_threads(processors, request.film || request.frames, scene.grains());
 }
 
 }  // namespace
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan)
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan)
     : MovieRun(request, listener, scene, plan, threads_for(request, scene), schedule(request, scene, plan)) {
     check_film();
     new_folder();
 }
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
                    ResumePoint point, std::shared_ptr<FolderLock> lock)
     : MovieRun(request, listener, scene, plan, std::move(point), schedule(request, scene, plan)) {
     check_film();
     go_on_in(std::move(lock), source_.has_shots(pictures_));
 }
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
                    const ThreadPlan& threads, Pictures pictures)
     : SceneFolderRun(request, listener, scene, plan, threads.engine),
       pictures_(std::move(pictures)),
@@ -47,7 +47,7 @@ MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scen
     film_.use_threads(threads);
 }
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
                    ResumePoint point, Pictures pictures)
     : SceneFolderRun(request, listener, scene, plan, std::move(point)),
       pictures_(std::move(pictures)),
@@ -62,7 +62,7 @@ void MovieRun::check_film() const {
 }
 
 std::vector<std::string> MovieRun::more_warnings() const {
-    const Scene& scene = source_.scene();
+    const FilmedScene& scene = source_.scene();
     std::vector<std::string> warnings;
     if (!film_.wanted()) return warnings;
     for (const std::vector<std::string>& found :
@@ -91,7 +91,7 @@ bool MovieRun::next(const RunDriver::GoOn& go_on) {
 }
 
 void MovieRun::take(const Taken& picture) {
-    const Scene& scene = source_.scene();
+    const FilmedScene& scene = source_.scene();
     const auto timer = desk_.times.during("waiting for the film");
     const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(picture.segment));
     const FilmSegment pace = played(spanning(rule, picture.periods), scene.film.rate, driver_.plan().clock);

@@ -7,7 +7,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/run/folder/scene_folder_run.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/film/sampling/sampler.hpp"
@@ -19,16 +19,16 @@ namespace grainreel {
 class MovieRun final : public SceneFolderRun {
   public:
     // Throws UserError for what scene, plan or options get wrong; nothing is on disk then.
-    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
+    MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan);
     // The run in the folder request.out, which is locked, goes on from that point. Throws UserError or
     // RunError; nothing in the folder has changed then.
-    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+    MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
              ResumePoint point, std::shared_ptr<FolderLock> lock);
 
   private:
-    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+    MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
              const ThreadPlan& threads, Pictures pictures);
-    MovieRun(const FilmRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
+    MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
              ResumePoint point, Pictures pictures);
 
     void start() override;

@@ -11,6 +11,7 @@
 #include "render/film/sampling/pacing.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/choice.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -107,7 +108,7 @@ void RedrawRun::choose_kept(const RenderRequest& what) {
 }
 
 std::vector<std::string> RedrawRun::warnings() const {
-    const Scene& scene = source_.scene();
+    const FilmedScene& scene = source_.scene();
     std::vector<std::string> warnings = source_.news();
     const auto add = [&](std::vector<std::string> lines) {
         std::move(lines.begin(), lines.end(), std::back_inserter(warnings));

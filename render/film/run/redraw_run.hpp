@@ -7,6 +7,7 @@
 
 #include "render/film/run/film_run.hpp"
 #include "render/film/sources/revisited_run.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -28,7 +29,7 @@ class RedrawRun final : public FilmRun {
     std::string caption_of(const Taken& picture) const;
 
     RevisitedRun& source_;
-    Scene scene_;                                                 // the run's, with a film of those
+    FilmedScene scene_;                                           // the run's, with a film of those
     std::vector<Shot> shots_;                                     // that are drawn, each as it is shown
     bool kept_alone_ = false;                                     // frames of the trajectory
     std::size_t brought_back_ = 0, replaced_ = 0, left_out_ = 0;  // of the shots

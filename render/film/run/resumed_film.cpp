@@ -25,7 +25,7 @@ bool is_of_single_moments(const Film& film) {
 
 // The first step before `end` at which the film that is to be made and the pictures whose moments were kept
 // differ; `end` when there is none. A locked picture may have been left out.
-std::int64_t film_agrees_until(const Scene& scene, const Plan& plan, const std::vector<std::int64_t>& kept,
+std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan, const std::vector<std::int64_t>& kept,
                                std::int64_t first, std::int64_t end) {
     const std::vector<Instant> instants = instants_of(scene, plan.clock, plan.steps);
     std::size_t k = 0;
@@ -46,20 +46,20 @@ std::int64_t film_agrees_until(const Scene& scene, const Plan& plan, const std::
 
 }  // namespace
 
-bool has_film(const Scene& scene, const fs::path& run) {
+bool has_film(const FilmedScene& scene, const fs::path& run) {
     const std::string name = film_file_name(scene.film.format);
     return (!name.empty() && (is_there(run / name) || is_there(run / (name + ".part")))) ||
            is_there(run / "movie.work") || is_there(run / "frames") || is_there(run / kFilmMoments);
 }
 
-FramesReach reach_of_film(const Scene& scene, const Plan& plan) {
+FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan) {
     return [&](const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t last) {
         return is_of_single_moments(scene.film) ? film_agrees_until(scene, plan, kept, first, last) : first;
     };
 }
 
 // Captions do not overlap: the one that is there then ends, and the next one comes when it did.
-void add_caption_of_change(Scene& scene, double time, const std::string& text) {
+void add_caption_of_change(FilmedScene& scene, double time, const std::string& text) {
     if (text.empty()) return;
     std::vector<FilmCaption>& captions = scene.film.captions;
     const auto next = std::find_if(captions.begin(), captions.end(),

@@ -13,6 +13,7 @@
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "engine/questions/asked_moment.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Beside the run: "wedge-1.250s.png", and a number when that is taken.
-fs::path free_name(const Scene& scene, const fs::path& run, double time) {
+fs::path free_name(const FilmedScene& scene, const fs::path& run, double time) {
     const std::string stem = fmt::format("{}-{}s", scene.name, seconds_in_names(time));
     const fs::path beside = run.parent_path();
     fs::path path = beside / (stem + ".png");
@@ -144,7 +145,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, double at, RunLis
     const auto go_on = [&] { return listener.stop_signal() == 0; };
     // A camera that moves is where it would be in the film.
     const FilmOfRun::Place place = source.film().place_of(chosen.step);
-    Scene scene = source.scene();
+    FilmedScene scene = source.scene();
     settle_orbit(scene.film.camera, static_cast<double>(source.film().shots().size()) / scene.film.rate);
     Renderer renderer(scene, drawing_threads(scene.run.threads).raster, request.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) listener.info("note: " + note);

@@ -11,6 +11,7 @@
 #include "render/film/codec/smaller_film.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/picture/words/missing_letters.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -56,7 +57,7 @@ double size_at(const Film& film, std::int64_t frames, int quality) {
 }
 
 // Where small digits may read wrong, and where the film may not fit under its cap because they must not.
-void warn_of_digits(const Scene& scene, std::int64_t frames, std::vector<std::string>& warnings) {
+void warn_of_digits(const FilmedScene& scene, std::int64_t frames, std::vector<std::string>& warnings) {
     const Film& film = scene.film;
     if (!has_quality(film.format)) return;
     if (film.quality > least_legible && film.words != WordPlace::none)
@@ -75,7 +76,7 @@ std::string key_of_segment(std::size_t segment, const char* key) {
     return fmt::format("film.segment[{}].{}", segment, key);
 }
 
-[[noreturn]] void fail_frames(const Scene& scene, std::size_t segment, double frames) {
+[[noreturn]] void fail_frames(const FilmedScene& scene, std::size_t segment, double frames) {
     const bool any = segment < scene.film.segments.size();
     const bool locked = any && scene.film.segments[segment].kind == FilmSegment::Kind::locked;
     const std::string key = any ? key_of_segment(segment, locked ? "every" : "playback") : "run.duration";
@@ -88,7 +89,7 @@ std::string key_of_segment(std::size_t segment, const char* key) {
         scene.where(key), frames, most_frames, how));
 }
 
-[[noreturn]] void fail_moments(const Scene& scene, std::size_t segment, double moments) {
+[[noreturn]] void fail_moments(const FilmedScene& scene, std::size_t segment, double moments) {
     const bool averages = scene.film.segments.at(segment).average > 0;
     const std::string key = key_of_segment(segment, averages ? "average" : "exposures");
     throw UserError(
@@ -104,7 +105,7 @@ double estimated_film_size(const Film& film, std::int64_t frames) {
     return film.max_size ? std::min(bytes, static_cast<double>(*film.max_size)) : bytes;
 }
 
-void check_schedule(const Scene& scene, const std::vector<SegmentCount>& counts) {
+void check_schedule(const FilmedScene& scene, const std::vector<SegmentCount>& counts) {
     double shots = 0, moments = 0;  // doubles: sums of what may be anything
     std::size_t longest = 0, most = 0;
     const auto moments_of = [&](std::size_t i) {
@@ -120,7 +121,7 @@ void check_schedule(const Scene& scene, const std::vector<SegmentCount>& counts)
     if (moments > static_cast<double>(most_moments)) fail_moments(scene, most, moments);
 }
 
-void check_max_size(const Scene& scene, std::int64_t frames) {
+void check_max_size(const FilmedScene& scene, std::int64_t frames) {
     const Film& film = scene.film;
     if (!film.max_size || frames == 0) return;
     const double pixels = pixels_of(film, frames), cap = static_cast<double>(*film.max_size);
@@ -133,7 +134,7 @@ void check_max_size(const Scene& scene, std::int64_t frames) {
         data_size_text(needed), smaller_film(film.width, film.height, frames, cap / needed)));
 }
 
-std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames) {
+std::vector<std::string> film_warnings(const FilmedScene& scene, std::int64_t frames) {
     const Film& film = scene.film;
     std::vector<std::string> warnings;
     if (const std::vector<std::string> names = plan_layout(scene).left_out; !names.empty())

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -20,13 +20,13 @@ constexpr std::int64_t most_frames = 10'000'000;
 constexpr std::int64_t most_moments = 20'000'000;
 
 // Throws UserError when the film would have more of either; names the segment that makes most of them.
-void check_schedule(const Scene& scene, const std::vector<SegmentCount>& counts);
+void check_schedule(const FilmedScene& scene, const std::vector<SegmentCount>& counts);
 
 // Throws UserError when film.max_size leaves so few bits for a pixel that no film could be read.
-void check_max_size(const Scene& scene, std::int64_t frames);
+void check_max_size(const FilmedScene& scene, std::int64_t frames);
 
 // Words that the picture has no room for, and letters that no font has; where a film for a journal is not
 // what the journals take.
-std::vector<std::string> film_warnings(const Scene& scene, std::int64_t frames);
+std::vector<std::string> film_warnings(const FilmedScene& scene, std::int64_t frames);
 
 }  // namespace grainreel

@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "render/film/sampling/film_limits.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -98,7 +99,7 @@ Stretch locked_stretch(const FilmSegment& rule, std::int64_t start, std::int64_t
 }
 
 // Throws UserError when a segment is locked but the clock has no periods.
-std::vector<Stretch> stretches_of(const Scene& scene, const Clock& clock, std::int64_t steps) {
+std::vector<Stretch> stretches_of(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
     const std::vector<FilmSegment> segments = segments_of(scene.film);
     const std::vector<double> ends = segment_ends(segments, clock.time(steps));
     std::vector<Stretch> stretches;
@@ -216,7 +217,7 @@ FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock) {
     return segment;
 }
 
-std::vector<std::string> pace_warnings(const Scene& scene, const Clock& clock) {
+std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& clock) {
     std::vector<std::string> warnings;
     const std::vector<FilmSegment> segments = segments_of(scene.film);
     for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -232,7 +233,7 @@ std::vector<std::string> pace_warnings(const Scene& scene, const Clock& clock) {
     return warnings;
 }
 
-std::vector<SegmentCount> count_film(const Scene& scene, const Clock& clock, std::int64_t steps) {
+std::vector<SegmentCount> count_film(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
     const std::vector<FilmSegment> segments = segments_of(scene.film);
     std::vector<SegmentCount> counts;
     for (const Stretch& stretch : stretches_of(scene, clock, steps)) {
@@ -252,7 +253,7 @@ std::vector<SegmentCount> count_film(const Scene& scene, const Clock& clock, std
     return counts;
 }
 
-std::vector<Shot> film_schedule(const Scene& scene, const Clock& clock, std::int64_t steps) {
+std::vector<Shot> film_schedule(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
     check_schedule(scene, count_film(scene, clock, steps));
     std::vector<Shot> shots;
     for (const Stretch& stretch : stretches_of(scene, clock, steps)) make(stretch, clock, shots);

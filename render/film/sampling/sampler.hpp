@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -26,7 +26,7 @@ std::string playback_caption(const FilmSegment& segment, const Drive& drive, dou
 // How a segment plays where it asks for frames closer than the steps: with one frame a step.
 FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock);
 // A line for each segment that therefore plays faster than its playback says.
-std::vector<std::string> pace_warnings(const Scene& scene, const Clock& clock);
+std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& clock);
 
 // How much a segment makes, at most: motion may round two shots to one step.
 struct SegmentCount {
@@ -37,14 +37,14 @@ struct SegmentCount {
 
 // One a segment, in closed form: nothing is made. Throws UserError when a segment is locked but the clock has
 // no periods.
-std::vector<SegmentCount> count_film(const Scene& scene, const Clock& clock, std::int64_t steps);
+std::vector<SegmentCount> count_film(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
 
 // Shots in strictly rising order of step, from step 0 to `steps`. Motion segments sample evenly in simulated
 // time (rounded to the nearest step); locked ones take one step every `every` periods at `phase`. Segments
 // follow each other without a gap; the one without a duration takes what the others leave. No segments: one
 // in real time. The segments' film ends with them when they are shorter than `steps`. Throws UserError when
 // count_film does, and before anything is made when that is more than a film may have (check_schedule).
-std::vector<Shot> film_schedule(const Scene& scene, const Clock& clock, std::int64_t steps);
+std::vector<Shot> film_schedule(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
 
 // How a segment is shown while the bed repeats itself after that many periods: its locked frames and means
 // span whole multiples of them.

@@ -1,4 +1,5 @@
 #include "render/film/sampling/timeline.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,7 @@ std::int64_t nearest_step_at(double phase, double time, const Clock& clock, std:
 
 }  // namespace
 
-std::size_t reference_of(const std::vector<Scene>& scenes) {
+std::size_t reference_of(const std::vector<FilmedScene>& scenes) {
     std::size_t reference = 0;
     double longest = 0;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -41,7 +42,7 @@ std::size_t reference_of(const std::vector<Scene>& scenes) {
     return reference;
 }
 
-std::vector<Instant> instants_of(const Scene& film, const Clock& reference, std::int64_t steps) {
+std::vector<Instant> instants_of(const FilmedScene& film, const Clock& reference, std::int64_t steps) {
     std::vector<Instant> instants;
     for (const Shot& shot : film_schedule(film, reference, steps))
         instants.push_back({reference.time(shot.step), shot.segment});

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -17,10 +17,10 @@ struct Instant {
 
 // The scene whose drive the film goes by: of the driven ones that with the longest period, so that no other
 // has to show a moment twice; the first when none is driven.
-std::size_t reference_of(const std::vector<Scene>& scenes);
+std::size_t reference_of(const std::vector<FilmedScene>& scenes);
 
 // The film's shots at the reference's steps; of the scene only the film counts.
-std::vector<Instant> instants_of(const Scene& film, const Clock& reference, std::int64_t steps);
+std::vector<Instant> instants_of(const FilmedScene& film, const Clock& reference, std::int64_t steps);
 
 // One shot an instant, from step 0 to `steps`: the step nearest in time, and in a locked segment the nearest
 // of those at its phase of this scene's own drive. Two scenes of one frequency and phase so show one cycle.

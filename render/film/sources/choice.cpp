@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -36,7 +37,7 @@ std::vector<Frame> alike(const std::vector<Frame>& moments, int periods) {
     return kept;
 }
 
-std::vector<std::string> single_moment_warnings(const Scene& scene, const std::string& why) {
+std::vector<std::string> single_moment_warnings(const FilmedScene& scene, const std::string& why) {
     std::vector<std::string> warnings;
     const std::vector<FilmSegment>& segments = scene.film.segments;
     for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -53,7 +54,7 @@ std::vector<FilmSegment> of_single_moments(std::vector<FilmSegment> segments) {
     return segments;
 }
 
-std::optional<std::string> periods_warning(const Scene& scene, const FrameArchive& run) {
+std::optional<std::string> periods_warning(const FilmedScene& scene, const FrameArchive& run) {
     if (run.periods() == 1 || scene.film.periods > 0) return std::nullopt;
     return fmt::format(
         "the bed repeats itself only every {0} periods of the drive: frames at one phase and "

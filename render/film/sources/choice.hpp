@@ -7,6 +7,7 @@
 
 #include "render/film/request/film_request.hpp"
 #include "render/film/sources/frame_source.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -20,13 +21,13 @@ std::vector<Frame> alike(const std::vector<Frame>& moments, int periods);
 
 // A line for each segment of the scene's film whose pictures are to show more than a moment, where they
 // cannot.
-std::vector<std::string> single_moment_warnings(const Scene& scene, const std::string& why);
+std::vector<std::string> single_moment_warnings(const FilmedScene& scene, const std::string& why);
 
 // Without means and exposures.
 std::vector<FilmSegment> of_single_moments(std::vector<FilmSegment> segments);
 
 // What is to be said of a run whose bed repeats itself only every so many periods, where the scene leaves it
 // open.
-std::optional<std::string> periods_warning(const Scene& scene, const FrameArchive& run);
+std::optional<std::string> periods_warning(const FilmedScene& scene, const FrameArchive& run);
 
 }  // namespace grainreel

@@ -8,12 +8,14 @@
 #include "engine/run/driver/run_files.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "engine/files/frames/same_run.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-EarlierPictures::EarlierPictures(const Scene& scene, const Clock& clock, const std::filesystem::path& run,
-                                 const std::vector<Shot>& shots, std::size_t count,
-                                 std::shared_ptr<const MeasureTable> measures, const RunFiles& files)
+EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
+                                 const std::filesystem::path& run, const std::vector<Shot>& shots,
+                                 std::size_t count, std::shared_ptr<const MeasureTable> measures,
+                                 const RunFiles& files)
     : scene_(scene),
       files_(files),
       moments_(run / kFilmMoments),

@@ -15,6 +15,7 @@
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -22,7 +23,7 @@ class EarlierPictures final : private PartSupply {
   public:
     // run: folder; shots: of the film; count: how many of its kept moments are pictures of it. measures: rows
     // of the run, those of `shown` too; null without a film that shows any. files: know what has flowed out.
-    EarlierPictures(const Scene& scene, const Clock& clock, const std::filesystem::path& run,
+    EarlierPictures(const FilmedScene& scene, const Clock& clock, const std::filesystem::path& run,
                     const std::vector<Shot>& shots, std::size_t count,
                     std::shared_ptr<const MeasureTable> measures, const RunFiles& files);
 
@@ -39,7 +40,7 @@ class EarlierPictures final : private PartSupply {
     std::size_t rows_until(std::int64_t step) const;
     int periods_at(std::int64_t step) const;
 
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const RunFiles& files_;
     TrajectoryReader moments_;
     std::vector<Shot> shots_;

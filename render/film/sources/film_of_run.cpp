@@ -9,6 +9,7 @@
 #include "render/film/moments/film_times_table.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "engine/files/frames/same_run.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -67,7 +68,7 @@ Frame FilmOfRun::moment(std::int64_t step) const {
 }
 
 std::vector<Shot> FilmOfRun::shots() const {
-    const Scene& scene = run_.scene();
+    const FilmedScene& scene = run_.scene();
     const Clock& clock = run_.clock();
     if (clock.step <= 0) return {{last_, 0}};  // a single moment
     const std::int64_t steps = std::llround(scene.run.duration / clock.step);
@@ -80,7 +81,7 @@ std::vector<Shot> FilmOfRun::shots() const {
 
 // Of a film that was cut off before its run, the later part is as the bed was then.
 std::vector<Shot> FilmOfRun::with_bed(const std::vector<Shot>& shots) const {
-    Scene scene = run_.scene();
+    FilmedScene scene = run_.scene();
     if (!same_) scene.film.periods = run_.frames().periods();
     const bool may_leave_out = true;
     BedPeriods bed(scene, run_.clock(), shots, may_leave_out);

@@ -12,8 +12,8 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -52,7 +52,7 @@ class FrameSource {
 
     virtual ~FrameSource() = default;
 
-    virtual const Scene& scene() const = 0;  // as it is drawn
+    virtual const FilmedScene& scene() const = 0;  // as it is drawn
     virtual Supply supply() const = 0;
     virtual Span span() const = 0;
     // Null for what is only being computed.

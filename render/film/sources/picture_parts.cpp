@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-PictureParts::PictureParts(const Scene& scene, const Clock& clock, std::int64_t first)
+PictureParts::PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first)
     : shows_(scene.film.shows),
       clock_(clock),
       first_(first),

@@ -12,6 +12,7 @@
 #include "engine/frame.hpp"
 #include "engine/run/driver/kept_moments.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -36,7 +37,7 @@ class PartSupply {
 class PictureParts {
   public:
     // Of the scene the film counts. first: the first step that is to be had.
-    PictureParts(const Scene& scene, const Clock& clock, std::int64_t first);
+    PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first);
 
     // The other moments that the picture at `step` is made of, in no order; some may come twice. rule: the
     // segment by which it is taken. periods: after which the bed repeats itself.

@@ -11,7 +11,7 @@
 #include "engine/files/outflow_record.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/questions/record.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"
@@ -44,7 +44,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     // From now on it is alone, and complains.
     void do_without_others();
 
-    const Scene& scene() const override { return scene_; }  // named after the folder
+    const FilmedScene& scene() const override { return scene_; }  // named after the folder
     Supply supply() const override;
     Span span() const override { return {moments().front().time, moments().back().time}; }
     const FrameArchive* archive() const override { return archive_.get(); }
@@ -83,7 +83,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     std::string name_of(const char* file) const { return archive_->name_of(file); }
 
     bool for_questions_;
-    Scene scene_;
+    FilmedScene scene_;
     std::shared_ptr<RunArchive> archive_;
     std::unique_ptr<const Record> record_;
     std::vector<double> measured_;          // s, times of the rows of measures

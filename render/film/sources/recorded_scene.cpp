@@ -7,8 +7,8 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
-#include "engine/scene/film/purposes.hpp"
+#include "render/scene/purposes.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
@@ -54,18 +54,18 @@ Assignments sets_for_drawing(const Assignments& sets) {
     return with_purpose(sets);
 }
 
-Scene scene_of_run(const fs::path& folder, const Assignments& sets) {
-    Scene scene = read_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"),
-                             sets_for_drawing(sets), measurable_in);
+FilmedScene scene_of_run(const fs::path& folder, const Assignments& sets) {
+    FilmedScene scene =
+        read_filmed_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"),
+                          sets_for_drawing(sets), measurable_in);
     scene.name = folder.filename().string();
     return scene;
 }
 
-Scene scene_of_checkpoint_to_draw(const fs::path& checkpoint, const Assignments& sets) {
-    Assignments all = started_from(checkpoint);
-    const Assignments drawing = sets_for_drawing(sets);
-    all.insert(all.end(), drawing.begin(), drawing.end());
-    Scene scene = read_scene_text(scene_text_of_checkpoint(checkpoint), checkpoint, all, measurable_in);
+FilmedScene scene_of_checkpoint_to_draw(const fs::path& checkpoint, const Assignments& sets) {
+    auto [text, all] = scene_in_checkpoint(checkpoint);
+    for (const Assignment& set : sets_for_drawing(sets)) all.push_back(set);
+    FilmedScene scene = read_filmed_scene_text(text.text, text.file, all, measurable_in);
     scene.name = checkpoint.stem().string();
     return scene;
 }

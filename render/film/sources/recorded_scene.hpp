@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -14,9 +14,9 @@ Assignments sets_for_drawing(const Assignments& sets);
 
 // Its scene.toml with such changes; named after the folder. Throws UserError likewise, and for a scene that
 // cannot be read.
-Scene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
+FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
 
 // The scene of a checkpoint as it was used, with such changes; named after the file. Throws UserError likewise.
-Scene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
+FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
 
 }  // namespace grainreel

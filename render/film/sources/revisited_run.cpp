@@ -10,13 +10,14 @@
 #include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/choice.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 namespace {
 
 // Beside a film.
-int engine_threads(const Scene& scene, int sharers) {
+int engine_threads(const FilmedScene& scene, int sharers) {
     const int wanted = scene.run.threads, processors = wanted > 0 ? wanted : usable_processors();
     return std::max(1, plan_threads(processors, true, scene.grains()).engine / sharers);
 }

@@ -17,6 +17,7 @@
 #include "render/film/sources/film_of_run.hpp"
 #include "engine/questions/reachable_moments.hpp"
 #include "render/film/sources/recorded_run.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -51,7 +52,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     // Asked while a replay goes on, with its share; the usual go_on is asked too.
     void watch_replay(ReplayWatcher watcher) { watcher_ = std::move(watcher); }
 
-    const Scene& scene() const override { return run_.scene(); }
+    const FilmedScene& scene() const override { return run_.scene(); }
     Supply supply() const override;
     Span span() const override;
     const FrameArchive* archive() const override { return run_.archive(); }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/run/driver/run_driver.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "render/film/moments/bed_periods.hpp"
 #include "render/film/sources/earlier_pictures.hpp"
 #include "render/film/sources/frame_source.hpp"
@@ -18,14 +18,14 @@ namespace grainreel {
 class SceneRun final : public FrameSource {
   public:
     // scene: that of the driver, with its film. The driver must outlive this.
-    SceneRun(const Scene& scene, RunDriver& driver) : scene_(scene), driver_(driver) {}
+    SceneRun(const FilmedScene& scene, RunDriver& driver) : scene_(scene), driver_(driver) {}
 
     // Before start(): key moments are kept with their contacts. A run that goes on does what it did.
     void keep_key_moments() { keys_wanted_ = true; }
     // Closes what it reads of the run's folder. Nothing else may be called afterwards.
     void close() { earlier_.reset(); }
 
-    const Scene& scene() const override { return scene_; }
+    const FilmedScene& scene() const override { return scene_; }
     Supply supply() const override { return {true, true, true, scene_.keeps_orientations()}; }
     Span span() const override;
     std::vector<Frame> moments(const Pictures& pictures) const override;
@@ -51,7 +51,7 @@ class SceneRun final : public FrameSource {
     void look_at_bed_periods(const Simulation& simulation);
     const FilmSegment& rule(int segment) const { return segments_.at(static_cast<std::size_t>(segment)); }
 
-    const Scene scene_;
+    const FilmedScene scene_;
     RunDriver& driver_;
     bool keys_wanted_ = false;
     std::vector<FilmSegment> segments_;  // of the film

@@ -5,10 +5,11 @@
 
 #include "engine/questions/displacement.hpp"
 #include "engine/state/container_faces.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-FilmColours::FilmColours(const Scene& scene, const FrameArchive& run, const Clock& clock, double start)
+FilmColours::FilmColours(const FilmedScene& scene, const FrameArchive& run, const Clock& clock, double start)
     : run_(run),
       clock_(clock),
       by_(scene.film.shows.colour.by),

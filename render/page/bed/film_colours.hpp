@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/grains/quantities.hpp"
 #include "engine/files/frames/frame_archive.hpp"
+#include "render/film/sources/frame_source.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -17,7 +18,7 @@ class FilmColours {
   public:
     // start: s, of the film's first picture, from which start heights count. The run outlives it. For a film
     // whose grains are coloured by a quantity (film_has_scale).
-    FilmColours(const Scene& scene, const FrameArchive& run, const Clock& clock, double start);
+    FilmColours(const FilmedScene& scene, const FrameArchive& run, const Clock& clock, double start);
 
     // Of the grains of a moment of the run, in the frame's order: 0 where the quantity is not known, else 1
     // to 255 from the low end of the film's range to its high end, of bands their middle. touches: of that
@@ -40,7 +41,7 @@ class FilmColours {
 };
 
 // Whether a colour bar stands beside the film's grains.
-inline bool film_has_scale(const Scene& scene) {
+inline bool film_has_scale(const FilmedScene& scene) {
     return scene.film.shows.colour.by != GrainValue::species;
 }
 

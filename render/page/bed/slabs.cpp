@@ -7,6 +7,7 @@
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/floor_opening.hpp"
 #include "render/picture/container/wall_profile.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -108,7 +109,7 @@ void add_container(std::vector<Slab>& slabs, const Container& container) {
         add_prism(slabs, container);
 }
 
-void add_tray(std::vector<Slab>& slabs, const Scene& scene) {
+void add_tray(std::vector<Slab>& slabs, const FilmedScene& scene) {
     std::vector<Slab> tray;
     add_container(tray, tray_container(scene));
     for (Slab& slab : tray) {
@@ -121,7 +122,7 @@ void add_tray(std::vector<Slab>& slabs, const Scene& scene) {
 
 }  // namespace
 
-std::vector<Slab> slabs_of(const Scene& scene) {
+std::vector<Slab> slabs_of(const FilmedScene& scene) {
     std::vector<Slab> slabs;
     add_container(slabs, scene.container);
     if (scene.container.tray) add_tray(slabs, scene);
@@ -134,7 +135,7 @@ std::vector<Slab> slabs_of(const Scene& scene) {
     return slabs;
 }
 
-Extent box_of(const std::vector<Slab>& slabs, const Scene& scene) {
+Extent box_of(const std::vector<Slab>& slabs, const FilmedScene& scene) {
     Extent box = extent_of(scene);
     for (const Slab& slab : slabs)
         for (const std::vector<Vec3>& corners : {slab.inner, slab.outer})

@@ -7,7 +7,7 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -21,9 +21,9 @@ struct Slab {
 };
 
 // Of container, floor and planes, as thick as the film draws them.
-std::vector<Slab> slabs_of(const Scene& scene);
+std::vector<Slab> slabs_of(const FilmedScene& scene);
 
 // What the slabs at rest take up; of a scene without any the box of what is looked at.
-Extent box_of(const std::vector<Slab>& slabs, const Scene& scene);
+Extent box_of(const std::vector<Slab>& slabs, const FilmedScene& scene);
 
 }  // namespace grainreel

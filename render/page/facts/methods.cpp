@@ -1,4 +1,5 @@
 #include "render/page/facts/methods.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>
 #include <set>
@@ -145,7 +146,7 @@ std::string program_entry(const RunFacts& facts) {
 
 }  // namespace
 
-Methods methods(const Scene& scene, const Plan& plan, const RunFacts& facts,
+Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& facts,
                 const std::vector<std::pair<std::string, std::string>>& lines) {
     const LawWords laws(plan);
     Methods result;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/page/facts/run_facts.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -18,7 +18,7 @@ struct Methods {
 
 // lines: the plan in words, by name, as `grainreel check` has them; grains, container and drive are told in
 // the same words.
-Methods methods(const Scene& scene, const Plan& plan, const RunFacts& facts,
+Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& facts,
                 const std::vector<std::pair<std::string, std::string>>& lines);
 
 }  // namespace grainreel

@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/page/bed/slabs.hpp"
 #include "render/picture/grains/colour_map.hpp"
 #include "render/picture/grains/colour_scale.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -61,11 +63,11 @@ bool holds(const std::vector<std::size_t>& list, std::size_t number) {
     return std::find(list.begin(), list.end(), number) != list.end();
 }
 
-Json species_json(const Scene& scene) {
+Json species_json(const FilmedScene& scene) {
     Json list = Json::array();
     for (std::size_t k = 0; k < scene.species.size(); ++k)
         list.push_back({{"name", scene.species[k].name},
-                        {"colour", of_colour(scene.species[k].colour)},
+                        {"colour", of_colour(scene.colours[k])},
                         {"hidden", holds(scene.film.shows.hidden, k)},
                         {"ghost", holds(scene.film.shows.ghosts, k)}});
     return list;
@@ -82,7 +84,7 @@ Json forces_json(const PairForces& forces) {
 }
 
 // What the film's colour bar says; nothing where its colours are those of the species.
-Json film_colours_json(const Scene& scene, const BedFrames& bed) {
+Json film_colours_json(const FilmedScene& scene, const BedFrames& bed) {
     if (!bed.has_film_colours) return {};
     const GrainColouring& colouring = scene.film.shows.colour;
     const ColourScale scale(colouring);
@@ -98,7 +100,7 @@ Json film_colours_json(const Scene& scene, const BedFrames& bed) {
             {"colours", colours}};
 }
 
-Json bed_json(const Scene& scene, const BedFrames& bed) {
+Json bed_json(const FilmedScene& scene, const BedFrames& bed) {
     const std::vector<Slab> slabs = slabs_of(scene);
     const Extent box = box_of(slabs, scene);
     Json times = Json::array(), bodies = Json::array();
@@ -193,7 +195,7 @@ std::string text_of_json(const Json& json) {
 
 }  // namespace
 
-std::string live_facts_json(const Scene& scene) {
+std::string live_facts_json(const FilmedScene& scene) {
     return text_of_json({{"live", true},
                          {"begin", 0},
                          {"end", scene.run.duration},
@@ -204,7 +206,7 @@ std::string live_facts_json(const Scene& scene) {
                          {"charts", Json::array()}});
 }
 
-std::string bed_facts_json(const Scene& scene, const BedFrames& bed) {
+std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed) {
     return text_of_json(bed_json(scene, bed));
 }
 

@@ -11,13 +11,14 @@
 #include "render/page/film/page_film.hpp"
 #include "render/page/page_fields.hpp"
 #include "render/page/page_measures.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 struct PageFacts {
     std::string name;    // of the run, where the page has several
     std::string folder;  // its name
-    const Scene& scene;
+    const FilmedScene& scene;
     Span span;
     const PageFilm& film;
     const FilmTimes& film_times;
@@ -32,8 +33,8 @@ std::string facts_json(const PageFacts& facts);
 
 // For live.js: what is known of a run before it has measured anything; its newest moments of the bed; the
 // rows of its measures, of all columns.
-std::string live_facts_json(const Scene& scene);
-std::string bed_facts_json(const Scene& scene, const BedFrames& bed);
+std::string live_facts_json(const FilmedScene& scene);
+std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed);
 std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures);
 
 }  // namespace grainreel

@@ -13,6 +13,7 @@
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/page/facts/differences.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -44,7 +45,7 @@ std::string path_of(const std::string& key) {
 bool tells(const std::string& key) {
     for (const char* other : {"film.", "output.", "title", "run.threads"})
         if (key.starts_with(other)) return false;
-    const Key* known = find_key(path_of(key));
+    const Key* known = find_key(path_of(key), filmed_scene_keys());
     return known == nullptr || !known->often_chosen;
 }
 
@@ -54,7 +55,7 @@ std::string value_text(const std::string& key, const std::string& value) {
     char* end = nullptr;
     const double number = std::strtod(value.c_str(), &end);
     if (*end != '\0') return value;
-    const Key* known = find_key(path_of(key));
+    const Key* known = find_key(path_of(key), filmed_scene_keys());
     const bool has_unit = known != nullptr && known->dimension != Dimension::number;
     return fmt::format("{:.4g}{}", number,
                        has_unit ? fmt::format(" {}", text_of(known->dimension).unit) : "");

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 struct RunToName {
     std::filesystem::path folder;
-    const Scene& scene;
+    const FilmedScene& scene;
 };
 
 // The titles of the scenes, where no two are the same. Else what differs between the scenes, "frequency = 20

@@ -9,13 +9,14 @@
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/moments/film_times_table.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
 
 // Of the film as planned, frame by frame, with those that hold a caption.
-std::vector<double> planned_times(const Scene& scene, double first) {
-    const Plan plan = make_plan(scene);
+std::vector<double> planned_times(const FilmedScene& scene, double first) {
+    const Plan plan = plan_with_film(scene);
     std::vector<double> times;
     CaptionHolds holds(scene.film);
     for (const Instant& instant : instants_of(scene, plan.clock, plan.steps)) {
@@ -26,7 +27,7 @@ std::vector<double> planned_times(const Scene& scene, double first) {
 }
 
 // Whether the run may have left out frames on its way.
-bool may_lack_frames(const Scene& scene) {
+bool may_lack_frames(const FilmedScene& scene) {
     return scene.drive.present && scene.film.periods == 0 &&
            std::any_of(scene.film.segments.begin(), scene.film.segments.end(),
                        [](const FilmSegment& segment) { return segment.kind == FilmSegment::Kind::locked; });
@@ -49,7 +50,7 @@ std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, st
     return result;
 }
 
-FilmTimes film_times(const Scene& scene, std::int64_t frames, double first, bool whole) {
+FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first, bool whole) {
     FilmTimes result;
     try {
         result.times = planned_times(scene, first);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -23,6 +23,6 @@ std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, st
 // Without it: made from the scene as the run made it. frames: of the film, as run.json has them. first: s,
 // where the run began. Known only where the number of frames agrees: a film may leave out locked frames of a
 // bed that repeats itself every other period, as the run finds out. whole: the run was complete.
-FilmTimes film_times(const Scene& scene, std::int64_t frames, double first, bool whole);
+FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first, bool whole);
 
 }  // namespace grainreel

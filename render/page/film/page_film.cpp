@@ -13,6 +13,7 @@
 #include "render/film/codec/filter_graph.hpp"
 #include "render/page/embed/read_bytes.hpp"
 #include "render/page/film/small_jpeg.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -54,7 +55,7 @@ std::string copy_filter(const EncoderSettings& copy) {
         copy.width, copy.height);
 }
 
-std::vector<std::uint8_t> smaller_copy(const Scene& scene, const fs::path& film,
+std::vector<std::uint8_t> smaller_copy(const FilmedScene& scene, const fs::path& film,
                                        const std::function<void()>& picture_taken) {
     const ScratchFolder scratch;
     const int threads = std::clamp(usable_processors(), 1, most_threads_of_copy);
@@ -100,7 +101,7 @@ std::string size_text(std::size_t bytes) {
 
 }  // namespace
 
-PageFilm page_film(const Scene& scene, const fs::path& folder, std::optional<std::int64_t> frames,
+PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::optional<std::int64_t> frames,
                    const PageProgress& progress, std::size_t most_bytes) {
     quiet_ffmpeg();
     PageFilm film;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/film/files/page_copy.hpp"
 #include "render/page/page_progress.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -25,7 +25,7 @@ struct PageFilm {
 // most, which the run has made or which is made here; none where that is too large too, or cannot be made.
 // frames: of the film, where they are known; for the progress of a copy. Writes nothing into the run's
 // folder.
-PageFilm page_film(const Scene& scene, const std::filesystem::path& folder,
+PageFilm page_film(const FilmedScene& scene, const std::filesystem::path& folder,
                    std::optional<std::int64_t> frames = {}, const PageProgress& progress = kNoPageProgress,
                    std::size_t most_bytes = kMostFilmOnPage);
 

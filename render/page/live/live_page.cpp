@@ -6,10 +6,11 @@
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/page_files.hpp"
 #include "render/page/page_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-std::string live_page(const Scene& scene, const std::filesystem::path& folder,
+std::string live_page(const FilmedScene& scene, const std::filesystem::path& folder,
                       const std::optional<PlannedScene>& planned) {
     const RunFacts record = run_facts(folder);
     const PageFiles& files = page_files();

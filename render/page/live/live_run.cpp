@@ -12,12 +12,12 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/live/last_picture.hpp"
 #include "render/page/live/live_page.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/film/sources/recorded_run.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -100,7 +100,7 @@ void LiveRun::read_scene_again() {
     const fs::file_time_type time = changed(file);
     if (!is_plain(file) || time == scene_time_ || time == fs::file_time_type::min()) return;
     try {
-        scene_ = read_scene(file, {}, measurable_in);
+        scene_ = read_filmed_scene(file, {}, measurable_in);
         scene_->name = folder_.filename().string();
         scene_time_ = time;
         page_status_.clear();

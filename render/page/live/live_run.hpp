@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/scene/scene.hpp"
 #include "render/page/report.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -26,7 +26,7 @@ struct LiveSnapshot {
     Bytes measures;  // JSON; empty likewise
 };
 
-using Planner = std::function<std::optional<PlannedScene>(const Scene&)>;
+using Planner = std::function<std::optional<PlannedScene>(const FilmedScene&)>;
 
 class LiveRun {
   public:
@@ -63,7 +63,7 @@ class LiveRun {
     const Planner planner_;
     bool gone_ = false, over_ = false, last_ = false;
     std::string status_;  // as run.json has it; "broken off" where nobody works on it and it is not finished
-    std::optional<Scene> scene_;
+    std::optional<FilmedScene> scene_;
     std::string page_status_;  // that the page was made for
     std::filesystem::file_time_type scene_time_, trajectory_time_;
     std::uintmax_t measures_size_ = 0, film_size_ = 0;

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/picture/gl/objects.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/rectangle.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 

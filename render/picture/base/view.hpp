@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/rectangle.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -25,7 +26,7 @@ void settle_orbit(Camera& camera, double film_seconds) {
     if (camera.orbit != 0 && !camera.orbit_time && film_seconds > 0) camera.orbit_time = film_seconds;
 }
 
-CameraPath::CameraPath(const Scene& scene, const PictureLayout& layout)
+CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
     : camera_(scene.film.camera),
       port_(layout.port),
       picture_height_(scene.film.height),
@@ -43,7 +44,7 @@ CameraPath::CameraPath(const Scene& scene, const PictureLayout& layout)
 
 // Of a container that is cut off as much is left out as can be: what stands high would come close to a camera
 // that looks down.
-void CameraPath::frame_by_itself(const Scene& scene) {
+void CameraPath::frame_by_itself(const FilmedScene& scene) {
     FramedPart part = framed_part(scene);
     double scale = frame_part(scene, part);
     const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene));
@@ -58,7 +59,7 @@ void CameraPath::frame_by_itself(const Scene& scene) {
 }
 
 // Returns pixels a metre at the middle of what is framed.
-double CameraPath::frame_part(const Scene& scene, const FramedPart& part) {
+double CameraPath::frame_part(const FilmedScene& scene, const FramedPart& part) {
     if (camera_.target || moves()) {
         keep_distance(scene, part);
         return camera_.field_of_view <= 0 ? focal_ : focal_ / distance_;
@@ -69,7 +70,7 @@ double CameraPath::frame_part(const Scene& scene, const FramedPart& part) {
 }
 
 // Where the port's width is what binds, its free height shows more of the container.
-FramedPart CameraPath::show_more(const Scene& scene, FramedPart part, double scale) {
+FramedPart CameraPath::show_more(const FilmedScene& scene, FramedPart part, double scale) {
     double most = scene.container.height;
     for (int i = 0; i < 20; ++i) {
         const double middle = 0.5 * (part.top + most);
@@ -82,7 +83,7 @@ FramedPart CameraPath::show_more(const Scene& scene, FramedPart part, double sca
 
 // Whether walls above the framed part are in the picture's height, but not in its width: slanted walls are
 // wider above.
-bool CameraPath::leaves_aside(const Scene& scene, const FramedPart& part) const {
+bool CameraPath::leaves_aside(const FilmedScene& scene, const FramedPart& part) const {
     constexpr int heights = 64;
     for (int i = 0; i <= heights; ++i) {
         const double top = part.top + (scene.container.height - part.top) * i / heights;
@@ -95,7 +96,7 @@ bool CameraPath::leaves_aside(const Scene& scene, const FramedPart& part) const 
 }
 
 // Frames as little more as leaves no wall aside. The whole container leaves none.
-void CameraPath::keep_sides(const Scene& scene, FramedPart part) {
+void CameraPath::keep_sides(const FilmedScene& scene, FramedPart part) {
     FramedPart most = whole_container(scene);
     most.top = std::min(most.top, scene.container.height);
     for (int i = 0; i < 20; ++i) {
@@ -192,7 +193,7 @@ std::vector<CameraPath::Pose> CameraPath::samples() const {
     return poses;
 }
 
-void CameraPath::keep_distance(const Scene& scene, const FramedPart& part) {
+void CameraPath::keep_distance(const FilmedScene& scene, const FramedPart& part) {
     Framing framing(camera_, port_, margin_, picture_height_);
     const Vec3 middle = framed_middle(scene);
     for (const Pose& here : samples()) {
@@ -220,7 +221,7 @@ View CameraPath::at(double film_time) const {
     return view;
 }
 
-View frame_container(const Scene& scene, const PictureLayout& layout) {
+View frame_container(const FilmedScene& scene, const PictureLayout& layout) {
     return CameraPath(scene, layout).at(0);
 }
 

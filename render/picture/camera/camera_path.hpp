@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/monotone_curve.hpp"
 #include "render/picture/base/picture_layout.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/framing.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -21,7 +21,7 @@ class CameraPath {
     // A camera that moves keeps one distance, the least from which all that is framed is in the port at
     // every moment of the way, so that the picture does not breathe. An orbit of unknown duration stands
     // still.
-    CameraPath(const Scene& scene, const PictureLayout& layout);
+    CameraPath(const FilmedScene& scene, const PictureLayout& layout);
 
     // film_time: s since the first frame. In the lab's frame; a camera that follows is moved from there.
     View at(double film_time) const;
@@ -37,12 +37,12 @@ class CameraPath {
     Track track(double at_first, Value value) const;
     void make_tracks();
     void look_from_position();
-    void frame_by_itself(const Scene& scene);
-    double frame_part(const Scene& scene, const FramedPart& part);
-    FramedPart show_more(const Scene& scene, FramedPart part, double scale);
-    bool leaves_aside(const Scene& scene, const FramedPart& part) const;
-    void keep_sides(const Scene& scene, FramedPart part);
-    void keep_distance(const Scene& scene, const FramedPart& part);
+    void frame_by_itself(const FilmedScene& scene);
+    double frame_part(const FilmedScene& scene, const FramedPart& part);
+    FramedPart show_more(const FilmedScene& scene, FramedPart part, double scale);
+    bool leaves_aside(const FilmedScene& scene, const FramedPart& part) const;
+    void keep_sides(const FilmedScene& scene, FramedPart part);
+    void keep_distance(const FilmedScene& scene, const FramedPart& part);
     double least_depth(const std::vector<Vec3>& points) const;
     std::vector<Pose> samples() const;
     Pose pose(double film_time) const;
@@ -61,6 +61,6 @@ class CameraPath {
 };
 
 // The scene's camera as the film begins.
-View frame_container(const Scene& scene, const PictureLayout& layout);
+View frame_container(const FilmedScene& scene, const PictureLayout& layout);
 
 }  // namespace grainreel

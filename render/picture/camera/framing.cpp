@@ -8,6 +8,7 @@
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/lab_marks.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -15,13 +16,13 @@ namespace {
 constexpr double almost_all = 0.88;  // of the container's height: so much is not worth a cut
 constexpr double steepest = 60;      // degrees, of a camera that may leave the upper part out
 
-double upward(const Scene& scene) {
+double upward(const FilmedScene& scene) {
     return std::abs(scene.drive.direction.z());
 }
 
 // m, above the rim of an open top, for grains in flight: a grain that meets the rising bed leaves it at up to
 // twice the walls' speed. At most half the container, or the bed would look small.
-double room_above(const Scene& scene) {
+double room_above(const FilmedScene& scene) {
     const Container& container = scene.container;
     const double gravity = scene.gravity.norm();
     if (container.shape == Container::Shape::none || container.lid || !scene.drive.present || gravity <= 0)
@@ -39,7 +40,7 @@ bool looks_steeply(const Camera& camera) {
 }
 
 // m above the floor's rest position, as drawn.
-std::optional<double> wanted_top(const Scene& scene) {
+std::optional<double> wanted_top(const FilmedScene& scene) {
     const Camera& camera = scene.film.camera;
     const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset * upward(scene) : 0;
     if (camera.frame == CameraFrame::bed) {
@@ -51,7 +52,7 @@ std::optional<double> wanted_top(const Scene& scene) {
     return top;
 }
 
-std::vector<Vec3> corners_of(const Scene& scene, const FramedPart& part) {
+std::vector<Vec3> corners_of(const FilmedScene& scene, const FramedPart& part) {
     const double top = part.cut ? part.top : 1e300;
     switch (scene.container.shape) {
         case Container::Shape::cylinder:
@@ -65,7 +66,7 @@ std::vector<Vec3> corners_of(const Scene& scene, const FramedPart& part) {
     return prism_corners(scene.container, top);
 }
 
-std::vector<Vec3> tray_corners(const Scene& scene) {
+std::vector<Vec3> tray_corners(const FilmedScene& scene) {
     const Container tray = tray_container(scene);
     const bool round = tray.shape == Container::Shape::cylinder;
     std::vector<Vec3> corners = round ? cylinder_corners(tray, 1e300) : prism_corners(tray, 1e300);
@@ -83,11 +84,11 @@ void add_stream(const Container& container, std::vector<Vec3>& corners) {
 
 }  // namespace
 
-FramedPart whole_container(const Scene& scene) {
+FramedPart whole_container(const FilmedScene& scene) {
     return {scene.container.height + room_above(scene), false};
 }
 
-FramedPart framed_part(const Scene& scene) {
+FramedPart framed_part(const FilmedScene& scene) {
     const Container& container = scene.container;
     const bool all = scene.film.camera.frame == CameraFrame::container ||
                      container.shape == Container::Shape::none || looks_steeply(scene.film.camera);
@@ -98,14 +99,14 @@ FramedPart framed_part(const Scene& scene) {
     return {container.lid ? height : std::clamp(*top, height, 1.5 * height), false};
 }
 
-Vec3 framed_middle(const Scene& scene) {
+Vec3 framed_middle(const FilmedScene& scene) {
     Extent extent = extent_of(scene);
     const FramedPart part = framed_part(scene);
     if (part.cut) extent.high.z() = part.top;
     return extent.middle();
 }
 
-std::vector<Vec3> framing_points(const Scene& scene, double azimuth, const FramedPart& part) {
+std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part) {
     std::vector<Vec3> corners = corners_of(scene, part);
     if (scene.container.tray)
         for (const Vec3& corner : tray_corners(scene)) corners.push_back(corner);
@@ -127,11 +128,11 @@ std::vector<Vec3> framing_points(const Scene& scene, double azimuth, const Frame
     return points;
 }
 
-std::vector<Vec3> framing_points(const Scene& scene, double azimuth) {
+std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth) {
     return framing_points(scene, azimuth, framed_part(scene));
 }
 
-std::vector<Vec3> framing_points(const Scene& scene) {
+std::vector<Vec3> framing_points(const FilmedScene& scene) {
     return framing_points(scene, scene.film.camera.azimuth);
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -14,16 +14,16 @@ struct FramedPart {
 };
 // As film.camera.frame has it. What is little lower than the container has all of it; so has a camera that
 // looks steeply down or up, which would come too close to the walls.
-FramedPart framed_part(const Scene& scene);
-FramedPart whole_container(const Scene& scene);
+FramedPart framed_part(const FilmedScene& scene);
+FramedPart whole_container(const FilmedScene& scene);
 
 // The middle of the box that is framed: what a camera turns about, and the depth at which scale bars hold.
-Vec3 framed_middle(const Scene& scene);
+Vec3 framed_middle(const FilmedScene& scene);
 
 // Every point that has to stay in the picture of a camera at this azimuth (degrees): the drawn container as
 // far as it is framed, at rest and at both ends of its stroke, as drawn, and the marks beside it.
-std::vector<Vec3> framing_points(const Scene& scene, double azimuth, const FramedPart& part);
-std::vector<Vec3> framing_points(const Scene& scene, double azimuth);
-std::vector<Vec3> framing_points(const Scene& scene);  // at the camera's own azimuth
+std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part);
+std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth);
+std::vector<Vec3> framing_points(const FilmedScene& scene);  // at the camera's own azimuth
 
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/floor_opening.hpp"
 #include "render/picture/container/lab_marks.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -23,7 +24,7 @@ double drawn_thickness(const Container& container) {
 
 namespace {
 
-void draw_ghost(const Scene& scene, const Sketch& lab, Shapes& on) {
+void draw_ghost(const FilmedScene& scene, const Sketch& lab, Shapes& on) {
     for (const FreeWall& wall : scene.walls)
         if (wall.moves) draw_free_wall_ghost(wall, scene, lab, on);
     const bool floor_only = scene.drive.moves == Drive::Moves::floor;
@@ -42,7 +43,7 @@ void draw_at(const Container& container, const Sketches& sketches, ContainerShap
 
 }  // namespace
 
-void draw_container(const Scene& scene, const Views& views, const Frame& frame, const Palette& palette,
+void draw_container(const FilmedScene& scene, const Views& views, const Frame& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes) {
     shapes.behind.clear();
     shapes.before.clear();

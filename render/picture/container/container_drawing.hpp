@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -46,7 +46,7 @@ struct Views {
 
 // The frame as it is to be shown, with the motion exaggerated. picture_height: pixels; line widths follow
 // from it.
-void draw_container(const Scene& scene, const Views& views, const Frame& frame, const Palette& palette,
+void draw_container(const FilmedScene& scene, const Views& views, const Frame& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes);
 
 }  // namespace grainreel

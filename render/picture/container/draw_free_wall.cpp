@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "render/picture/container/drawing_kit.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -62,7 +63,7 @@ std::vector<Vec3> inside(std::vector<Vec3> piece, const Container& container) {
 
 }  // namespace
 
-std::vector<Vec3> piece_of_plane(const FreeWall& wall, const Scene& scene, const Vec3& offset) {
+std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene, const Vec3& offset) {
     std::vector<Vec3> piece = inside(cut(wall, wall.point + offset, extent_of(scene)), scene.container);
     return piece.size() >= 3 ? piece : std::vector<Vec3>();
 }
@@ -75,7 +76,8 @@ std::vector<Vec3> extent_corners(const Extent& extent) {
     return corners;
 }
 
-void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sketch, ContainerShapes& shapes) {
+void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
+                    ContainerShapes& shapes) {
     // The sketch moves what it draws, so the cut is made where the wall is and taken back.
     std::vector<Vec3> piece = piece_of_plane(wall, scene, sketch.offset());
     if (piece.empty()) return;
@@ -87,7 +89,7 @@ void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sket
     sketch.line(on, piece, true, sketch.pen, blend(sketch.glass_edge(), sketch.far_edge(), solid));
 }
 
-void draw_free_wall_ghost(const FreeWall& wall, const Scene& scene, const Sketch& lab, Shapes& on) {
+void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on) {
     const std::vector<Vec3> piece = piece_of_plane(wall, scene, Vec3(0, 0, 0));
     if (!piece.empty()) lab.dashed(on, piece, true, 0.8 * lab.pen, lab.ghost());
 }

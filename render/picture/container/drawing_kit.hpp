@@ -6,6 +6,7 @@
 
 #include "engine/scene/bed.hpp"
 #include "render/picture/container/container_drawing.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -81,13 +82,14 @@ void draw_cylinder(const Container& container, const Sketches& sketches, Contain
 
 // The piece of a plane that lies in the container, or in the box of what is looked at, in the place where the
 // plane is when it has moved by `offset`; m, corners in order around it. Empty when there is none.
-std::vector<Vec3> piece_of_plane(const FreeWall& wall, const Scene& scene, const Vec3& offset);
-void draw_free_wall(const FreeWall& wall, const Scene& scene, const Sketch& sketch, ContainerShapes& shapes);
+std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene, const Vec3& offset);
+void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
+                    ContainerShapes& shapes);
 
 // Dashed outlines over the grains: of the container's moving parts, or of a plane that moves, at rest.
 void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
 void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
-void draw_free_wall_ghost(const FreeWall& wall, const Scene& scene, const Sketch& lab, Shapes& on);
+void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on);
 
 // Half the width of everything drawn, at the height of the floor's top; m.
 double outer_floor_half_width(const Container& container);

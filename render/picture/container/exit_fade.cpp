@@ -5,6 +5,7 @@
 
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "render/picture/container/container_drawing.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -13,7 +14,7 @@ constexpr double begins_at = 0.5;  // of the way from the floor to where grains 
 constexpr double least_rows = 4;
 
 // Pixels from the top, of the lowest point that the floor's plate has in the course of the film.
-double lowest_of_floor(const Scene& scene, const View& view) {
+double lowest_of_floor(const FilmedScene& scene, const View& view) {
     const Container& c = scene.container;
     const double thick = 1.4 * drawn_thickness(c);
     const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset : 0;
@@ -28,7 +29,7 @@ double lowest_of_floor(const Scene& scene, const View& view) {
 
 }  // namespace
 
-std::vector<std::uint32_t> exit_fade(const Scene& scene, const View& view, int height) {
+std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height) {
     const Container& c = scene.container;
     if (!c.outlet || c.tray) return {};
     const double depth = c.outlet->exit_depth;

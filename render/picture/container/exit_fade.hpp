@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/view.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // Of each row of a port so high, counted from the top: how strong grains are there, 0 to 255. Empty where all
 // are as they are: without an outlet, with a tray, and where the eye looks down so steeply that rows with
 // grains of the bed would fade too.
-std::vector<std::uint32_t> exit_fade(const Scene& scene, const View& view, int height);
+std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height);
 
 }  // namespace grainreel

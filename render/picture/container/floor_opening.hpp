@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -5,6 +5,7 @@
 
 #include "render/picture/container/shade_row.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -25,7 +26,7 @@ float margin(int pixel, int size, int height) {
 
 }  // namespace
 
-Ground::Ground(const Scene& scene, const Rectangle& port)
+Ground::Ground(const FilmedScene& scene, const Rectangle& port)
     : map_(scene),
       strength_(scene.film.look.style == FilmLook::Style::dark ? 0.75f : 0.30f),
       width_(port.width),

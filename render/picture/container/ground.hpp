@@ -6,13 +6,14 @@
 
 #include "render/picture/base/view.hpp"
 #include "render/picture/container/shadow_map.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class Ground {
   public:
     // As wide and high as the port. Only for scenes with a container.
-    Ground(const Scene& scene, const Rectangle& port);
+    Ground(const FilmedScene& scene, const Rectangle& port);
 
     void update(const Frame& frame, const View& view);
 

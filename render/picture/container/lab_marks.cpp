@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/scene/drive/drive_schedule.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -16,17 +17,17 @@ double reach_aside(const Container& container, double half, double azimuth) {
 
 }  // namespace
 
-Vec3 drawn_stroke(const Scene& scene) {
+Vec3 drawn_stroke(const FilmedScene& scene) {
     if (!scene.drive.present) return {0, 0, 0};
     return scene.film.exaggerate * drive_peaks(scene.drive).offset * scene.drive.direction;
 }
 
-bool has_lab_marks(const Scene& scene) {
+bool has_lab_marks(const FilmedScene& scene) {
     return scene.film.word_kinds.arrows && scene.drive.present && scene.drive.largest_amplitude() > 0 &&
            scene.container.shape != Container::Shape::none;
 }
 
-std::vector<LabMark> lab_marks(const Scene& scene, double azimuth) {
+std::vector<LabMark> lab_marks(const FilmedScene& scene, double azimuth) {
     if (!has_lab_marks(scene)) return {};
     const Container& container = scene.container;
     const double thickness = drawn_thickness(container), floor_half = outer_floor_half_width(container);
@@ -45,7 +46,7 @@ std::vector<LabMark> lab_marks(const Scene& scene, double azimuth) {
     return {{middle - Vec3(0, 0, 2 * thickness), {0, 0, -2.2 * thickness}, stroke}};
 }
 
-void draw_lab_marks(const Scene& scene, const Sketches& sketches, double azimuth, WallSide& on) {
+void draw_lab_marks(const FilmedScene& scene, const Sketches& sketches, double azimuth, WallSide& on) {
     const double pen = sketches.lab.pen;
     const Paint ink{sketches.lab.palette.faint_ink, 1}, accent{sketches.lab.palette.accent, 1};
     const double thickness = drawn_thickness(scene.container);

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "render/picture/container/drawing_kit.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // m, from rest to the end of the stroke, as drawn.
-Vec3 drawn_stroke(const Scene& scene);
+Vec3 drawn_stroke(const FilmedScene& scene);
 
 // A long tick where the floor rests and short ones at both ends of its stroke.
 struct LabMark {
@@ -16,10 +17,10 @@ struct LabMark {
     Vec3 along;   // m, its direction and length
     Vec3 stroke;  // m, the displacement at the end of the stroke
 };
-bool has_lab_marks(const Scene& scene);
+bool has_lab_marks(const FilmedScene& scene);
 // azimuth: degrees, of the camera.
-std::vector<LabMark> lab_marks(const Scene& scene, double azimuth);
+std::vector<LabMark> lab_marks(const FilmedScene& scene, double azimuth);
 
-void draw_lab_marks(const Scene& scene, const Sketches& sketches, double azimuth, WallSide& on);
+void draw_lab_marks(const FilmedScene& scene, const Sketches& sketches, double azimuth, WallSide& on);
 
 }  // namespace grainreel

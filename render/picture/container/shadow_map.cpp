@@ -7,6 +7,7 @@
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/drawing_kit.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -27,7 +28,7 @@ void mean_of_five(const std::array<const float*, 5>& of, float* out) {
 
 }  // namespace
 
-ShadowMap::ShadowMap(const Scene& scene)
+ShadowMap::ShadowMap(const FilmedScene& scene)
     : container_(scene.container),
       foot_(scene.container.tray ? tray_container(scene) : scene.container),
       low_plate_(-1.4 * drawn_thickness(foot_)),

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -16,7 +16,7 @@ class ShadowMap {
 
     // The ground lies under the lowest point that the container reaches. Only for scenes with a container
     // that grains do not leave below.
-    explicit ShadowMap(const Scene& scene);
+    explicit ShadowMap(const FilmedScene& scene);
 
     // to_key: unit, in the lab.
     void cast(const Frame& frame, const Vec3& to_key);

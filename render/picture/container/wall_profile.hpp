@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -1,8 +1,8 @@
 // Colour maps for numbers, safe for the colour-blind.
 #pragma once
 
-#include "engine/scene/film/film_shows.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/film_shows.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/film/grain_values.hpp"
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/picture/grains/colour_map.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {

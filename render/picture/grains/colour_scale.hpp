@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/film/film_shows.hpp"
-#include "engine/scene/film/grain_values.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/scene/text/fitting_unit.hpp"
+#include "render/scene/film_shows.hpp"
+#include "render/scene/filmed_scene.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 

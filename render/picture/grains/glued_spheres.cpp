@@ -2,6 +2,7 @@
 
 #include "engine/state/glued_grains.hpp"
 #include "render/picture/base/palette.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -10,7 +11,7 @@ constexpr double kGreyer = 0.55;  // share of the neutral colour
 
 }  // namespace
 
-GluedSpheres::GluedSpheres(const Scene& scene) {
+GluedSpheres::GluedSpheres(const FilmedScene& scene) {
     if (!scene.container.wall_grains) return;
     const std::vector<Face> faces = container_faces(scene.container, scene.drive);
     const GluedGrains glued = glue_grains(scene, faces);
@@ -24,7 +25,7 @@ GluedSpheres::GluedSpheres(const Scene& scene) {
     }
     const Colour species = scene.film.shows.colour.of_grains()
                                ? neutral_grain
-                               : scene.species[scene.container.wall_grains->species].colour;
+                               : scene.colours[scene.container.wall_grains->species];
     colour_ = to_albedo(mix(species, neutral_grain, kGreyer));
 }
 

@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/grains/grain_colours.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class GluedSpheres {
   public:
-    explicit GluedSpheres(const Scene& scene);
+    explicit GluedSpheres(const FilmedScene& scene);
 
     struct Seen {
         Vec3 centre;    // m, where it is now

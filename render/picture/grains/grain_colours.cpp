@@ -6,6 +6,7 @@
 #include "engine/base/error.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/grains/colour_scale.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -20,12 +21,12 @@ Albedo to_albedo(const Colour& colour) {
             static_cast<float>(to_linear(colour.blue))};
 }
 
-GrainColours::GrainColours(const Scene& scene)
+GrainColours::GrainColours(const FilmedScene& scene)
     : quantities_(scene, scene.film.shows.colour.by), by_species_(!scene.film.shows.colour.of_grains()) {
     if (by_species_) {
         const bool pale = scene.film.shows.colour.of_field();
-        for (const Species& species : scene.species)
-            steps_.push_back(to_albedo(pale ? mix(species.colour, pale_grain, 0.8) : species.colour));
+        for (const Colour& colour : scene.colours)
+            steps_.push_back(to_albedo(pale ? mix(colour, pale_grain, 0.8) : colour));
         return;
     }
     const ColourScale scale(scene.film.shows.colour);

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/grains/quantities.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -19,7 +19,7 @@ inline constexpr Colour neutral_grain{0.62, 0.62, 0.62};  // sRGB
 
 class GrainColours {
   public:
-    explicit GrainColours(const Scene& scene);
+    explicit GrainColours(const FilmedScene& scene);
 
     // See Quantities.
     void start_from(const Frame& frame) { quantities_.start_from(frame); }

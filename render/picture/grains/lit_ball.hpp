@@ -3,7 +3,7 @@
 
 #include <cairo.h>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -1,4 +1,5 @@
 #include "render/picture/grains/quantities.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ double kinetic_energy(const Frame& frame, std::size_t i, double density) {
 
 }  // namespace
 
-Quantities::Quantities(const Scene& scene, GrainValue by) : by_(by) {
+Quantities::Quantities(const FilmedScene& scene, GrainValue by) : by_(by) {
     for (const Species& species : scene.species) density_.push_back(species.density);
 }
 

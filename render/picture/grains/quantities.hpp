@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class Quantities {
   public:
-    Quantities(const Scene& scene, GrainValue by);
+    Quantities(const FilmedScene& scene, GrainValue by);
 
     // Start heights are counted from this frame; without a call, from the first one that of() sees.
     void start_from(const Frame& frame);

@@ -1,4 +1,5 @@
 #include "render/picture/grains/shown_grains.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -24,19 +25,19 @@ std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame) {
     return kept;
 }
 
-ShownGrains::ShownGrains(const Scene& scene, const std::vector<std::size_t>& left_out) {
+ShownGrains::ShownGrains(const FilmedScene& scene, const std::vector<std::size_t>& left_out) {
     if (left_out.empty()) return;
     left_out_.resize(scene.species.size(), false);
     for (const std::size_t species : left_out) left_out_[species] = true;
 }
 
-ShownGrains ShownGrains::only(const Scene& scene, std::vector<std::int32_t> ids) {
+ShownGrains ShownGrains::only(const FilmedScene& scene, std::vector<std::int32_t> ids) {
     ShownGrains shown(scene, {});
     shown.only_ = std::move(ids);
     return shown;
 }
 
-ShownGrains ShownGrains::beside_cut(const Scene& scene) {
+ShownGrains ShownGrains::beside_cut(const FilmedScene& scene) {
     ShownGrains shown(scene, {});
     shown.cut_ = scene.film.look.cut;
     return shown;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -21,11 +21,11 @@ class ShownGrains {
   public:
     // left_out: species, indices into scene.species. Their grains are as if they were not there: they are not
     // lit, cast nothing and are not counted in fields.
-    ShownGrains(const Scene& scene, const std::vector<std::size_t>& left_out);
+    ShownGrains(const FilmedScene& scene, const std::vector<std::size_t>& left_out);
     // Leaves out all but these; ids rise.
-    static ShownGrains only(const Scene& scene, std::vector<std::int32_t> ids);
+    static ShownGrains only(const FilmedScene& scene, std::vector<std::int32_t> ids);
     // Leaves out the grains that the film's cut takes away whole.
-    static ShownGrains beside_cut(const Scene& scene);
+    static ShownGrains beside_cut(const FilmedScene& scene);
 
     // The frame itself when nothing is left out, otherwise a copy that the next call overwrites.
     const Frame& of(const Frame& frame);

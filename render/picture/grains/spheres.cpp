@@ -4,10 +4,11 @@
 
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/grains/styles.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-SpherePainter::SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts)
+SpherePainter::SpherePainter(const FilmedScene& scene, int width, int height, Team& team, bool ghosts)
     : grain_colours_(scene),
       glued_(scene),
       team_(team),

@@ -3,12 +3,12 @@
 
 #include "engine/base/team.hpp"
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/grains/glued_spheres.hpp"
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/spheres/light/sphere_layer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -16,7 +16,7 @@ class SpherePainter {
   public:
     // width, height: pixels of the port. ghosts: paint those of the scene's ghost species alone, where
     // nothing else stands before them; otherwise paint all grains that are taken.
-    SpherePainter(const Scene& scene, int width, int height, Team& team, bool ghosts);
+    SpherePainter(const FilmedScene& scene, int width, int height, Team& team, bool ghosts);
 
     // Of ghosts: paint all grains but these, whatever their species. ids rise.
     void paint_all_but(const std::vector<std::int32_t>& ids) { not_painted_ = ids; }

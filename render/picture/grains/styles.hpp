@@ -1,8 +1,8 @@
 // The three lights: studio, flat, dark.
 #pragma once
 
-#include "engine/scene/film/film_look.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
+#include "render/scene/film_look.hpp"
 
 namespace grainreel {
 

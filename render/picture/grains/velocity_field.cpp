@@ -6,6 +6,7 @@
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -15,13 +16,13 @@ constexpr double most_cells = 20000;  // of the picture
 constexpr double pi = std::numbers::pi;
 
 // Hz: one over how long the drive's last period was.
-double periods_a_second(const Scene& scene, const Frame& frame) {
+double periods_a_second(const FilmedScene& scene, const Frame& frame) {
     if (!scene.drive.changes()) return scene.drive.frequency;
     const DriveSchedule schedule(scene.drive);
     return 1 / (schedule.times().time(frame.cycles) - schedule.times().time(frame.cycles - 1));
 }
 
-FieldOutput resolution(const Scene& scene, double width) {
+FieldOutput resolution(const FilmedScene& scene, double width) {
     FieldOutput fields;
     const Vec3 size = extent_of(scene).size();
     fields.grid = FieldOutput::Grid::yz;
@@ -32,7 +33,7 @@ FieldOutput resolution(const Scene& scene, double width) {
 
 }  // namespace
 
-FieldState field_state_of(const Scene& scene, const Frame& frame, bool period) {
+FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period) {
     FieldState state;
     if (period && frame.displacement.size() != frame.size()) return state;
     const double frequency = period ? periods_a_second(scene, frame) : 0;
@@ -47,7 +48,7 @@ FieldState field_state_of(const Scene& scene, const Frame& frame, bool period) {
     return state;
 }
 
-VelocityField::VelocityField(const Scene& scene, double width, bool period)
+VelocityField::VelocityField(const FilmedScene& scene, double width, bool period)
     : scene_(scene), width_(width), period_(period), sums_(scene, resolution(scene, width), 1) {}
 
 void VelocityField::take(const Frame& frame) {

@@ -7,19 +7,19 @@
 
 #include "engine/frame.hpp"
 #include "engine/measure/fields/coarse_graining.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // What coarse-graining takes of a frame: places from where the container is, velocities of the room. period:
 // displacements over a period in place of velocities; grains that were not there a period before are left
 // out, and all are while the frame has no displacements.
-FieldState field_state_of(const Scene& scene, const Frame& frame, bool period);
+FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period);
 
 class VelocityField {
   public:
     // width: m, the kernel's standard deviation.
-    VelocityField(const Scene& scene, double width, bool period);
+    VelocityField(const FilmedScene& scene, double width, bool period);
 
     void take(const Frame& frame);
     // m/s, between cells by straight lines; none where fewer than three grains lie under the kernel. y, z: m,
@@ -29,7 +29,7 @@ class VelocityField {
   private:
     bool is_filled(std::size_t cell) const;
 
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const double width_;
     const bool period_;
     CoarseGraining sums_;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -14,7 +15,7 @@ constexpr double full_from = 0.3;     // solid fraction from which on it is as s
 constexpr double most_cells = 20000;  // of the picture
 
 // Wider than fields in files are by default, since this one is of a single moment; finer cells for the eye.
-FieldOutput resolution(const Scene& scene) {
+FieldOutput resolution(const FilmedScene& scene) {
     FieldOutput fields;
     const double diameter = mean_diameter(scene);
     const Vec3 size = extent_of(scene).size();
@@ -26,7 +27,7 @@ FieldOutput resolution(const Scene& scene) {
 
 }  // namespace
 
-FieldLayer::FieldLayer(const Scene& scene)
+FieldLayer::FieldLayer(const FilmedScene& scene)
     : scene_(scene),
       grid_(make_field_grid(scene, resolution(scene))),
       shares_(inside_shares(grid_, scene)),

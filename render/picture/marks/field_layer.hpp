@@ -6,17 +6,17 @@
 
 #include "engine/frame.hpp"
 #include "engine/measure/fields/footprint.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/grains/quantities.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class FieldLayer {
   public:
-    explicit FieldLayer(const Scene& scene);
+    explicit FieldLayer(const FilmedScene& scene);
 
     // See Renderer.
     void start_from(const Frame& frame) { quantities_.start_from(frame); }
@@ -26,7 +26,7 @@ class FieldLayer {
   private:
     void gather(const Frame& frame);
 
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const FieldGrid grid_;
     const std::vector<double> shares_;  // of each cell that are inside the container
     Footprint footprint_;

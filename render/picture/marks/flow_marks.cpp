@@ -7,6 +7,7 @@
 #include "engine/scene/bed.hpp"
 #include "render/picture/marks/arrow.hpp"
 #include "render/picture/marks/streamline.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -18,25 +19,25 @@ constexpr double thin = 0.6, thick = 2;          // widths of lines, pens
 const double side_over_width = std::sqrt(12.0);  // of a square and of its spread along one side
 
 // As wide as the mean over an arrow's cell; no narrower than half a grain.
-double arrow_kernel(const Scene& scene) {
+double arrow_kernel(const FilmedScene& scene) {
     return std::max(0.5 * mean_diameter(scene), arrow_cell(scene) / side_over_width);
 }
 
-double seed_distance(const Scene& scene) {
+double seed_distance(const FilmedScene& scene) {
     return extent_of(scene).size().y() / scene.film.shows.streamlines.across;
 }
 
-double streamline_kernel(const Scene& scene) {
+double streamline_kernel(const FilmedScene& scene) {
     return std::max(0.75 * mean_diameter(scene), 0.5 * seed_distance(scene));
 }
 
 }  // namespace
 
-double arrow_cell(const Scene& scene) {
+double arrow_cell(const FilmedScene& scene) {
     return extent_of(scene).size().y() / scene.film.shows.arrows.across;
 }
 
-double arrow_scale(const Scene& scene) {
+double arrow_scale(const FilmedScene& scene) {
     return arrow_cell(scene) / scene.film.shows.arrows.speed;
 }
 
@@ -44,7 +45,7 @@ double widest_streamline(int picture_height) {
     return (thin + thick) * std::max(1.0, picture_height / 540.0);
 }
 
-FlowMarks::FlowMarks(const Scene& scene, const Palette& palette)
+FlowMarks::FlowMarks(const FilmedScene& scene, const Palette& palette)
     : scene_(scene), palette_(palette), pen_(std::max(1.0, scene.film.height / 540.0)) {
     const FilmShows& shows = scene.film.shows;
     if (shows.arrows.across > 0) arrows_.emplace(scene_, arrow_kernel(scene), shows.arrows.period);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "engine/scene/film/grain_values.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {
@@ -28,7 +28,7 @@ bool has_marks(const FilmShows& look) {
            look.highlight_if.wanted();
 }
 
-double widest_force(const Scene& scene) {
+double widest_force(const FilmedScene& scene) {
     return widest_chain_force(scene);
 }
 
@@ -36,7 +36,7 @@ double widest_line(int picture_height) {
     return 0.01 * picture_height;
 }
 
-Marks::Marks(const Scene& scene, const Palette& palette)
+Marks::Marks(const FilmedScene& scene, const Palette& palette)
     : scene_(scene),
       palette_(palette),
       pen_(std::max(1.0, scene.film.height / 540.0)),

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
@@ -15,17 +14,18 @@
 #include "render/picture/marks/flow_marks.hpp"
 #include "render/picture/marks/trails.hpp"
 #include "render/picture/marks/wall_force_marks.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 bool has_marks(const FilmShows& look);
 // N of a contact whose line is as wide as lines of force get.
-double widest_force(const Scene& scene);
+double widest_force(const FilmedScene& scene);
 double widest_line(int picture_height);  // pixels
 
 class Marks {
   public:
-    Marks(const Scene& scene, const Palette& palette);
+    Marks(const FilmedScene& scene, const Palette& palette);
 
     // See Renderer.
     void start_from(const Frame& frame);
@@ -47,7 +47,7 @@ class Marks {
     void outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
                   const Colour& colour, double strength = 1) const;
 
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const Palette palette_;
     const double pen_;  // pixels
     std::optional<FieldLayer> field_;

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/film/grain_values.hpp"
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/picture/marks/marks.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {
@@ -105,7 +106,7 @@ std::string words_of_rings(const FilmShows& look) {
 
 }  // namespace
 
-TextSize marks_block(const Writer& writer, const Scene& scene, double scale, double x, double y,
+TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scale, double x, double y,
                      double wrap) {
     const FilmShows& look = scene.film.shows;
     if (!scene.film.word_kinds.legend) return {};

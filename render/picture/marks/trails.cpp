@@ -1,4 +1,5 @@
 #include "render/picture/marks/trails.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,7 @@
 
 namespace grainreel {
 
-Trails::Trails(const Scene& scene)
+Trails::Trails(const FilmedScene& scene)
     : species_(scene.species.size(), false),
       grains_(scene.film.shows.trails.grains),
       duration_(scene.film.shows.trails.duration),

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class Trails {
   public:
-    explicit Trails(const Scene& scene);
+    explicit Trails(const FilmedScene& scene);
 
     // Frames in the order of time; one that is seen again adds nothing, one from before starts anew.
     void take(const Frame& frame);

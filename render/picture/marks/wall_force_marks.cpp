@@ -7,6 +7,7 @@
 #include "engine/state/face_names.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/picture/marks/arrow.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -32,13 +33,13 @@ Vec3 last_vector(const Frame& frame, const std::string& name, const std::string&
 }
 
 // All around a cylinder's wall: half way up the bed, where the picture has the wall's edge.
-Vec3 beside_bed(const Scene& scene, const Face& wall) {
+Vec3 beside_bed(const FilmedScene& scene, const Face& wall) {
     return {0, wall.radius, 0.5 * fill_height(scene, packing)};
 }
 
 }  // namespace
 
-double wall_force_scale(const Scene& scene) {
+double wall_force_scale(const FilmedScene& scene) {
     return usual_arrow * extent_of(scene).size().y() / scene.film.shows.wall_forces.scale;
 }
 
@@ -50,7 +51,7 @@ std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const 
     return nearest + (plane.point - nearest).dot(plane.normal) / across * force;
 }
 
-WallForceMarks::WallForceMarks(const Scene& scene, const Palette& palette)
+WallForceMarks::WallForceMarks(const FilmedScene& scene, const Palette& palette)
     : scene_(scene), palette_(palette), pen_(std::max(1.0, scene.film.height / 540.0)) {
     const std::vector<Face> faces = faces_of(scene);
     const std::vector<std::string> names = face_names(scene);

@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // m an arrow is long for each N.
-double wall_force_scale(const Scene& scene);
+double wall_force_scale(const FilmedScene& scene);
 
 // Where the line of action of a force crosses a plane. moment: N m, about the origin. None where the force
 // runs along the plane: within 3 degrees.
@@ -23,7 +23,7 @@ std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const 
 
 class WallForceMarks {
   public:
-    WallForceMarks(const Scene& scene, const Palette& palette);
+    WallForceMarks(const FilmedScene& scene, const Palette& palette);
     void draw(const View& view, const Frame& frame, Shapes& on) const;
 
   private:
@@ -33,7 +33,7 @@ class WallForceMarks {
     };
     void draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const;
 
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const Palette palette_;
     const double pen_;  // pixels
     std::vector<Wall> walls_;

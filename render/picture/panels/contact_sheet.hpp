@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 struct _cairo;
 struct _cairo_surface;

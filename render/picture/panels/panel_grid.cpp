@@ -4,6 +4,7 @@
 
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/panels/panels.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -117,7 +118,7 @@ Planned grid(const std::vector<Panel>& panels, const Film& film, const WordHeigh
                        (at != PlotsAt::beside || port >= planned.plots.rows * least_high(type.minor));
     if (width - planned.plots.width < least_panel || port < least_panel || !layout.plots_fit) return planned;
     for (int i = 0; i < count; ++i) {
-        const Scene& scene = panels[static_cast<std::size_t>(i)].scene;
+        const FilmedScene& scene = panels[static_cast<std::size_t>(i)].scene;
         const int row = i / columns, in_row = std::min(columns, count - row * columns);
         PanelLayout::Place place;
         // The last row may be shorter: it stands in the middle.
@@ -133,7 +134,7 @@ Planned grid(const std::vector<Panel>& panels, const Film& film, const WordHeigh
 }
 
 double own_scale(const Panel& panel, const PanelLayout::Place& place) {
-    Scene scene = panel.scene;
+    FilmedScene scene = panel.scene;
     scene.film.width = place.port.width;
     scene.film.height = place.port.height;
     return frame_container(scene, bare_layout(scene.film)).pixels_per_metre(framed_middle(scene));
@@ -158,7 +159,7 @@ double set_scales(const std::vector<Panel>& panels, PanelLayout& layout) {
 
 // Pixels, from the highest to the lowest point that has to be seen.
 double seen_height(const Panel& panel, const PanelLayout::Place& place) {
-    Scene scene = panel.scene;
+    FilmedScene scene = panel.scene;
     scene.film.width = place.port.width;
     scene.film.height = place.port.height;
     scene.film.camera.zoom = place.zoom;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/measure/column_axis.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -34,7 +35,7 @@ PanelPlots::PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layo
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const std::vector<Rectangle>& places = layout.places[i].plots;
         for (std::size_t k = 0; k < places.size(); ++k) {
-            const Scene& scene = panels[i].scene;
+            const FilmedScene& scene = panels[i].scene;
             const FilmPlot& plot = scene.film.shows.plots[k];
             plots_.push_back({make_side_plot(scene, plot, places[k], end, small, palette,
                                              expected_of(panels, quantity_of(plot))),

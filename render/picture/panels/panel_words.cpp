@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "render/picture/words/captions.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -14,8 +15,8 @@ constexpr double longest_bar = 0.14, common_colour_bar = 0.2, common_marks = 0.1
 constexpr int pace_lines = 4;
 
 // Only what holds for all panels; the rest is in their captions. frame: null to measure the longest.
-TextSize common_drive(const Writer& writer, const Scene& scene, const Common& common, const Frame* frame,
-                      double x, double y) {
+TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Common& common,
+                      const Frame* frame, double x, double y) {
     if (!scene.film.word_kinds.drive) return {};
     Frame shown = frame ? *frame : Frame();
     if (!scene.drive.present) shown.cycles = scene.drive.ramp;  // drives that grow in times of their own
@@ -95,7 +96,7 @@ WordBlock captions_block(const Writer& measure, const Film& film, double width) 
 
 std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
                                      const Common& common, double scale, double width) {
-    Scene scene = panels.front().scene;
+    FilmedScene scene = panels.front().scene;
     scene.drive.present = common.clock;
     const WordKinds& kinds = scene.film.word_kinds;
     std::vector<WordBlock> blocks;
@@ -132,7 +133,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
                                         const std::string&) { colour_bar_block(on, scene, x, y, wide); }});
     }
     const double wrap = std::max(common_marks * width, 15 * measure.type.minor);
-    const Scene marked = marked_by(scene, common_marks_of(common, scale));
+    const FilmedScene marked = marked_by(scene, common_marks_of(common, scale));
     const double pixels = std::max(scale, 1.0);
     if (const TextSize size = marks_block(measure, marked, pixels, 0, 0, wrap); size.height > 0) {
         blocks.push_back(
@@ -241,7 +242,7 @@ double foot_height(const Writer& measure, const std::vector<Panel>& panels, cons
             row = std::max(row, scale_block(measure, 1, 0, 0, 100).height);
         if (!common.species) row = std::max(row, legend_block(measure, panel.scene, 0, 0, 0).height);
         bar = std::max(bar, own_bar_height(measure, panel, common));
-        const Scene marked = marked_by(panel.scene, own_marks_of(common, scales ? 0 : 1));
+        const FilmedScene marked = marked_by(panel.scene, own_marks_of(common, scales ? 0 : 1));
         marks = std::max(marks, marks_block(measure, marked, 1, 0, 0, width).height);
     }
     return row + bar + marks;

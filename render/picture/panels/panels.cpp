@@ -9,12 +9,13 @@
 #include "engine/plan/reach.hpp"
 #include "render/picture/marks/marks.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
 
 bool same_species(const Species& a, const Species& b) {
-    return a.name == b.name && a.count == b.count && a.diameter == b.diameter && a.colour == b.colour;
+    return a.name == b.name && a.count == b.count && a.diameter == b.diameter;
 }
 
 bool close(double a, double b) {
@@ -25,7 +26,7 @@ bool same_clock(const Drive& a, const Drive& b) {
     return close(a.frequency, b.frequency) && a.phase == b.phase && a.ramp == b.ramp && a.stages == b.stages;
 }
 
-double g_level(const Scene& scene) {
+double g_level(const FilmedScene& scene) {
     return scene.drive.present ? scene.drive.g_level(scene.gravity.norm()) : 0;
 }
 
@@ -33,17 +34,17 @@ bool all_alike(const std::vector<std::string>& words) {
     return std::all_of(words.begin(), words.end(), [&](const std::string& w) { return w == words.front(); });
 }
 
-std::vector<std::string> drive_captions(const std::vector<Scene>& scenes) {
-    const Scene& first = scenes.front();
+std::vector<std::string> drive_captions(const std::vector<FilmedScene>& scenes) {
+    const FilmedScene& first = scenes.front();
     bool frequency = false, level = false, amplitude = false;
-    for (const Scene& scene : scenes) {
+    for (const FilmedScene& scene : scenes) {
         frequency |= scene.drive.stages != first.drive.stages;
         frequency |= !close(scene.drive.frequency, first.drive.frequency);
         level |= std::isfinite(g_level(scene)) && !close(g_level(scene), g_level(first));
         amplitude |= !close(scene.drive.amplitude, first.drive.amplitude);
     }
     std::vector<std::string> captions;
-    for (const Scene& scene : scenes) {
+    for (const FilmedScene& scene : scenes) {
         std::vector<std::string> parts;
         if (frequency && scene.drive.changes()) parts.push_back("drive that changes, at first");
         if (frequency) parts.push_back("f = " + frequency_text(scene.drive.frequency));
@@ -56,7 +57,7 @@ std::vector<std::string> drive_captions(const std::vector<Scene>& scenes) {
 
 }  // namespace
 
-Scene marked_by(Scene scene, const MarkKinds& kinds) {
+FilmedScene marked_by(FilmedScene scene, const MarkKinds& kinds) {
     FilmShows& shows = scene.film.shows;
     if (!kinds.arrows) shows.arrows = {};
     if (!kinds.streamlines) shows.streamlines = {};
@@ -69,9 +70,9 @@ Scene marked_by(Scene scene, const MarkKinds& kinds) {
 
 Common common_of(const std::vector<Panel>& panels) {
     Common common;
-    const Scene& first = panels.front().scene;
+    const FilmedScene& first = panels.front().scene;
     for (const Panel& panel : panels) {
-        const Scene& scene = panel.scene;
+        const FilmedScene& scene = panel.scene;
         const bool driven = scene.drive.present && first.drive.present;
         common.clock = common.clock && driven && same_clock(scene.drive, first.drive);
         const bool same_stages = driven && scene.drive.stages == first.drive.stages;
@@ -98,9 +99,9 @@ Common common_of(const std::vector<Panel>& panels) {
         common.captions =
             common.captions && !scene.film.captions.empty() && scene.film.captions == first.film.captions;
         common.exaggerated = common.exaggerated && scene.film.exaggerate == first.film.exaggerate;
-        common.species =
-            common.species && std::equal(scene.species.begin(), scene.species.end(), first.species.begin(),
-                                         first.species.end(), same_species);
+        common.species = common.species && scene.colours == first.colours &&
+                         std::equal(scene.species.begin(), scene.species.end(), first.species.begin(),
+                                    first.species.end(), same_species);
     }
     return common;
 }
@@ -135,9 +136,9 @@ void share_reach(std::vector<Panel>& panels) {
     for (Panel& panel : panels) panel.scene.film.camera.reach = highest;
 }
 
-std::vector<std::string> captions_of(const std::vector<Scene>& scenes) {
+std::vector<std::string> captions_of(const std::vector<FilmedScene>& scenes) {
     std::vector<std::string> titles, names;
-    for (const Scene& scene : scenes) {
+    for (const FilmedScene& scene : scenes) {
         titles.push_back(scene.film.title.empty() ? scene.title : scene.film.title);
         names.push_back(scene.name);
     }

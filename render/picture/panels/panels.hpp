@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/picture_layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 struct Panel {
-    Scene scene;  // with its own camera, and what its film shows; of its film nothing else counts
+    FilmedScene scene;  // with its own camera, and what its film shows; of its film nothing else counts
     std::string caption;
     std::vector<std::string> playback = {};  // what is said of time in each segment of the whole
 };
@@ -22,7 +22,7 @@ struct MarkKinds {
     bool trails = true, chains = true, rings = true;
 };
 // With those marks alone.
-Scene marked_by(Scene scene, const MarkKinds& kinds);
+FilmedScene marked_by(FilmedScene scene, const MarkKinds& kinds);
 
 // What is the same in all panels, and so is said once.
 struct Common {
@@ -42,7 +42,7 @@ std::vector<Panel> without_common(std::vector<Panel> panels, const Common& commo
 
 // What tells the scenes apart, shortest first: frequency, g level or amplitude of their drives; or their
 // titles, with the drives where these differ too; or their names.
-std::vector<std::string> captions_of(const std::vector<Scene>& scenes);
+std::vector<std::string> captions_of(const std::vector<FilmedScene>& scenes);
 
 // One range of colours for panels that show the same quantity, as wide as the widest of theirs, unless a
 // scene has a range of its own: the same colour then means the same everywhere.

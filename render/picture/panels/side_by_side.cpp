@@ -14,6 +14,7 @@
 #include "render/picture/whole/renderer.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/halo.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -35,8 +36,8 @@ double caption_height(const Writer& measure, const std::vector<Panel>& panels, d
     return height > 0 ? height + 0.3 * measure.type.gap : 0;
 }
 
-Scene panel_scene(const Panel& panel, const PanelLayout::Place& place, const Film& film) {
-    Scene scene = panel.scene;
+FilmedScene panel_scene(const Panel& panel, const PanelLayout::Place& place, const Film& film) {
+    FilmedScene scene = panel.scene;
     scene.film.width = place.port.width;
     scene.film.height = place.port.height;
     scene.film.background = film.background;
@@ -108,7 +109,7 @@ struct SideBySide::Impl {
     std::vector<std::unique_ptr<Renderer>> renderers;
     std::vector<WordBlock> blocks;
     PanelPlots plots;
-    std::vector<Scene> scenes;                       // of the panels
+    std::vector<FilmedScene> scenes;                 // of the panels
     std::vector<std::vector<std::string>> playback;  // of each panel in each segment
     std::vector<std::string> notes, paces;           // that are in the picture now
     bool plots_drawn = false;
@@ -127,7 +128,7 @@ SideBySide::Impl::Impl(const std::vector<Panel>& panels, const Film& film, int r
     GRAINREEL_CHECK(layout.places.size() == panels.size());
     const std::vector<Panel> own = without_common(panels, common);
     for (std::size_t i = 0; i < panels.size(); ++i) {
-        const Scene scene = panel_scene(own[i], layout.places[i], film);
+        const FilmedScene scene = panel_scene(own[i], layout.places[i], film);
         scenes.push_back(scene);
         playback.push_back(panels[i].playback);
         renderers.push_back(

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/panels/panels.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

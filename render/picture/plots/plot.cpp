@@ -7,13 +7,14 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "engine/measure/column_axis.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/measure/no_value.hpp"
-#include "engine/scene/film/grain_values.hpp"
 #include "render/picture/plots/axis_drawing.hpp"
 #include "render/picture/plots/ticks.hpp"
 #include "render/picture/text/text.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {
@@ -30,7 +31,7 @@ void Plot::Slice::add(double value) {
     high = std::max(high, value);
 }
 
-PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot) {
+PlotFrame plot_frame(const FilmedScene& scene, const FilmPlot& plot) {
     PlotFrame frame;
     frame.column = plot.column;
     frame.label = plot.label;

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/film/film_shows.hpp"
-#include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture_layout.hpp"
 #include "render/picture/plots/side_plot.hpp"
 #include "render/picture/text/cairo_surface.hpp"
+#include "render/scene/film_shows.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -33,7 +33,7 @@ struct PlotFrame {
     int width = 0, height = 0;  // pixels
 };
 // Of a plot that the scene's film shows, without its size.
-PlotFrame plot_frame(const Scene& scene, const FilmPlot& plot);
+PlotFrame plot_frame(const FilmedScene& scene, const FilmPlot& plot);
 
 class Plot final : public SidePlot {
   public:

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/film/grain_values.hpp"
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/grains/velocity_field.hpp"
 #include "render/picture/plots/axis_drawing.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {
@@ -18,7 +19,7 @@ constexpr int most_ticks = 4;
 constexpr double most_cells = 20000;
 
 // As fields.nc has it by default.
-FieldOutput resolution(const Scene& scene) {
+FieldOutput resolution(const FilmedScene& scene) {
     FieldOutput fields;
     const Vec3 size = extent_of(scene).size();
     fields.grid = FieldOutput::Grid::yz;
@@ -28,7 +29,7 @@ FieldOutput resolution(const Scene& scene) {
 }
 
 // m: as high as the picture shows the grains, or as wide as the container is.
-std::array<double, 2> places_of(const Scene& scene, bool across) {
+std::array<double, 2> places_of(const FilmedScene& scene, bool across) {
     const Extent extent = extent_of(scene);
     if (across) return {extent.low.y(), extent.high.y()};
     if (scene.container.shape == Container::Shape::none) return {extent.low.z(), extent.high.z()};
@@ -42,7 +43,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 
 }  // namespace
 
-ProfilePlot::ProfilePlot(const Scene& scene, const FilmPlot& plot, int width, int height,
+ProfilePlot::ProfilePlot(const FilmedScene& scene, const FilmPlot& plot, int width, int height,
                          const TypeScale& type, const Palette& palette)
     : scene_(scene),
       plot_(plot),
@@ -112,7 +113,7 @@ void ProfilePlot::draw(cairo_t* on, int x, int y) {
     draw_lying_axis(on, plot_.across ? places : values);
     const bool by_species = curves_.size() == scene_.species.size() && !plot_.of_velocity();
     for (std::size_t c = 0; c < curves_.size(); ++c)
-        draw_curve(on, curves_[c], by_species ? scene_.species[c].colour : palette_.ink);
+        draw_curve(on, curves_[c], by_species ? scene_.colours[c] : palette_.ink);
     cairo_restore(on);
 }
 

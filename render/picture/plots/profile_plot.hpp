@@ -11,13 +11,14 @@
 #include "engine/measure/fields/profile.hpp"
 #include "render/picture/plots/side_plot.hpp"
 #include "render/picture/plots/ticks.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class ProfilePlot final : public SidePlot {
   public:
     // width, height: pixels.
-    ProfilePlot(const Scene& scene, const FilmPlot& plot, int width, int height, const TypeScale& type,
+    ProfilePlot(const FilmedScene& scene, const FilmPlot& plot, int width, int height, const TypeScale& type,
                 const Palette& palette);
 
     // The axes stay as they are; only the curves follow the frames.
@@ -41,7 +42,7 @@ class ProfilePlot final : public SidePlot {
     void draw_lying_axis(cairo_t* on, const Axis& axis) const;
     void draw_curve(cairo_t* on, const std::vector<double>& values, const Colour& colour) const;
 
-    const Scene scene_;
+    const FilmedScene scene_;
     const FilmPlot plot_;
     const int width_, height_;
     const TypeScale type_;

@@ -4,12 +4,13 @@
 
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/plots/profile_plot.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-std::unique_ptr<SidePlot> make_side_plot(const Scene& scene, const FilmPlot& plot, const Rectangle& place,
-                                         double end, const TypeScale& type, const Palette& palette,
-                                         double expected) {
+std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlot& plot,
+                                         const Rectangle& place, double end, const TypeScale& type,
+                                         const Palette& palette, double expected) {
     if (plot.is_profile())
         return std::make_unique<ProfilePlot>(scene, plot, place.width, place.height, type, palette);
     PlotFrame frame = plot_frame(scene, plot);

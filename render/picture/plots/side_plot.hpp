@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture_layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -30,8 +30,8 @@ class SidePlot {
 
 // place: only its size counts. end: s, of the axis of time. expected: SI, of which size the unit of a
 // column's values is at least, beside what the scene says of it.
-std::unique_ptr<SidePlot> make_side_plot(const Scene& scene, const FilmPlot& plot, const Rectangle& place,
-                                         double end, const TypeScale& type, const Palette& palette,
-                                         double expected = 0);
+std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlot& plot,
+                                         const Rectangle& place, double end, const TypeScale& type,
+                                         const Palette& palette, double expected = 0);
 
 }  // namespace grainreel

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -20,6 +20,7 @@
 #include "render/picture/whole/compose.hpp"
 #include "render/picture/whole/exposure.hpp"
 #include "render/picture/words/overlay.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -57,7 +58,7 @@ void copy(const Picture& from, const Rectangle& part, Picture& to) {
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(const Scene& s, const PictureLayout& plan, int raster_threads, gl::Provider provider)
+    Impl(const FilmedScene& s, const PictureLayout& plan, int raster_threads, gl::Provider provider)
         : scene(s),
           palette(palette_of(s.film)),
           layout(plan),
@@ -92,7 +93,7 @@ struct Renderer::Impl {
         }
     }
 
-    Scene scene;
+    FilmedScene scene;
     Palette palette;
     PictureLayout layout;
     const Rectangle port;
@@ -264,9 +265,10 @@ const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, const Frame& fr
     return layer;
 }
 
-Renderer::Renderer(const Scene& scene, int raster_threads, gl::Provider provider)
+Renderer::Renderer(const FilmedScene& scene, int raster_threads, gl::Provider provider)
     : Renderer(scene, plan_layout(scene), raster_threads, provider) {}
-Renderer::Renderer(const Scene& scene, const PictureLayout& layout, int raster_threads, gl::Provider provider)
+Renderer::Renderer(const FilmedScene& scene, const PictureLayout& layout, int raster_threads,
+                   gl::Provider provider)
     : impl_(std::make_unique<Impl>(scene, layout, raster_threads, provider)) {}
 
 Renderer::~Renderer() = default;

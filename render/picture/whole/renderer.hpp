@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/marks/point_forces.hpp"
 #include "render/picture/words/layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -33,9 +33,10 @@ class Renderer {
   public:
     // Makes an off-screen OpenGL context, current on the calling thread: construct, use and destroy it on one
     // thread. raster_threads: of the software rasteriser, >= 1. Throws RunError when no context is to be had.
-    Renderer(const Scene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic);
+    Renderer(const FilmedScene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic);
     // Likewise, with a layout other than plan_layout()'s: bare_layout() leaves out all words.
-    Renderer(const Scene& scene, const PictureLayout& layout, int raster_threads, gl::Provider provider);
+    Renderer(const FilmedScene& scene, const PictureLayout& layout, int raster_threads,
+             gl::Provider provider);
     ~Renderer();
 
     // playback: what the caption says of time ("slow motion, 1/10 speed"). film_time: s since the film's

@@ -11,7 +11,7 @@
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/drive/grown_share.hpp"
-#include "engine/scene/film/live_text.hpp"
+#include "render/scene/live_text.hpp"
 
 namespace grainreel {
 namespace {
@@ -43,7 +43,7 @@ double rounded_as(double value, double full) {
     return std::round(value / digit) * digit;
 }
 
-std::vector<std::string> growing_lines(const Scene& scene, double share) {
+std::vector<std::string> growing_lines(const FilmedScene& scene, double share) {
     const Drive& drive = scene.drive;
     const double gravity = scene.gravity.norm(), level = drive.g_level(gravity);
     std::vector<std::string> lines = {"f = " + frequency_text(drive.frequency)};
@@ -63,7 +63,7 @@ std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravi
 
 }  // namespace
 
-std::vector<std::string> drive_lines(const Scene& scene, const Frame& frame) {
+std::vector<std::string> drive_lines(const FilmedScene& scene, const Frame& frame) {
     const double cycles = frame.time < 0 ? -1 : std::max(0.0, frame.cycles);
     const double share = grown_share(scene.drive, cycles);
     const DriveSchedule::Now now = drive_now(scene.drive, std::max(0.0, cycles));
@@ -75,7 +75,7 @@ bool drive_lines_change(const Drive& drive) {
     return drive.present && (drive.changes() || drive.ramp > 0);
 }
 
-std::vector<std::string> longest_drive_lines(const Scene& scene) {
+std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
     const double gravity = scene.gravity.norm();
     std::vector<std::string> longest = vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity);
     const auto take = [&](const std::vector<std::string>& lines) {
@@ -157,7 +157,7 @@ std::string mass_text(double kilograms) {
 }
 
 // Of how many only where all are there from the start: of grains that are fed, some are yet to come.
-std::string outflow_text(const Scene& scene, const FlowedOut& out) {
+std::string outflow_text(const FilmedScene& scene, const FlowedOut& out) {
     const std::int64_t all = scene.grains();
     const std::string grains = scene.grains_at_start() == all ? fmt::format("{} of {} out", out.grains, all)
                                                               : fmt::format("{} out", out.grains);
@@ -173,7 +173,7 @@ std::string caption_at(const Film& film, double time) {
 
 }  // namespace
 
-std::string note_text(const Scene& scene, const Frame& frame) {
+std::string note_text(const FilmedScene& scene, const Frame& frame) {
     const std::string text =
         live_text(scene.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
             if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
@@ -190,7 +190,7 @@ std::string note_text(const Scene& scene, const Frame& frame) {
     return joined(joined(out, text), caption_at(scene.film, frame.time));
 }
 
-std::vector<std::string> longest_notes(const Scene& scene) {
+std::vector<std::string> longest_notes(const FilmedScene& scene) {
     const std::string text =
         live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
     const FlowedOut most{scene.grains(), 0.888};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -23,11 +23,11 @@ std::string diameter_text(const SizeSpread& diameter);
 double round_length(double longest);
 // What the drive does in a frame, a line each: f, Gamma and amplitude, of the stage that is on where it has
 // stages. In a change, and while the drive grows at first, they are those of the moment.
-std::vector<std::string> drive_lines(const Scene& scene, const Frame& frame);
+std::vector<std::string> drive_lines(const FilmedScene& scene, const Frame& frame);
 // Whether they differ from frame to frame.
 bool drive_lines_change(const Drive& drive);
 // About as long as any of them get in the course of the film, and as many.
-std::vector<std::string> longest_drive_lines(const Scene& scene);
+std::vector<std::string> longest_drive_lines(const FilmedScene& scene);
 // Where in the drive's period a frame is, as shown: the phase in hundredths of a turn, never 1.00, and the
 // cycle that this phase belongs to.
 struct ShownCycle {
@@ -40,10 +40,10 @@ std::string playback_text(const Film& film, const Frame& frame, const std::strin
 // What has flowed out, the scene's own words (film.text, with values of the last row of measures until the
 // frame), and the caption of this time. And about as long as they get: with each caption, or the one without
 // any.
-std::string note_text(const Scene& scene, const Frame& frame);
-std::vector<std::string> longest_notes(const Scene& scene);
+std::string note_text(const FilmedScene& scene, const Frame& frame);
+std::vector<std::string> longest_notes(const FilmedScene& scene);
 // Into how many lines of the gutter each of their lines may break.
-inline int note_lines(const Scene& scene) {
+inline int note_lines(const FilmedScene& scene) {
     return scene.film.captions.empty() ? 2 : 6;
 }
 

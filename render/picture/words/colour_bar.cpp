@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/plots/ticks.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -62,7 +64,7 @@ ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type,
     return place;
 }
 
-TextSize colour_bar_block(const Writer& writer, const Scene& scene, double x, double y, double width) {
+TextSize colour_bar_block(const Writer& writer, const FilmedScene& scene, double x, double y, double width) {
     if (!has_colour_bar(scene.film)) return {};
     const ColourScale scale(scene.film.shows.colour);
     const TypeScale& type = writer.type;

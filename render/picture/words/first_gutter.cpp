@@ -4,6 +4,7 @@
 
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -44,7 +45,8 @@ class Column {
 // Blocks of the first gutter, in whatever order they are put.
 class Blocks {
   public:
-    Blocks(const Scene& scene, const View* view, double scale) : scene_(scene), view_(view), scale_(scale) {}
+    Blocks(const FilmedScene& scene, const View* view, double scale)
+        : scene_(scene), view_(view), scale_(scale) {}
     auto title(double wrap) const {
         return
             [=, this](const Writer& on, double x, double y) { return title_block(on, scene_, x, y, wrap); };
@@ -75,10 +77,10 @@ class Blocks {
     auto arrows() const {
         return [this](const Writer& on, double x, double y) { return arrows_block(on, scene_, view_, x, y); };
     }
-    const Scene& scene() const { return scene_; }
+    const FilmedScene& scene() const { return scene_; }
 
   private:
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const View* view_;
     const double scale_;
 };
@@ -100,7 +102,7 @@ void add_legend(Column& column, const Writer& writer, const Blocks& blocks, doub
 FirstPart upright_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
-    const Scene& scene = blocks.scene();
+    const FilmedScene& scene = blocks.scene();
     const bool has_aside = scene.film.word_kinds.scale || scene.film.axes;
     const double x = type.margin, aside = has_aside ? 0.24 * inner : 0;
     const bool both = has_colour_bar(scene.film) && blocks.marks(inner)(measure, 0, 0).height > 0;
@@ -207,8 +209,8 @@ FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, 
 
 }  // namespace
 
-FirstPart first_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
-                     double width) {
+FirstPart first_part(const Writer& writer, const FilmedScene& scene, const View* view,
+                     const PictureLayout& layout, double width) {
     const TypeScale& type = writer.type;
     const double inner = std::max(1.0, width - (layout.stacked ? 2.0 : 1.5) * type.margin);
     const double room = layout.first.height > 0 ? layout.first.height - type.margin : endless_room;

@@ -6,6 +6,7 @@
 
 #include "render/picture/words/plates.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -22,7 +23,7 @@ struct FirstPart {
 };
 // Title, legend, colour bar, marks, scale bar, axes and arrows in the first gutter, as far as its height
 // goes; 0: however much they need. view: null while measuring.
-FirstPart first_part(const Writer& writer, const Scene& scene, const View* view, const PictureLayout& layout,
-                     double width);
+FirstPart first_part(const Writer& writer, const FilmedScene& scene, const View* view,
+                     const PictureLayout& layout, double width);
 
 }  // namespace grainreel

@@ -10,6 +10,7 @@
 #include "render/picture/words/first_gutter.hpp"
 #include "render/picture/words/numbers_plan.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -35,7 +36,7 @@ constexpr double shrinks[] = {1, 0.9, 0.8};
 constexpr double least_port = 0.36;  // over the picture's height, between gutters above and below
 
 // Pixels that the container is high where the width is what binds.
-double natural_height(const Scene& scene, const TypeScale& type, int width) {
+double natural_height(const FilmedScene& scene, const TypeScale& type, int width) {
     PictureLayout tall;
     tall.port = {0, 0, width, 8 * scene.film.height};
     const View view = frame_container(scene, tall);
@@ -49,7 +50,7 @@ double natural_height(const Scene& scene, const TypeScale& type, int width) {
 }
 
 // Plots take the height that the container does not need.
-PictureLayout stacked(const Scene& scene, PictureLayout layout, const Writer& measure) {
+PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
     const int width = scene.film.width, height = scene.film.height;
     layout.stacked = true;
@@ -74,13 +75,13 @@ PictureLayout stacked(const Scene& scene, PictureLayout layout, const Writer& me
 }
 
 // Pixels, of the longest word above a colour bar.
-double colour_words(const Scene& scene, const Writer& measure) {
+double colour_words(const FilmedScene& scene, const Writer& measure) {
     if (!has_colour_bar(scene.film)) return 0;
     return longest_word(ColourScale(scene.film.shows.colour).title(), measure.minor());
 }
 
 // Pixels between margins, of words at the left or right that wrap as they like.
-double least_column(const Scene& scene, const Writer& measure, const std::string& title) {
+double least_column(const FilmedScene& scene, const Writer& measure, const std::string& title) {
     const double width = scene.film.width;
     const bool wraps = !title.empty() || has_colour_bar(scene.film) ||
                        marks_block(measure, scene, 1, 0, 0, width).height > 0;
@@ -90,7 +91,7 @@ double least_column(const Scene& scene, const Writer& measure, const std::string
     return std::min((width < 1.4 * scene.film.height ? 0.22 : 0.17) * width, 9 * measure.type.title);
 }
 
-PictureLayout side_by_side(const Scene& scene, PictureLayout layout, const Writer& measure) {
+PictureLayout side_by_side(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
     const int width = scene.film.width, height = scene.film.height;
     const double most = 0.33 * width;
@@ -117,7 +118,7 @@ struct Judged {
 };
 
 // With the names of what has no room in it.
-Judged judged(const Scene& scene, PictureLayout layout, const Writer& measure) {
+Judged judged(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     layout.left_out = first_part(measure, scene, nullptr, layout, layout.first.width).left_out;
     const NumbersPlan plan =
         plan_numbers(measure, scene, layout.second.width, layout.second.height, layout.stacked);
@@ -137,7 +138,7 @@ bool says_more(const Judged& one, const Judged& other) {
 }
 
 // With the largest letters that leave nothing out, or that leave out the least.
-Judged largest_letters(const Scene& scene, bool above_and_below) {
+Judged largest_letters(const FilmedScene& scene, bool above_and_below) {
     const Palette palette = make_palette(scene.film.background);
     std::optional<Judged> best;
     for (const double shrink : shrinks) {
@@ -153,7 +154,7 @@ Judged largest_letters(const Scene& scene, bool above_and_below) {
 }
 
 // Where the container becomes larger, of those that have room for as much.
-Judged better_of(const Scene& scene) {
+Judged better_of(const FilmedScene& scene) {
     const Judged upright = largest_letters(scene, true), wide = largest_letters(scene, false);
     if (says_more(upright, wide)) return upright;
     if (says_more(wide, upright)) return wide;
@@ -162,7 +163,7 @@ Judged better_of(const Scene& scene) {
 
 }  // namespace
 
-PictureLayout plan_layout(const Scene& scene) {
+PictureLayout plan_layout(const FilmedScene& scene) {
     const WordPlace words = scene.film.words;
     if (words == WordPlace::none) return bare_layout(scene.film);
     Judged best = better_of(scene);

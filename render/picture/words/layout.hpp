@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/frame.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/picture/base/picture_layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -12,6 +12,6 @@ Frame widest_frame();
 // As film.words has it. Gutters are as wide as their words need, and at most about a third of the picture
 // each: left and right, or above and below, whichever leaves the container larger. Words shrink to their
 // least size, four fifths, before any is left out.
-PictureLayout plan_layout(const Scene& scene);
+PictureLayout plan_layout(const FilmedScene& scene);
 
 }  // namespace grainreel

@@ -11,6 +11,7 @@
 #include "render/picture/grains/lit_ball.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -20,7 +21,7 @@ constexpr std::size_t most_species = 12;  // more are summed up in a last line
 // The entries of a legend of which the first `shown` species have one each, and the others one together.
 class Entries {
   public:
-    Entries(const Writer& writer, const Scene& scene, double wrap)
+    Entries(const Writer& writer, const FilmedScene& scene, double wrap)
         : writer_(writer), scene_(scene), wrap_(wrap), icon_(1.5 * writer.type.main) {}
 
     std::size_t count(std::size_t shown) const { return shown + (shown < scene_.species.size() ? 1 : 0); }
@@ -88,25 +89,25 @@ class Entries {
             std::max(0.25, species.diameter.largest / std::max(largest_diameter(scene_), 1e-30));
         if (writer_.on)
             draw_lit_ball(writer_.on, x + 0.5 * icon_, y + 0.5 * size.height, 0.5 * icon_ * share,
-                          by_species ? species.colour : neutral_grain);
+                          by_species ? scene_.colours[i] : neutral_grain);
         return size;
     }
 
     const Writer writer_;
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const double wrap_, icon_;
 };
 
 }  // namespace
 
-std::size_t species_in_legend(const Writer& writer, const Scene& scene, double wrap, double room) {
+std::size_t species_in_legend(const Writer& writer, const FilmedScene& scene, double wrap, double room) {
     const Entries entries = Entries(writer, scene, wrap).measured();
     std::size_t shown = std::min(scene.species.size(), most_species);
     while (shown > 0 && room > 0 && entries.draw(shown, 0, 0).height > room) --shown;
     return shown;
 }
 
-TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap,
+TextSize legend_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap,
                       double room) {
     if (!scene.film.word_kinds.legend) return {};
     const std::size_t shown = species_in_legend(writer, scene, wrap, room);

@@ -9,6 +9,7 @@
 
 #include "render/picture/text/text.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -111,7 +112,7 @@ std::string missing_letters_warning(const std::vector<std::pair<std::string, std
         fmt::join(words, ", "), fmt::join(packages, " "));
 }
 
-std::vector<std::pair<std::string, std::string>> texts_of_film(const Scene& scene) {
+std::vector<std::pair<std::string, std::string>> texts_of_film(const FilmedScene& scene) {
     std::vector<std::pair<std::string, std::string>> texts;
     const Film& film = scene.film;
     if (film.words == WordPlace::none) return texts;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -23,7 +23,7 @@ std::vector<MissingLetters> missing_letters(const std::string& text);
 std::string missing_letters_warning(const std::vector<std::pair<std::string, std::string>>& texts);
 
 // Texts of a scene that its film shows, each with the place where it is written.
-std::vector<std::pair<std::string, std::string>> texts_of_film(const Scene& scene);
+std::vector<std::pair<std::string, std::string>> texts_of_film(const FilmedScene& scene);
 
 // A sample of each script that doctor asks for.
 struct ScriptSample {

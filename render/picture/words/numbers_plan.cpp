@@ -5,6 +5,7 @@
 
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/layout.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -28,7 +29,7 @@ struct Wanted {
 
 class Planner {
   public:
-    Planner(const Writer& measure, const Scene& scene, double width, double height, bool stacked,
+    Planner(const Writer& measure, const FilmedScene& scene, double width, double height, bool stacked,
             Wanted wanted)
         : measure_(measure),
           type_(measure.type),
@@ -83,7 +84,7 @@ class Planner {
 
     const Writer& measure_;
     const TypeScale& type_;
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const WordKinds kinds_ = scene_.film.word_kinds;
     const double width_, height_, x_, inner_;
     const double line_;  // height of a minor one
@@ -240,7 +241,7 @@ NumbersPlan Planner::row() {
 
 }  // namespace
 
-NumbersPlan plan_numbers(const Writer& measure, const Scene& scene, double width, double height,
+NumbersPlan plan_numbers(const Writer& measure, const FilmedScene& scene, double width, double height,
                          bool stacked) {
     if (width <= 0) {  // there is no gutter
         NumbersPlan none;

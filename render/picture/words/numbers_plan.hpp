@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "engine/scene/scene.hpp"
 #include "render/picture/words/plates.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -34,7 +34,7 @@ struct NumbersPlan {
 // width: of the gutter. height: of the gutter, where plots fill what is left; 0: as little as they need.
 // stacked: the gutter lies above or below the container. What there is no room for is left out: plots, then
 // arrows, then the dial.
-NumbersPlan plan_numbers(const Writer& measure, const Scene& scene, double width, double height,
+NumbersPlan plan_numbers(const Writer& measure, const FilmedScene& scene, double width, double height,
                          bool stacked);
 
 }  // namespace grainreel

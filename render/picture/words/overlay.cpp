@@ -11,10 +11,12 @@
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/first_gutter.hpp"
 #include "render/picture/words/halo.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-Overlay::Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view)
+Overlay::Overlay(const FilmedScene& scene, const Palette& palette, const PictureLayout& layout,
+                 const View& view)
     : scene_(scene),
       palette_(palette),
       layout_(layout),

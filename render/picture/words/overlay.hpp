@@ -15,12 +15,13 @@
 #include "render/picture/text/cairo_surface.hpp"
 #include "render/picture/words/numbers_plan.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 class Overlay {
   public:
-    Overlay(const Scene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
+    Overlay(const FilmedScene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
 
     // Writes the gutters into the picture: all of them the first time, then only what changes; or the plates,
     // which lay_over() puts into it. view: before it follows anything.
@@ -44,7 +45,7 @@ class Overlay {
     void renew(Picture& picture, const Rectangle& part, const Draw& draw);
     void renew_plots(Picture& picture, const Frame& frame);
 
-    const Scene& scene_;
+    const FilmedScene& scene_;
     const Palette palette_;
     const PictureLayout layout_;
     const TypeScale type_;

@@ -8,6 +8,7 @@
 #include "render/picture/container/lab_marks.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/writer.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -81,7 +82,7 @@ void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
 
 }  // namespace
 
-TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap) {
+TextSize title_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap) {
     const std::string title = shown_title(scene.film);
     if (title.empty()) return {};
     return writer.write(x, y, title, writer.title(), writer.palette.ink, wrap, 6);
@@ -101,7 +102,7 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
     return {std::max(pixels, label.width), 1.3 * tick + label.height};
 }
 
-TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view, double x, double y) {
+TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y) {
     const double reach = 0.75 * writer.type.main, row = 2.2 * writer.type.main,
                  indent = 1.5 * writer.type.main;
     TextSize size;
@@ -135,7 +136,7 @@ TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view
     return size;
 }
 
-TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, double x, double y) {
+TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y) {
     if (!scene.film.axes) return {};
     const double reach = 1.6 * writer.type.main, side = 2 * reach + 2 * writer.type.minor;
     if (!writer.on || !view) return {side, side + writer.type.gap};
@@ -161,7 +162,7 @@ TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, 
     return {side, side + writer.type.gap};
 }
 
-TextSize drive_block(const Writer& writer, const Scene& scene, const Frame* frame, double x, double y) {
+TextSize drive_block(const Writer& writer, const FilmedScene& scene, const Frame* frame, double x, double y) {
     if (!scene.drive.present) return {};
     TextSize size;
     std::vector<std::string> lines;
@@ -198,7 +199,7 @@ std::int64_t count_in_tray(const Frame& frame) {
 }
 
 // Time first, then the lines below it.
-std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
+std::vector<std::string> clock_lines(const FilmedScene& scene, const Frame& frame) {
     const WordKinds& kinds = scene.film.word_kinds;
     std::vector<std::string> lines;
     if (kinds.time) lines.push_back(time_text(frame.time, scene.run.duration));
@@ -217,11 +218,11 @@ std::vector<std::string> clock_lines(const Scene& scene, const Frame& frame) {
 
 }  // namespace
 
-std::string clock_words(const Scene& scene, const Frame& frame) {
+std::string clock_words(const FilmedScene& scene, const Frame& frame) {
     return fmt::format("{}", fmt::join(clock_lines(scene, frame), "\n"));
 }
 
-TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y) {
+TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame& frame, double x, double y) {
     TextSize size;
     for (const std::string& line : clock_lines(scene, frame)) {
         const bool time = size.height == 0 && scene.film.word_kinds.time;

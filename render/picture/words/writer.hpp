@@ -11,6 +11,7 @@
 #include "render/picture/base/picture_layout.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/text/text.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -32,12 +33,12 @@ struct Writer {
 };
 
 // Each draws itself with its top left corner at (x, y), pixels, and returns its size.
-TextSize title_block(const Writer& writer, const Scene& scene, double x, double y, double wrap);
+TextSize title_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap);
 // In as many columns as `wrap` has room for; in one with wrap 0, which sets no limit. Of species that there
 // is no `room` (pixels of height; 0: without end) for it says how many there are; nothing where not one fits.
-TextSize legend_block(const Writer& writer, const Scene& scene, double x, double y, double wrap,
+TextSize legend_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap,
                       double room = 0);
-std::size_t species_in_legend(const Writer& writer, const Scene& scene, double wrap, double room);
+std::size_t species_in_legend(const Writer& writer, const FilmedScene& scene, double wrap, double room);
 // Where the colours are inside the colour bar's block, whose words end at y; whole pixels. Beside them lie
 // the tips of arrows, where an end stands for all values beyond it, too.
 struct ColourBarPlace {
@@ -50,16 +51,17 @@ ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type,
 inline bool has_colour_bar(const Film& film) {
     return film.word_kinds.legend && film.shows.colour.by != GrainValue::species;
 }
-TextSize colour_bar_block(const Writer& writer, const Scene& scene, double x, double y, double width);
+TextSize colour_bar_block(const Writer& writer, const FilmedScene& scene, double x, double y, double width);
 // What the marks over the grains mean, with a sample of each; nothing without marks. scale: pixels a metre.
-TextSize marks_block(const Writer& writer, const Scene& scene, double scale, double x, double y, double wrap);
+TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scale, double x, double y,
+                     double wrap);
 TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest);
 // Directions of gravity and of the drive as the camera sees them. view: null while measuring.
-TextSize arrows_block(const Writer& writer, const Scene& scene, const View* view, double x, double y);
+TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
 // x, y and z as the camera sees them, where the film wants them; likewise.
-TextSize axes_block(const Writer& writer, const Scene& scene, const View* view, double x, double y);
+TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
 // f, Gamma and amplitude, and by how much the motion is exaggerated. frame: null to measure the longest.
-TextSize drive_block(const Writer& writer, const Scene& scene, const Frame* frame, double x, double y);
+TextSize drive_block(const Writer& writer, const FilmedScene& scene, const Frame* frame, double x, double y);
 // The last of these alone; nothing while motion is drawn as it is.
 TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y);
 // A hand that turns once a period, and beside it where in its stroke the floor is; without `frame` only the
@@ -69,8 +71,8 @@ TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame
 // Lines of the scene's own words, each in up to `most` lines of the gutter.
 TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap, int most);
 // All that clock_block would write.
-std::string clock_words(const Scene& scene, const Frame& frame);
+std::string clock_words(const FilmedScene& scene, const Frame& frame);
 // Time and, with a drive, the cycle.
-TextSize clock_block(const Writer& writer, const Scene& scene, const Frame& frame, double x, double y);
+TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame& frame, double x, double y);
 
 }  // namespace grainreel

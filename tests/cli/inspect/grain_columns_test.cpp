@@ -10,11 +10,11 @@
 #include "engine/base/error.hpp"
 #include "engine/questions/displacement.hpp"
 #include "engine/questions/questions.hpp"
-#include "engine/scene/file/reader.hpp"
-#include "engine/scene/film/grain_values.hpp"
 #include "render/picture/grains/quantities.hpp"
 #include "engine/questions/answer_forces.hpp"
 #include "render/film/answers/answer_picture.hpp"
+#include "render/scene/grain_values.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -26,7 +26,7 @@ constexpr double d = 0.004, r = d / 2;  // m
 // A cube of 5 x 5 x 5 grains that touch fills a box as wide as it. Layer k rises at k cm/s. Grain 62, in the
 // middle, is of the other species.
 struct Cube {
-    Scene scene = read_scene_text(R"(
+    FilmedScene scene = read_filmed_scene_text(R"(
 [[species]]
 name = "small"
 count = 124
@@ -48,7 +48,7 @@ g_level = 2
 [run]
 duration = "1 s"
 )",
-                                  "cube.toml");
+                                               "cube.toml");
     Snapshot snapshot{scene, grains(), true, grains()};
 
     static Frame grains() {
@@ -166,10 +166,11 @@ TEST(GrainColumns, HaveAllColoursOfTheFilm) {
     Frame before = cube.snapshot.frame;
     for (Vec3& place : before.position) place -= Vec3(0.001, 0, 0.002);
     set_displacement(cube.snapshot.frame, before, 1, 0);
-    for (const auto& [word, value] : grain_value_words) {
+    for (const auto& [colour, value] : grain_value_words) {
+        const std::string& word = colour;
         const auto& all = grain_columns();
-        const auto column =
-            std::find_if(all.begin(), all.end(), [&](const GrainColumn& one) { return one.colour == value; });
+        const auto column = std::find_if(all.begin(), all.end(),
+                                         [&](const GrainColumn& one) { return one.coloured_as == word; });
         ASSERT_NE(column, all.end()) << word;
         if (value == GrainValue::species) continue;
         EXPECT_EQ(column->dimension, dimension_of(value)) << word;

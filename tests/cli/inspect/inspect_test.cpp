@@ -17,7 +17,7 @@
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/expression.hpp"
 #include "engine/questions/mean_answer.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -30,8 +30,8 @@ using testing::HasSubstr;
 
 constexpr double d = 0.004;  // m, diameter
 
-Scene two_species() {
-    return read_scene_text(R"(
+FilmedScene two_species() {
+    return read_filmed_scene_text(R"(
 [[species]]
 name = "small"
 count = 63
@@ -53,7 +53,7 @@ g_level = 2
 [run]
 duration = "1 s"
 )",
-                           "two.toml");
+                                  "two.toml");
 }
 
 // A cubic lattice of 4 x 4 x 4 grains that touch, from the floor up; grain 63, the one far up in a corner, is
@@ -73,7 +73,7 @@ Frame lattice() {
 }
 
 struct Bed {
-    Scene scene = two_species();
+    FilmedScene scene = two_species();
     Snapshot snapshot{scene, lattice(), false, lattice()};
 
     std::size_t count(const std::string& condition) const { return grains_where(snapshot, condition).size(); }

@@ -132,7 +132,7 @@ TEST_P(PixelOfTheFilm, IsOfTheGrainThatThePictureShows) {
     MomentFinder finder(record.record());
     const Snapshot snapshot =
         finder.brought_back(finder.find({.frame = shown_frame}), [](double) { return true; });
-    const PixelPicker picker(record.scene(), snapshot, shown_frame / record.scene().film.rate);
+    const PixelPicker picker(snapshot, record.scene(), shown_frame / record.scene().film.rate);
     std::mt19937 random(11);
     std::uniform_int_distribution<int> across(2, width - 3), down(2, height - 3);
     int grains = 0, nothing = 0;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -19,8 +20,8 @@ using testing::HasSubstr, testing::Not;
 
 const Clock kClock{1e-3, 80, 0};
 
-Scene scene_with(int periods) {
-    Scene scene;
+FilmedScene scene_with(int periods) {
+    FilmedScene scene;
     scene.species.resize(1);
     scene.species[0].count = 1;
     scene.species[0].diameter.mean = 1;
@@ -85,7 +86,7 @@ TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
 TEST(BedPeriods, SpeakOnlyOfWhatTheFilmShows) {
     const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
     const auto news = [&](int periods, bool may_leave_out, const auto& change) {
-        Scene scene = scene_with(periods);
+        FilmedScene scene = scene_with(periods);
         change(scene.film);
         BedPeriods bed(scene, kClock, all, may_leave_out);
         run(bed, 20);

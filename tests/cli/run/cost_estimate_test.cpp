@@ -7,10 +7,10 @@
 #include <cstdlib>
 
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "render/app/estimate/engine_cost.hpp"
 #include "render/app/estimate/film_probe.hpp"
 #include "render/app/estimate/speed_cache.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -20,11 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 using namespace test;
 
-Scene scene_with(const std::vector<std::string>& sets) {
-    return read_scene_text(small_scene_text, "fifty.toml", sets, measurable_in);
+FilmedScene scene_with(const std::vector<std::string>& sets) {
+    return read_filmed_scene_text(small_scene_text, "fifty.toml", sets, measurable_in);
 }
 
-CostEstimate cost_of(const Scene& scene, const ThreadPlan& threads, const MachineFigures& machine) {
+CostEstimate cost_of(const FilmedScene& scene, const ThreadPlan& threads, const MachineFigures& machine) {
     const Plan plan = make_plan(scene);
     return estimate_cost(scene, plan, count_film(scene, plan.clock, plan.steps), threads, machine);
 }
@@ -57,7 +57,7 @@ TEST(CostEstimate, EngineAndFilmTakeTurnsOrDoNot) {
 TEST(CostEstimate, ABedAtRestHasItsContactsAllTheTime) {
     const auto contacts = [](std::vector<std::string> sets) {
         sets.emplace_back("drive.ramp=0");
-        const Scene scene = scene_with(sets);
+        const FilmedScene scene = scene_with(sets);
         return mean_contacts(scene, make_plan(scene));
     };
     EXPECT_DOUBLE_EQ(contacts({"drive.g_level=0.9"}), 4.5);
@@ -78,7 +78,7 @@ TEST(CostEstimate, ABedAtRestHasItsContactsAllTheTime) {
 // The amplitude grows over 0.15 s of the 0.2 s, by a smooth step, whose half is half of the way.
 TEST(CostEstimate, TheBedLiesUntilTheDriveHasGrown) {
     const auto contacts = [](const std::string& level, const std::string& ramp) {
-        const Scene scene = scene_with({"drive.g_level=" + level, "drive.ramp=" + ramp});
+        const FilmedScene scene = scene_with({"drive.g_level=" + level, "drive.ramp=" + ramp});
         return mean_contacts(scene, make_plan(scene));
     };
     EXPECT_DOUBLE_EQ(contacts("0.9", "3"), 4.5);
@@ -122,7 +122,8 @@ TEST(CostEstimate, AFilmGainsWhatTwoThreadsGain) {
 
 TEST(CostEstimate, ABoxThatIsOnlyFedIsNotPacked) {
     EXPECT_GT(cost_of(scene_with({}), in_turn, machine).packing_seconds, 0);
-    const CostEstimate fed = cost_of(read_scene_text(fed_scene_text, "fed.toml", {}), in_turn, machine);
+    const CostEstimate fed =
+        cost_of(read_filmed_scene_text(fed_scene_text, "fed.toml", {}), in_turn, machine);
     EXPECT_EQ(fed.packing_seconds, 0);
     EXPECT_EQ(fed.packing_share, 0);
     EXPECT_GT(fed.engine_seconds, 0);
@@ -148,7 +149,7 @@ TEST(CostEstimate, OneProcessorDrawsAndEncodesInTurn) {
 TEST(CostEstimate, ThreadsGainWhatTheTeamGains) {
     MachineFigures team = machine;
     team.lattice_team = 1.6 * team.lattice_one;
-    const Scene scene = scene_with({});
+    const FilmedScene scene = scene_with({});
     const auto grains = static_cast<double>(scene.grains());
     const double share = grains / (grains + 1000);
     const double one = cost_of(scene, {1, 1, 1, true}, team).packing_seconds;
@@ -161,10 +162,10 @@ TEST(CostEstimate, ThreadsGainWhatTheTeamGains) {
 
 TEST(StackedBed, HoldsAllGrainsInsideTheContainer) {
     for (const char* shape : {"box", "cylinder"}) {
-        const Scene scene =
+        const FilmedScene scene =
             std::string(shape) == "box"
                 ? scene_with({})
-                : read_scene_text(
+                : read_filmed_scene_text(
                       std::string(small_scene_text)
                           .replace(
                               std::string(small_scene_text)

@@ -11,6 +11,7 @@
 #include "engine/scene/file/reader.hpp"
 #include "engine/state/grain_table.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
@@ -65,7 +66,7 @@ TEST_F(MovieProgram, WritesTheFilmAndTheNumbers) {
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(ended.out, "output/fifty\n");
     const fs::path run = here / "output/fifty";
-    const Scene read = read_scene(scene, {}, measurable_in);
+    const FilmedScene read = read_filmed_scene(scene, {}, measurable_in);
     const Plan plan = make_plan(read);
 
     const auto shots = static_cast<int>(film_schedule(read, plan.clock, plan.steps).size());
@@ -99,7 +100,7 @@ TEST_F(MovieProgram, TheRecordSaysWhatWasRun) {
     EXPECT_THAT(record["command"], HasSubstr("movie " + scene.string() + " --no-film --seed 7 --threads 1"));
     EXPECT_EQ(record["engine"]["seed"], 7);
     EXPECT_EQ(record["engine"]["grains"], 50);
-    EXPECT_EQ(record["engine"]["steps"], make_plan(read_scene(scene, {}, measurable_in)).steps);
+    EXPECT_EQ(record["engine"]["steps"], make_plan(read_filmed_scene(scene, {}, measurable_in)).steps);
     EXPECT_EQ(record["threads"]["engine"], 1);
     EXPECT_TRUE(record["gl"].is_null());
     EXPECT_EQ(record["engine"]["state_hash"].get<std::string>().size(), 16u);
@@ -130,7 +131,7 @@ TEST_F(MovieProgram, OptionsReachTheScene) {
     const Ended ended = movie({"--size", "320x200", "--fps", "20", "--duration", "0.1 s", "--set",
                                "drive.g_level=1.5", "--set", "output.contacts=true"});
     ASSERT_EQ(ended.status, 0) << ended.err;
-    const Scene resolved = read_scene(here / "output/fifty/scene.toml", {}, measurable_in);
+    const FilmedScene resolved = read_filmed_scene(here / "output/fifty/scene.toml", {}, measurable_in);
     EXPECT_EQ(resolved.film.width, 320);
     EXPECT_EQ(resolved.film.height, 200);
     EXPECT_EQ(resolved.film.rate, 20);
@@ -267,9 +268,9 @@ TEST_F(MovieProgram, CheckPrintsThePlanAndWritesNothing) {
     const auto entries = std::distance(fs::directory_iterator(here.path()), {});
     const Ended ended = run_program({"check", scene.string()}, {here.path(), {}});
     EXPECT_EQ(ended.status, 0);
-    EXPECT_THAT(
-        ended.out,
-        HasSubstr(std::to_string(make_plan(read_scene(scene, {}, measurable_in)).clock.steps_per_period)));
+    EXPECT_THAT(ended.out,
+                HasSubstr(std::to_string(
+                    make_plan(read_filmed_scene(scene, {}, measurable_in)).clock.steps_per_period)));
     EXPECT_THAT(ended.out, Not(HasSubstr("phase ")));
     const Ended shifted =
         run_program({"check", scene.string(), "--set", "drive.phase=0.25"}, {here.path(), {}});

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -18,9 +18,9 @@ namespace {
 
 using test::TemporaryFolder;
 
-Scene with_outlet() {
-    return read_scene_text(test::small_scene_text, "sink.toml",
-                           {"container.outlet={width=\"9 mm\", exit_depth=\"6 mm\"}"});
+FilmedScene with_outlet() {
+    return read_filmed_scene_text(test::small_scene_text, "sink.toml",
+                                  {"container.outlet={width=\"9 mm\", exit_depth=\"6 mm\"}"});
 }
 
 std::filesystem::path file_with(const TemporaryFolder& here, const std::string& rows) {
@@ -30,7 +30,7 @@ std::filesystem::path file_with(const TemporaryFolder& here, const std::string& 
 
 TEST(OutflowRecord, CountsRowsAndTheirMassUntilATime) {
     const TemporaryFolder here;
-    const Scene scene = with_outlet();
+    const FilmedScene scene = with_outlet();
     const auto record = OutflowRecord::read(file_with(here,
                                                       "0.1,7,1,0.002,0,0,0,0,0,0\n"
                                                       "0.2,3,1,0.001,0,0,0,0,0,0\n"
@@ -53,7 +53,7 @@ TEST(OutflowRecord, CountsRowsAndTheirMassUntilATime) {
 
 TEST(OutflowRecord, RefusesWhatIsOfAnotherScene) {
     const TemporaryFolder here;
-    const Scene scene = with_outlet();
+    const FilmedScene scene = with_outlet();
     for (const char* rows : {"0.1,7,9,0.002,0,0,0,0,0,0\n", "0.1,7,1,-1,0,0,0,0,0,0\n",
                              "0.1,7,1,0.002,0,0,0,0,0,0\n0.05,8,1,0.002,0,0,0,0,0,0\n",
                              "nan,7,1,0.002,0,0,0,0,0,0\n", "0.1,7,1.5,0.002,0,0,0,0,0,0\n"}) {
@@ -65,7 +65,7 @@ TEST(OutflowRecord, RefusesWhatIsOfAnotherScene) {
 // Bytes that are no number are damage, with file and line; none of them counts as 0.
 TEST(OutflowRecord, RefusesDamageWithItsLine) {
     const TemporaryFolder here;
-    const Scene scene = with_outlet();
+    const FilmedScene scene = with_outlet();
     const std::string good = "0.1,7,1,0.002,0,0,0,0,0,0\n", zeros(1, '\0');
     for (const std::string& row :
          {zeros + ",8,1,0.002,0,0,0,0,0,0\n", "0.2,8,1,0.0" + zeros + "02,0,0,0,0,0,0\n",
@@ -82,7 +82,7 @@ TEST(OutflowRecord, RefusesDamageWithItsLine) {
 }
 
 TEST(OutflowOnTheFrame, SaysGrainsAndMass) {
-    const Scene scene = with_outlet();
+    const FilmedScene scene = with_outlet();
     ASSERT_TRUE(scene.film.shows.outflow);
     Frame frame;
     EXPECT_EQ(note_text(scene, frame), "");

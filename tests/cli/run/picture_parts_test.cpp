@@ -11,6 +11,7 @@
 
 #include "engine/run/driver/agenda.hpp"
 #include "engine/run/driver/kept_moments.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -67,8 +68,8 @@ class Kept final : public Moments {
     const KeptMoments& kept_;
 };
 
-Scene scene_with_displacements(double periodic_depth = 0) {
-    Scene scene;
+FilmedScene scene_with_displacements(double periodic_depth = 0) {
+    FilmedScene scene;
     scene.film.shows.colour.by = GrainValue::displacement;
     scene.container.periodic_depth = periodic_depth > 0;
     scene.container.depth = periodic_depth;
@@ -112,7 +113,7 @@ std::vector<std::int64_t> steps_of(const std::vector<WantedMoment>& moments) {
 }
 
 TEST(PictureParts, OfAPlainFilmAreNone) {
-    const PictureParts parts(Scene(), kClock, 0);
+    const PictureParts parts(FilmedScene(), kClock, 0);
     EXPECT_TRUE(parts.moments(1600, FilmSegment(), 1).empty());
     const Frame now = picture(parts, {1600, FilmSegment()}, [](std::int64_t) { return Vec3(1, 2, 3); });
     EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
@@ -150,7 +151,7 @@ TEST(PictureParts, GiveTheMomentsOfAnExposure) {
     FilmSegment rule;
     rule.exposure = 0.04;
     rule.exposures = 4;
-    const PictureParts parts(Scene(), kClock, 150);
+    const PictureParts parts(FilmedScene(), kClock, 150);
     EXPECT_THAT(steps_of(parts.moments(400, rule, 1)), testing::ElementsAre(200, 300)) << "100 is before it";
     const Frame now =
         picture(parts, {600, rule}, [](std::int64_t step) { return Vec3(0, 0, static_cast<double>(step)); });
@@ -171,7 +172,7 @@ Vec3 shaken(std::int64_t step, const Vec3& drift) {
 TEST(PictureParts, OfAMeanLeaveTheDriftAlone) {
     const Vec3 drift(0, 0.02, -0.01);
     constexpr std::int64_t kShot = 4300;
-    const PictureParts parts(Scene(), kClock, 0);
+    const PictureParts parts(FilmedScene(), kClock, 0);
     EXPECT_THAT(parts.moments(kShot, mean_of(3), 1), testing::SizeIs(3 * 16)) << "beside its own";
     const Frame now = picture(
         parts, {kShot, mean_of(3)}, [&](std::int64_t step) { return shaken(step, drift); },
@@ -192,7 +193,8 @@ TEST(PictureParts, OfAMeanSpanThePeriodsOfTheBed) {
         return shaken(step, drift) + Vec3(0, 0, 0.003) * std::sin(std::numbers::pi * kClock.cycles(step));
     };
     for (const int periods : {1, 2}) {
-        const Frame frame = picture(PictureParts(Scene(), kClock, 0), {kShot, mean_of(1), periods}, doubled);
+        const Frame frame =
+            picture(PictureParts(FilmedScene(), kClock, 0), {kShot, mean_of(1), periods}, doubled);
         const double error = (frame.velocity[0] - drift).norm();
         if (periods == 2)
             EXPECT_LT(error, 1e-12);
@@ -207,7 +209,7 @@ TEST(PictureParts, OfAMeanSpanThePeriodsOfTheBed) {
 
 TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
     constexpr double kDepth = 0.04;
-    Scene scene;
+    FilmedScene scene;
     scene.container.periodic_depth = true;
     scene.container.depth = kDepth;
     const Vec3 drift(0.1, 0, 0);
@@ -226,7 +228,7 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
 }
 
 TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
-    const Frame now = picture(PictureParts(Scene(), kClock, 0), {400, mean_of(1)},
+    const Frame now = picture(PictureParts(FilmedScene(), kClock, 0), {400, mean_of(1)},
                               [](std::int64_t step) { return Vec3(0, 0, 1e-5 * static_cast<double>(step)); });
     double expected = 0;  // 9 samples from step 0 to 400, and 7 of rest
     for (int k = 0; k <= 8; ++k) expected += 1e-5 * 50 * k / 16;

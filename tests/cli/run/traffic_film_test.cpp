@@ -12,6 +12,7 @@
 #include "engine/scene/file/reader.hpp"
 #include "render/film/files/png.hpp"
 #include "render/picture/whole/renderer.hpp"
+#include "render/scene/read_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -20,24 +21,24 @@ namespace {
 
 using test::TemporaryFolder;
 
-Scene sink_scene(const std::vector<std::string>& more = {}) {
+FilmedScene sink_scene(const std::vector<std::string>& more = {}) {
     std::vector<std::string> sets{"output.trajectory_interval=0.01", "film.size=\"480x360\"",
                                   "output.contacts=true",
                                   "container.outlet={width=\"9 mm\", exit_depth=\"6 mm\"}"};
     sets.insert(sets.end(), more.begin(), more.end());
-    return read_scene_text(test::small_scene_text, "sink.toml", sets);
+    return read_filmed_scene_text(test::small_scene_text, "sink.toml", sets);
 }
 
 // Grains leave through the floor, and two come from above every now and then.
 struct Sink {
-    Scene scene;
+    FilmedScene scene;
     Plan plan = plan_of(scene);
     Simulation simulation;
 
-    explicit Sink(const Scene& of, int threads = 1) : scene(of), simulation(scene, plan, threads) {
+    explicit Sink(const FilmedScene& of, int threads = 1) : scene(of), simulation(scene, plan, threads) {
         simulation.pack();
     }
-    static Plan plan_of(const Scene& scene) {
+    static Plan plan_of(const FilmedScene& scene) {
         Plan plan = make_plan(scene);
         plan.capacity += 20;
         plan.traffic = true;
@@ -114,7 +115,7 @@ TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
     whole.simulation.save_checkpoint(here / "c.grs");
     ASSERT_GT(whole.simulation.traffic().left, 2);
     whole.simulation.advance(2 * quarter);
-    Scene scene = whole.scene;
+    FilmedScene scene = whole.scene;
     scene.start.method = Start::Method::file;
     scene.start.file = (here / "c.grs").string();
     scene.start.keep_clock = true;
@@ -148,7 +149,7 @@ TEST(TrafficFilm, PicturesShowWhoIsThere) {
             write_png(std::string(at) + "/sink_" + std::to_string(i) + ".png", picture, {});
         if (i != 16) continue;
         // Nothing is left of who has gone: without trails a renderer that saw only this frame draws the same.
-        Scene plain = sink.scene;
+        FilmedScene plain = sink.scene;
         plain.film.shows.trails = {};
         Renderer one(plain, 1), other(plain, 1);
         one.draw(before, "");

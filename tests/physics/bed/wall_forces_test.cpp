@@ -268,13 +268,11 @@ TEST(WallForcesOfRuns, ChangeNothing) {
     EXPECT_TRUE(b.field_sets().empty());
 }
 
-TEST(WallForcesOfScenes, AreAskedForByNameOrByWhatTheFilmShows) {
+TEST(WallForcesOfScenes, AreAskedForByName) {
     const auto read = [](const std::string& more) {
-        return read_scene_text(test::small_scene_text + more, "walls.toml", {}, measurable_in)
-            .output.instruments;
+        return read_scene_text(test::small_scene_text + more, "walls.toml", {}, measurable_in).instruments();
     };
     EXPECT_TRUE(read("").empty());
-    EXPECT_EQ(read("[[film.plot]]\ny = \"floor_force_z\"\n"), std::vector<std::string>{"walls"});
     EXPECT_EQ(read("[output]\ninstruments = [\"walls\"]\n"), std::vector<std::string>{"walls"});
     EXPECT_THROW(read("[output]\ninstruments = [\"wals\"]\n"), UserError);
 }

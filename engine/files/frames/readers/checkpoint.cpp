@@ -66,7 +66,7 @@ Frame frame_of(const Grains& grains, double period) {
 class Checkpoint final : public FrameArchive {
   public:
     explicit Checkpoint(const fs::path& path)
-        : path_(path), scene_(plain_scene_of_checkpoint(path)), world_(world_of(scene_)) {
+        : path_(path), scene_(scene_of_checkpoint(path)), world_(world_of(scene_)) {
         scene_.name = path.stem().string();
         const CheckpointFile file = whole_file(path);
         frame_ = frame_of(file.grains, period_of_depth(scene_.container));

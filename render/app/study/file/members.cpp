@@ -11,9 +11,9 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/text/toml_text.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -29,7 +29,7 @@ std::vector<std::size_t> place_in_grid(const Study& study, std::size_t setting) 
 }
 
 // All that decides the numbers of a run.
-std::uint64_t hash_of(Scene scene, const Plan& plan, std::optional<std::uint64_t> seed) {
+std::uint64_t hash_of(FilmedScene scene, const Plan& plan, std::optional<std::uint64_t> seed) {
     scene.film = Film();
     scene.title.clear();
     scene.name.clear();
@@ -88,8 +88,9 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
             const Variation::Value& value = study.variations[i].values[member.at[i]];
             member.sets.push_back({study.variations[i].key + "=" + value.toml, value.place});
         }
-        const Scene scene = read_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
-        const Plan plan = make_plan(scene);
+        const FilmedScene scene =
+            read_filmed_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
+        const Plan plan = plan_with_film(scene);
         accept(scene, plan);
         // Members read a copy of the scene, from whose folder other paths would count.
         if (scene.start.method == Start::Method::file)

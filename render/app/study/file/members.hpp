@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/app/study/study.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -33,7 +33,7 @@ std::size_t count_members(const Study& study, bool many_are_meant);
 
 // All of them, the seeds of a setting one after another. Each setting's scene is read and planned, and given
 // to `accept`. Throws UserError at the first that cannot be run, and for two that are the same.
-using AcceptSetting = std::function<void(const Scene& scene, const Plan& plan)>;
+using AcceptSetting = std::function<void(const FilmedScene& scene, const Plan& plan)>;
 std::vector<Member> make_members(const Study& study, const AcceptSetting& accept);
 
 // "drive.g_level = 3, species.nut.diameter = 9 mm"; empty where nothing but seeds is varied. `without`: a

@@ -4,9 +4,9 @@
 #include "engine/base/utf8.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/chapters/words.hpp"
-#include "engine/scene/film/live_text.hpp"
-#include "engine/scene/film/named_grains.hpp"
 #include "render/app/study/file/read_parts.hpp"
+#include "render/scene/keys/named_grains.hpp"
+#include "render/scene/live_text.hpp"
 
 namespace grainreel {
 namespace {
@@ -17,7 +17,8 @@ const Words<Reduction::Kind> reduction_words{{"end", Reduction::Kind::end},
                                              {"crossing", Reduction::Kind::crossing},
                                              {"first-passage", Reduction::Kind::first_passage}};
 
-void read_window(Document& document, const Scene& scene, const std::string& table, Reduction& reduction) {
+void read_window(Document& document, const FilmedScene& scene, const std::string& table,
+                 Reduction& reduction) {
     reduction.from = document.quantity(table + ".from").value_or(reduction.from);
     reduction.to = document.quantity(table + ".to").value_or(reduction.to);
     if (reduction.from >= reduction.to)
@@ -40,7 +41,7 @@ void read_threshold(Document& document, const std::string& table, const MeasureC
 
 }  // namespace
 
-void read_measure(Document& document, const Scene& scene, const std::string& table, Study& study) {
+void read_measure(Document& document, const FilmedScene& scene, const std::string& table, Study& study) {
     const std::vector<MeasureColumn> columns = measure_columns(scene);
     StudyMeasure measure;
     const std::string name = document.required_text(table + ".column");

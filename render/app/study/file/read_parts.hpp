@@ -5,15 +5,15 @@
 #include <string>
 
 #include "engine/scene/keys/document.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/app/study/study.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // One element of a list of tables, "vary[0]"; it is added to the study.
 void read_variation(Document& document, const std::string& table, Study& study);
 // scene: of any member; the species, and so the columns, are those of all.
-void read_measure(Document& document, const Scene& scene, const std::string& table, Study& study);
+void read_measure(Document& document, const FilmedScene& scene, const std::string& table, Study& study);
 void read_chart(Document& document, const std::string& table, Study& study);
 // One for each measure, where the file asks for none.
 void add_usual_charts(Study& study);

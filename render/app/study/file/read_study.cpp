@@ -6,10 +6,10 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/scene/file/scene_file.hpp"
 #include "render/app/study/file/read_parts.hpp"
 #include "render/app/study/file/study_keys.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -35,11 +35,11 @@ void read_seeds(Document& document, Study& study) {
 }
 
 // The scene of the first value of each key.
-Scene first_scene(const Study& study) {
+FilmedScene first_scene(const Study& study) {
     Assignments sets = study.sets;
     for (const Variation& variation : study.variations)
         sets.push_back({variation.key + "=" + variation.values.front().toml, variation.values.front().place});
-    return read_scene_text(study.scene_text, study.scene, sets, measurable_in);
+    return read_filmed_scene_text(study.scene_text, study.scene, sets, measurable_in);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ Study read_study(const std::filesystem::path& file) {
     if (study.variations.empty() && study.seeds.empty())
         throw UserError(fmt::format(
             "{}:1:1: varies nothing; write [[vary]] with a key and its values, or seeds = 3", file.string()));
-    const Scene scene = first_scene(study);
+    const FilmedScene scene = first_scene(study);
     for (std::size_t i = 0; i < document.size("measure"); ++i)
         read_measure(document, scene, fmt::format("measure[{}]", i), study);
     for (std::size_t i = 0; i < document.size("chart"); ++i)

@@ -5,6 +5,7 @@
 #include "engine/base/utf8.hpp"
 #include "render/app/study/file/read_parts.hpp"
 #include "render/app/study/file/values.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -19,13 +20,14 @@ std::string words_of(const std::string& toml) {
 // when the scene has none.
 const Key& key_of_scene(const std::string& scene_text, const std::filesystem::path& scene,
                         const std::string& path, const std::string& place) {
-    Document probe(scene_text, scene.string());
+    const std::vector<Key>& keys = filmed_scene_keys();
+    Document probe(scene_text, scene.string(), keys);
     probe.set({path + "=0", place});
     probe.check_keys();
     // What was set is what the place names; the tables around it have shorter paths.
     const Key* key = nullptr;
     for (const auto& [written, where] : probe.written())
-        if (where.file == place && find_key(written) != nullptr) key = find_key(written);
+        if (where.file == place && find_key(written, keys) != nullptr) key = find_key(written, keys);
     if (key == nullptr)
         throw UserError(fmt::format("{}: '{}' is a table; name one of its own keys", place, excerpt(path)));
     return *key;

@@ -1,4 +1,4 @@
-#include "engine/scene/film/measure_columns.hpp"
+#include "engine/scene/measure_columns.hpp"
 
 namespace grainreel {
 

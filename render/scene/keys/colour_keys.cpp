@@ -3,10 +3,11 @@
 
 #include <algorithm>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "engine/base/error.hpp"
-#include "engine/scene/film/film_keys.hpp"
-#include "engine/scene/film/grain_values.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/grain_values.hpp"
+#include "render/scene/keys/film_keys.hpp"
 
 namespace grainreel {
 namespace {
@@ -103,11 +104,11 @@ void list_colour(Keys& all) {
     colour_table().list(all, "film.colour");
 }
 
-void read_colour(Document& document, Scene& scene) {
+void read_colour(Document& document, FilmedScene& scene) {
     colour_table().read(document, scene, "film.colour", scene.film.shows.colour);
 }
 
-void write_colour(SceneText& out, const Scene& scene) {
+void write_colour(SceneText& out, const FilmedScene& scene) {
     out.table("film.colour");
     colour_table().write(out, scene, scene.film.shows.colour);
 }

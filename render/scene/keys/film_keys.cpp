@@ -1,19 +1,19 @@
 // The keys of [film] itself: the picture and the file. What only shows more has chapters of its own
 // (film_keys.hpp).
-#include "engine/scene/film/film_keys.hpp"
-#include "engine/scene/chapters/words.hpp"
+#include "render/scene/keys/film_keys.hpp"
+#include "render/scene/keys/words.hpp"
 
 #include <charconv>
 
 #include <fmt/format.h>
 
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/film/colours.hpp"
-#include "engine/scene/film/film_file.hpp"
-#include "engine/scene/film/purposes.hpp"
-#include "engine/scene/film/word_kinds.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "engine/scene/text/data_size.hpp"
+#include "render/scene/colours.hpp"
+#include "render/scene/keys/film_file.hpp"
+#include "render/scene/keys/word_kinds.hpp"
+#include "render/scene/purposes.hpp"
 
 namespace grainreel {
 namespace {
@@ -225,7 +225,7 @@ void list_film(Keys& all) {
 }
 
 // The purpose sets defaults of the picture and comes first of all; the style one of the background.
-void read_film(Document& document, Scene& scene) {
+void read_film(Document& document, FilmedScene& scene) {
     Film& film = scene.film;
     read_look(document, scene);
     file_table().read(document, scene, "film", film);
@@ -238,7 +238,7 @@ void read_film(Document& document, Scene& scene) {
     read_shows(document, scene);
 }
 
-void write_film(SceneText& out, const Scene& scene) {
+void write_film(SceneText& out, const FilmedScene& scene) {
     out.table("film");
     picture_table().write(out, scene, scene.film);
     write_text(out, scene);

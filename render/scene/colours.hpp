@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 

@@ -1,13 +1,13 @@
 // What of the film's file does not go with its format, and what must give way to it.
-#include "engine/scene/film/film_file.hpp"
+#include "render/scene/keys/film_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/chapters/words.hpp"
-#include "engine/scene/film/purposes.hpp"
+#include "render/scene/keys/words.hpp"
+#include "render/scene/purposes.hpp"
 
 namespace grainreel {
 namespace {
@@ -23,7 +23,7 @@ double gif_rate(double wanted) {
     return wanted - slow <= fast - wanted ? slow : fast;
 }
 
-void fit_gif_rate(Scene& scene) {
+void fit_gif_rate(FilmedScene& scene) {
     Film& film = scene.film;
     const double rate = gif_rate(film.rate);
     if (std::abs(rate - film.rate) > 1e-9 * rate)
@@ -53,7 +53,7 @@ void check_transparent(const Document& document, const Film& film) {
 }
 
 // A scene that names a size of its own keeps it; whoever asked for the purpose is to know.
-void tell_what_stays(const Document& document, Scene& scene) {
+void tell_what_stays(const Document& document, FilmedScene& scene) {
     const Purpose* purpose = find_purpose(scene.film.purpose);
     if (purpose == nullptr) return;
     const Film& film = scene.film;
@@ -78,7 +78,7 @@ bool can_be_capped(FilmFormat format) {
     return format == FilmFormat::mp4 || format == FilmFormat::webm || format == FilmFormat::gif;
 }
 
-void settle_film_file(const Document& document, Scene& scene) {
+void settle_film_file(const Document& document, FilmedScene& scene) {
     check_max_size(document, scene.film);
     check_transparent(document, scene.film);
     if (scene.film.format == FilmFormat::gif) fit_gif_rate(scene);

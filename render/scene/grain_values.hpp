@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/scene/chapters/words.hpp"
-#include "engine/scene/film/film_shows.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/scene/film_shows.hpp"
 
 namespace grainreel {
 
@@ -46,14 +46,6 @@ inline Dimension dimension_of(GrainValue value) {
 inline bool is_signed(GrainValue value) {
     return value == GrainValue::vertical_velocity || value == GrainValue::rise;
 }
-
-// SI units in one of `unit`, 0.01 for "cm/s"; 1 for an empty one. Throws UserError, without a place, when it
-// is not a unit of the dimension.
-double unit_size(const std::string& unit, Dimension dimension);
-
-// The largest of the dimension's usual units in which `value` is not below 0.5; the smallest of them for
-// less.
-std::string fitting_unit(double value, Dimension dimension);
 
 // Low and high of the colours when the scene does not say: of the whole film, from the scene alone, so that a
 // colour means the same in every frame, while the run goes on and when it is drawn again. Estimated such that

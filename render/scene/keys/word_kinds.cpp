@@ -1,4 +1,4 @@
-#include "engine/scene/film/word_kinds.hpp"
+#include "render/scene/keys/word_kinds.hpp"
 
 #include <algorithm>
 #include <iterator>

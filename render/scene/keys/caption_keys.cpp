@@ -5,8 +5,8 @@
 
 #include "engine/base/decimals.hpp"
 #include "engine/scene/drive/shorten.hpp"
-#include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/keys/film_keys.hpp"
 
 namespace grainreel {
 namespace {
@@ -29,7 +29,7 @@ const KeyTable<FilmCaption>& caption_table() {
     return table;
 }
 
-void check_caption(const Document& document, const Scene& scene, std::size_t k) {
+void check_caption(const Document& document, const FilmedScene& scene, std::size_t k) {
     const std::vector<FilmCaption>& captions = scene.film.captions;
     const std::string table = fmt::format("film.caption[{}]", k);
     const FilmCaption& caption = captions[k];
@@ -57,7 +57,7 @@ void list_captions(Keys& all) {
     caption_table().list(all, "film.caption[]");
 }
 
-void read_captions(Document& document, Scene& scene) {
+void read_captions(Document& document, FilmedScene& scene) {
     std::vector<FilmCaption>& captions = scene.film.captions;
     const std::size_t count = document.size("film.caption");
     caption_table().read_elements(document, scene, "film.caption", captions);
@@ -74,7 +74,7 @@ void read_captions(Document& document, Scene& scene) {
     for (std::size_t k = 0; k < captions.size(); ++k) check_caption(document, scene, k);
 }
 
-void write_captions(SceneText& out, const Scene& scene) {
+void write_captions(SceneText& out, const FilmedScene& scene) {
     caption_table().write_elements(out, scene, "film.caption", scene.film.captions);
 }
 

@@ -3,9 +3,9 @@
 
 #include "engine/base/decimals.hpp"
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/chapters/words.hpp"
-#include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/keys/film_keys.hpp"
+#include "render/scene/keys/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -125,7 +125,7 @@ void list_camera(Keys& all) {
     moment_table().list(all, "film.camera.key[]");
 }
 
-void read_camera(Document& document, Scene& scene) {
+void read_camera(Document& document, FilmedScene& scene) {
     Camera& camera = scene.film.camera;
     if (document.has("film.camera.key"))
         document.refuse("film.camera.orbit", "the camera goes by its keys; let their azimuth turn");
@@ -135,7 +135,7 @@ void read_camera(Document& document, Scene& scene) {
     read_moments(document, scene, camera);
 }
 
-void write_camera(SceneText& out, const Scene& scene) {
+void write_camera(SceneText& out, const FilmedScene& scene) {
     const Camera& camera = scene.film.camera;
     out.table("film.camera");
     camera_table().write(out, scene, camera);

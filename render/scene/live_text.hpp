@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/film/measure_columns.hpp"
+#include "engine/scene/measure_columns.hpp"
 
 namespace grainreel {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 

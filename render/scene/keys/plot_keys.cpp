@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include "engine/base/utf8.hpp"
-#include "engine/scene/film/film_keys.hpp"
-#include "engine/scene/film/grain_values.hpp"
-#include "engine/scene/film/live_text.hpp"
-#include "engine/scene/film/named_grains.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/grain_values.hpp"
+#include "render/scene/keys/film_keys.hpp"
+#include "render/scene/keys/named_grains.hpp"
+#include "render/scene/live_text.hpp"
 
 namespace grainreel {
 namespace {
@@ -189,7 +189,7 @@ void read_flow(Document& document, const Scene& scene, const std::string& path, 
     if (marks.speed <= 0) document.fail(path, "needs a 'speed': this scene gives no scale for it");
 }
 
-void read_trails(Document& document, Scene& scene) {
+void read_trails(Document& document, FilmedScene& scene) {
     if (!document.is_table("film.trails")) return;
     if (!document.has("film.trails.species") && !document.has("film.trails.grains"))
         document.fail("film.trails", "need 'species' or 'grains'; write for example grains = [3, 14]");
@@ -208,7 +208,7 @@ void list_arrows_and_trails(Keys& all) {
     trail_table().list(all, "film.trails");
 }
 
-void read_plots(Document& document, Scene& scene) {
+void read_plots(Document& document, FilmedScene& scene) {
     const std::size_t count = document.size("film.plot");
     if (count > most_plots)
         document.fail("film.plot", fmt::format("are {}, but only {} fit beside the grains; remove some",
@@ -228,21 +228,21 @@ void read_plots(Document& document, Scene& scene) {
     }
 }
 
-void read_arrows_and_trails(Document& document, Scene& scene) {
+void read_arrows_and_trails(Document& document, FilmedScene& scene) {
     FilmShows& shows = scene.film.shows;
     read_flow(document, scene, "film.arrows", arrow_table(), shows.arrows);
     read_flow(document, scene, "film.streamlines", streamline_table(), shows.streamlines);
     read_trails(document, scene);
 }
 
-void write_plots(SceneText& out, const Scene& scene) {
+void write_plots(SceneText& out, const FilmedScene& scene) {
     for (const FilmPlot& plot : scene.film.shows.plots) {
         out.element("film.plot");
         plot_table().write(out, scene, plot);
     }
 }
 
-void write_arrows_and_trails(SceneText& out, const Scene& scene) {
+void write_arrows_and_trails(SceneText& out, const FilmedScene& scene) {
     const FilmShows& shows = scene.film.shows;
     if (shows.arrows.across > 0) {
         out.table("film.arrows");

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/scene/keys/document.hpp"
-#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -10,6 +10,6 @@ bool can_be_capped(FilmFormat format);
 
 // Refuses what does not go with the film's format, and fits the rate to it. When size, rate and file are
 // read.
-void settle_film_file(const Document& document, Scene& scene);
+void settle_film_file(const Document& document, FilmedScene& scene);
 
 }  // namespace grainreel

@@ -9,11 +9,11 @@
 #include "engine/base/utf8.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/shorten.hpp"
-#include "engine/scene/film/film_keys.hpp"
-#include "engine/scene/film/grain_values.hpp"
-#include "engine/scene/film/live_text.hpp"
-#include "engine/scene/film/named_grains.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/grain_values.hpp"
+#include "render/scene/keys/film_keys.hpp"
+#include "render/scene/keys/named_grains.hpp"
+#include "render/scene/live_text.hpp"
 
 namespace grainreel {
 namespace {
@@ -161,7 +161,7 @@ void list_shows(Keys& all) {
     list_arrows_and_trails(all);
 }
 
-void read_shows(Document& document, Scene& scene) {
+void read_shows(Document& document, FilmedScene& scene) {
     FilmShows& shows = scene.film.shows;
     read_colour(document, scene);
     mark_table().read(document, scene, "film", shows);
@@ -175,15 +175,15 @@ void read_shows(Document& document, Scene& scene) {
     read_arrows_and_trails(document, scene);
 }
 
-void write_text(SceneText& out, const Scene& scene) {
+void write_text(SceneText& out, const FilmedScene& scene) {
     text_table().write(out, scene, scene.film.shows);
 }
 
-void write_marks(SceneText& out, const Scene& scene) {
+void write_marks(SceneText& out, const FilmedScene& scene) {
     mark_table().write(out, scene, scene.film.shows);
 }
 
-void write_shows(SceneText& out, const Scene& scene) {
+void write_shows(SceneText& out, const FilmedScene& scene) {
     write_colour(out, scene);
     write_plots(out, scene);
     write_arrows_and_trails(out, scene);

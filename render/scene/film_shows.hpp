@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/film/live_text.hpp"
+#include "render/scene/live_text.hpp"
 
 namespace grainreel {
 

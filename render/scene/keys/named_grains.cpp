@@ -1,4 +1,4 @@
-#include "engine/scene/film/named_grains.hpp"
+#include "render/scene/keys/named_grains.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
-#include "engine/scene/film/purposes.hpp"
+#include "render/scene/purposes.hpp"
 
 #include <fmt/format.h>
 
-#include "engine/scene/chapters/words.hpp"
+#include "render/scene/keys/words.hpp"
 
 namespace grainreel {
 

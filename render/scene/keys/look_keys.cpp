@@ -1,7 +1,7 @@
 // The keys of style, light and cut: part of [film], and [film.cut].
-#include "engine/scene/chapters/words.hpp"
-#include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/keys/film_keys.hpp"
+#include "render/scene/keys/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -61,7 +61,7 @@ void list_cut(Keys& all) {
     cut_table().list(all, "film.cut");
 }
 
-void read_look(Document& document, Scene& scene) {
+void read_look(Document& document, FilmedScene& scene) {
     look_table().read(document, scene, "film", scene.film.look);
     FilmCut& cut = scene.film.look.cut;
     cut.present = document.has("film.cut");
@@ -72,11 +72,11 @@ void read_look(Document& document, Scene& scene) {
     if (document.has("film.cut.normal")) cut.normal.normalize();
 }
 
-void write_look(SceneText& out, const Scene& scene) {
+void write_look(SceneText& out, const FilmedScene& scene) {
     look_table().write(out, scene, scene.film.look);
 }
 
-void write_cut(SceneText& out, const Scene& scene) {
+void write_cut(SceneText& out, const FilmedScene& scene) {
     if (!scene.film.look.cut.present) return;
     out.table("film.cut");
     cut_table().write(out, scene, scene.film.look.cut);

@@ -1,12 +1,13 @@
-#include "engine/scene/film/live_text.hpp"
+#include "render/scene/live_text.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
-#include "engine/scene/film/grain_values.hpp"
+#include "render/scene/grain_values.hpp"
 
 namespace grainreel {
 namespace {

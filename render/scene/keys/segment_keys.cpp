@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "engine/base/decimals.hpp"
-#include "engine/scene/film/film_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/keys/film_keys.hpp"
 
 namespace grainreel {
 namespace {
@@ -78,7 +78,7 @@ FilmSegment read_segment(Document& document, const Scene& scene, const std::stri
 // Without segments in the scene: slow motion at both ends, 4 s of film each but a tenth of the run at most,
 // and one frame a period between. Slow enough for 8 frames a period and for no more than three periods a
 // second of film, which would flash; or ten times slower if that is slower.
-std::vector<FilmSegment> default_segments(const Scene& scene) {
+std::vector<FilmSegment> default_segments(const FilmedScene& scene) {
     FilmSegment motion;
     if (!scene.drive.present) return {motion};
     const double frequency = scene.drive.highest_frequency();
@@ -91,7 +91,7 @@ std::vector<FilmSegment> default_segments(const Scene& scene) {
 
 // The durations that are given must fit in the run. A run made shorter on the command line shortens them too:
 // to half of the run when a segment takes the rest, else to all of it.
-void fit_segments(Document& document, Scene& scene) {
+void fit_segments(Document& document, FilmedScene& scene) {
     double given = 0;
     std::size_t open = 0;
     for (std::size_t i = 0; i < scene.film.segments.size(); ++i) {
@@ -120,7 +120,7 @@ void list_segments(Keys& all) {
     segment_table().list(all, "film.segment[]");
 }
 
-void read_segments(Document& document, Scene& scene) {
+void read_segments(Document& document, FilmedScene& scene) {
     Film& film = scene.film;
     for (std::size_t i = 0; i < document.size("film.segment"); ++i)
         film.segments.push_back(read_segment(document, scene, fmt::format("film.segment[{}]", i)));
@@ -128,7 +128,7 @@ void read_segments(Document& document, Scene& scene) {
     fit_segments(document, scene);
 }
 
-void write_segments(SceneText& out, const Scene& scene) {
+void write_segments(SceneText& out, const FilmedScene& scene) {
     for (const FilmSegment& segment : scene.film.segments) {
         out.element("film.segment");
         segment_table().write(out, scene, segment);

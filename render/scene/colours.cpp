@@ -1,4 +1,4 @@
-#include "engine/scene/film/colours.hpp"
+#include "render/scene/colours.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,61 @@
+// The film's chapters of the scene: each lists its keys for the table of all, reads them, and writes them
+// back.
+#pragma once
+
+#include <string>
+
+#include "engine/scene/keys/document.hpp"
+#include "engine/scene/keys/key_parts.hpp"
+#include "engine/scene/text/toml_text.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+void list_camera(keys::Keys& all);
+void read_camera(Document& document, FilmedScene& scene);
+void write_camera(SceneText& out, const FilmedScene& scene);
+
+// Style, light and cut.
+void list_look(keys::Keys& all);
+void list_cut(keys::Keys& all);
+void read_look(Document& document, FilmedScene& scene);
+void write_look(SceneText& out, const FilmedScene& scene);
+void write_cut(SceneText& out, const FilmedScene& scene);
+
+// What is hidden, ringed and written beside the grains; and with what has tables of its own.
+void list_marks(keys::Keys& all);
+void list_shows(keys::Keys& all);
+void read_shows(Document& document, FilmedScene& scene);
+void write_text(SceneText& out, const FilmedScene& scene);
+void write_marks(SceneText& out, const FilmedScene& scene);
+void write_shows(SceneText& out, const FilmedScene& scene);
+
+void list_colour(keys::Keys& all);
+void read_colour(Document& document, FilmedScene& scene);
+void write_colour(SceneText& out, const FilmedScene& scene);
+
+void list_plots(keys::Keys& all);
+void read_plots(Document& document, FilmedScene& scene);
+void write_plots(SceneText& out, const FilmedScene& scene);
+
+void list_arrows_and_trails(keys::Keys& all);
+void read_arrows_and_trails(Document& document, FilmedScene& scene);
+void write_arrows_and_trails(SceneText& out, const FilmedScene& scene);
+
+void list_segments(keys::Keys& all);
+void read_segments(Document& document, FilmedScene& scene);  // after the rate
+void write_segments(SceneText& out, const FilmedScene& scene);
+
+void list_captions(keys::Keys& all);
+void read_captions(Document& document, FilmedScene& scene);  // after the run
+void write_captions(SceneText& out, const FilmedScene& scene);
+
+// A colour by name or number. example: for the message.
+Colour read_colour(Document& document, const std::string& path, const char* example);
+
+// All of [film].
+void list_film(keys::Keys& all);
+void read_film(Document& document, FilmedScene& scene);  // after all tables of the engine
+void write_film(SceneText& out, const FilmedScene& scene);
+
+}  // namespace grainreel
