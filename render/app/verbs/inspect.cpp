@@ -195,7 +195,7 @@ class Inspect final : public Verb {
     Answer single_answer(MomentFinder& finder, const Record& record, Reporter& reporter) {
         const ChosenMoment chosen = snapshot_of(finder, record, reporter);
         const Snapshot& snapshot = chosen.snapshot;
-        Answer answer = answer_of(finder, record.scene(), snapshot, reporter);
+        Answer answer = answer_of(finder, snapshot, reporter);
         answer.moment = chosen.about;
         if (!picture_.empty())
             draw_answer(snapshot, asked_->scene(), marks_of(snapshot, answer), film_time(), picture_, gl_);
@@ -352,7 +352,7 @@ class Inspect final : public Verb {
             else if (histogram)
                 named("--histogram", [&] { return histogram->add(snapshot); });
             else
-                mean.add(answer_of(finder, record.scene(), snapshot, reporter), snapshot.frame.time);
+                mean.add(answer_of(finder, snapshot, reporter), snapshot.frame.time);
         });
         if (moments == 0)
             throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
@@ -371,8 +371,7 @@ class Inspect final : public Verb {
         return answer;
     }
 
-    Answer answer_of(MomentFinder& finder, const FilmedScene& scene, const Snapshot& snapshot,
-                     Reporter& reporter) const {
+    Answer answer_of(MomentFinder& finder, const Snapshot& snapshot, Reporter& reporter) const {
         if (wall_) return named("--wall", [&] { return wall_answer(snapshot, *wall_, limit_); });
         if (largest_overlap_) return largest_overlap_answer(snapshot, limit_);
         if (grain_) return named("--grain", [&] { return grain_answer(snapshot, *grain_); });
