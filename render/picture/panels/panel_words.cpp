@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "render/picture/words/captions.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
