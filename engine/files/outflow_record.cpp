@@ -30,8 +30,7 @@ OutflowRecord::OutflowRecord(const Scene& scene) {
     for (const Species& species : scene.species) densities_.push_back(species.density);
 }
 
-std::optional<OutflowRecord> OutflowRecord::read(const std::filesystem::path& file,
-                                                 const Scene& scene) {
+std::optional<OutflowRecord> OutflowRecord::read(const std::filesystem::path& file, const Scene& scene) {
     const auto [table, fault] = read_measures_file(file);
     if (!table) return std::nullopt;
     if (!fault.empty()) throw UserError(fmt::format("{}; film.outflow = false draws without it", fault));

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/text/fitting_unit.hpp"
 #include "engine/questions/forces.hpp"
+#include "engine/scene/text/fitting_unit.hpp"
 
 namespace grainreel {
 namespace {

@@ -10,10 +10,10 @@
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/displacement.hpp"
-#include "engine/run/replay/checkpoint_ring.hpp"
-#include "engine/state/container_faces.hpp"
 #include "engine/run/driver/run_files.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 
@@ -99,7 +99,8 @@ std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
     const std::vector<std::string> damage = pictures->damage();
     std::int64_t shown = 0;
     for (std::size_t k = 0; k < pictures->moments().size(); ++k) {
-        if (pictures->place(k) != k) break;  // which picture is which is known up to the first that is damaged
+        if (pictures->place(k) != k)
+            break;  // which picture is which is known up to the first that is damaged
         const Frame& moment = pictures->moments()[k];
         shown += 1 + (request.held ? request.held(moment.time) : 0);
         if (frame < shown && frame >= 0) return moment.step;
@@ -110,7 +111,8 @@ std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
 }
 
 Snapshot MomentFinder::kept(std::size_t index) const {
-    Snapshot snapshot{record_.scene(), record_.frame(index), record_.frames().has_contacts_of(index), record_.frames().first()};
+    Snapshot snapshot{record_.scene(), record_.frame(index), record_.frames().has_contacts_of(index),
+                      record_.frames().first()};
     snapshot.measured = record_.measured_near(index);
     return snapshot;
 }
@@ -176,7 +178,8 @@ Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const R
             "ways over a period need the moment {} before {:.6g} s, and the run does not reach back so far",
             periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time));
     const Frame then =
-        replayed(record_.frames().path(), record_.checkpoints(), before.step, scene.run.threads, watcher).frame();
+        replayed(record_.frames().path(), record_.checkpoints(), before.step, scene.run.threads, watcher)
+            .frame();
     Snapshot snapshot = brought_back(moment, watcher);
     set_displacement(snapshot.frame, then, periods, period_of_depth(scene.container));
     return snapshot;
@@ -203,8 +206,8 @@ void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool 
     const auto step_of = [&](std::int64_t k) {
         return clock.step_at(end - static_cast<double>(count - 1 - k) / kMomentsAPeriod);
     };
-    Simulation run =
-        replayed(record_.frames().path(), record_.checkpoints(), step_of(0), record_.scene().run.threads, watcher);
+    Simulation run = replayed(record_.frames().path(), record_.checkpoints(), step_of(0),
+                              record_.scene().run.threads, watcher);
     for (std::int64_t k = 0; k < count; ++k) {
         run.advance(step_of(k));
         see(snapshot_of(run, record_));

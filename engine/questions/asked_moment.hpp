@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "engine/questions/record.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/run/replay/replay.hpp"
-#include "engine/questions/record.hpp"
 
 namespace grainreel {
 

@@ -22,8 +22,7 @@ constexpr double same_place = 1e-4;  // of a grain's radius
 
 std::vector<Touch> touches_of(const Simulation& run) {
     std::vector<Touch> touches;
-    for (const ContactRecord& one : run.contacts())
-        touches.push_back({one.first, one.second, one.normal});
+    for (const ContactRecord& one : run.contacts()) touches.push_back({one.first, one.second, one.normal});
     return touches;
 }
 
@@ -65,7 +64,8 @@ void ReachableMoments::check_film_moments() const {
     for (const auto& [step, place] : filmed_) {
         Frame moment = film_moments_->moments()[place];
         add_planes(run_.scene().walls, moment.time, moment.bodies);
-        check_drive(run_.scene(), run_.clock(), moment, fmt::format("{}: frame {}", name, film_moments_->place(place)));
+        check_drive(run_.scene(), run_.clock(), moment,
+                    fmt::format("{}: frame {}", name, film_moments_->place(place)));
     }
     for (const auto& [step, place] : filmed_) {
         const std::optional<std::size_t> both = in_trajectory(step);
@@ -116,7 +116,8 @@ ReachableMoments::Found ReachableMoments::at(std::int64_t step, bool touches, co
     };
     std::optional<Frame> kept;
     const std::optional<std::size_t> index = in_trajectory(step);
-    if (index && (!touches || run_.frames().supply().contacts)) kept = whole([&] { return run_.frames().grains(*index); });
+    if (index && (!touches || run_.frames().supply().contacts))
+        kept = whole([&] { return run_.frames().grains(*index); });
     const auto filmed = filmed_.find(step);
     if (!kept && filmed != filmed_.end() && !touches)
         kept = whole([&] { return film_moment(filmed->second); });

@@ -1,5 +1,5 @@
-// The file of a checkpoint: name, version and checksum, the scene, the grains, and behind them what belongs to
-// the step loop, of which this knows nothing. So its grains can be read where there are no laws.
+// The file of a checkpoint: name, version and checksum, the scene, the grains, and behind them what belongs
+// to the step loop, of which this knows nothing. So its grains can be read where there are no laws.
 #pragma once
 
 #include <cstdint>

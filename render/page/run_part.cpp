@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
+#include "render/film/moments/film_times_table.hpp"
 #include "render/page/bed/all_moments.hpp"
 #include "render/page/embed/base64.hpp"
 #include "render/page/embed/html.hpp"
@@ -14,7 +15,6 @@
 #include "render/page/embed/zlib_pack.hpp"
 #include "render/page/page_files.hpp"
 #include "render/page/page_parts.hpp"
-#include "render/film/moments/film_times_table.hpp"
 
 namespace grainreel {
 namespace {

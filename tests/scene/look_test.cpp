@@ -7,11 +7,11 @@
 #include <numbers>
 #include <string>
 
-#include "engine/scene/text/fitting_unit.hpp"
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/scene/grain_values.hpp"
 #include "tests/scene/scene_text.hpp"
 

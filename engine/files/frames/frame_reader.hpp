@@ -1,5 +1,5 @@
-// What reads one format of frames. A reader is a file in engine/files/frames/readers and a line in the list of
-// open_frames.cpp.
+// What reads one format of frames. A reader is a file in engine/files/frames/readers and a line in the list
+// of open_frames.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What writes frames in one format. A writer is a file in engine/files/frames/writers and a line in the list of
-// write_frames.cpp.
+// What writes frames in one format. A writer is a file in engine/files/frames/writers and a line in the list
+// of write_frames.cpp.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,8 @@ class FrameWriter {
     virtual ~FrameWriter() = default;
 
     // In this order: once, then the frames by rising time, then once. What each frame will have beside its
-    // places says `supply`. All throw RunError when it cannot be written; what is whole by then stays readable.
+    // places says `supply`. All throw RunError when it cannot be written; what is whole by then stays
+    // readable.
     virtual void begin(const World& world, const FrameSupply& supply) = 0;
     virtual void frame(const Frame& frame) = 0;
     virtual void end() = 0;

@@ -11,11 +11,7 @@
 
 // All readers, a line each, in the order in which they are asked: FrameReader NAME_reader() in
 // engine/files/frames/readers.
-#define GRAINREEL_FRAME_READERS(one) \
-    one(run_folder)                  \
-    one(trajectory)                  \
-    one(checkpoint)                  \
-    one(grain_table)
+#define GRAINREEL_FRAME_READERS(one) one(run_folder) one(trajectory) one(checkpoint) one(grain_table)
 
 namespace grainreel {
 
@@ -48,7 +44,8 @@ FileHead head_of(const fs::path& path) {
 [[noreturn]] void refuse(const fs::path& path) {
     std::string known;
     for (const FrameReader& reader : frame_readers()) known += fmt::format("\n  {}", reader.about);
-    throw UserError(fmt::format("{}: holds no frames that can be read. These can be:{}", path.string(), known));
+    throw UserError(
+        fmt::format("{}: holds no frames that can be read. These can be:{}", path.string(), known));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The folder of a run as a record of frames: its trajectory, and what lies beside it. One that was stopped, was
-// killed or still goes on will do: what is whole is read. All its files must be of one run.
+// The folder of a run as a record of frames: its trajectory, and what lies beside it. One that was stopped,
+// was killed or still goes on will do: what is whole is read. All its files must be of one run.
 #pragma once
 
 #include <filesystem>

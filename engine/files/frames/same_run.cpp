@@ -8,8 +8,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/nearest_image.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
-#include "engine/state/wall_motion.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
@@ -67,8 +67,7 @@ void check_species(const Scene& scene, const World& world, const std::string& tr
                                 world.species.size(), scene.species.size()));
 }
 
-void check_grains(const Scene& scene, const World& world, const Frame& frame,
-                  const std::string& trajectory) {
+void check_grains(const Scene& scene, const World& world, const Frame& frame, const std::string& trajectory) {
     const auto grains = static_cast<std::int64_t>(world.most_grains);
     if (grains != scene.grains() && !world.traffic)
         of_two_runs(fmt::format("{}: has {} grains, but scene.toml beside it has {}", trajectory, grains,
@@ -90,8 +89,7 @@ void check_grains(const Scene& scene, const World& world, const Frame& frame,
                                     count[s], scene.species[s].name, scene.species[s].count));
 }
 
-void check_drive(const Scene& scene, const Clock& clock, const Frame& moment,
-                 const std::string& frame) {
+void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame) {
     check_times(scene, clock.step, static_cast<double>(moment.step), moment.time, moment.cycles, frame);
     const double turns = moment.phase - moment.cycles - clock.initial_phase;
     if (scene.drive.present && std::abs(turns - std::round(turns)) > same_time)

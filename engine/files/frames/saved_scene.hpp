@@ -18,8 +18,9 @@ std::filesystem::path file_of_run(const std::filesystem::path& folder, const cha
 // The scene.toml of a run's folder; named after the folder. Throws UserError for one that cannot be read.
 Scene plain_scene_of_run(const std::filesystem::path& folder);
 
-// The text of a checkpoint's scene as it was used, and what makes it start from the checkpoint, which does not
-// say how its grains came to be. Whoever reads it adds own changes. Throws UserError where the file is none.
+// The text of a checkpoint's scene as it was used, and what makes it start from the checkpoint, which does
+// not say how its grains came to be. Whoever reads it adds own changes. Throws UserError where the file is
+// none.
 struct CheckpointScene {
     NamedText text;
     Assignments sets;

@@ -18,7 +18,8 @@ World world_of(const Scene& scene) {
     world.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
     for (const FreeWall& wall : scene.walls) world.bodies.push_back({wall.name, {}, {}});
     for (const Face& face : faces_of(scene))
-        if (face.body.number >= 0) world.bodies.at(static_cast<std::size_t>(face.body.number)).faces.push_back(face);
+        if (face.body.number >= 0)
+            world.bodies.at(static_cast<std::size_t>(face.body.number)).faces.push_back(face);
     world.most_grains = static_cast<std::size_t>(scene.grains());
     world.facts = file_facts(scene);
     return world;

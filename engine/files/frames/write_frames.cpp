@@ -5,9 +5,7 @@
 #include "engine/base/error.hpp"
 
 // All writers, a line each: FrameFormat NAME_format() in engine/files/frames/writers.
-#define GRAINREEL_FRAME_FORMATS(one) \
-    one(trajectory)                  \
-    one(grain_table)
+#define GRAINREEL_FRAME_FORMATS(one) one(trajectory) one(grain_table)
 
 namespace grainreel {
 

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/scene/scene.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"
-#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -47,9 +47,8 @@ void check_can_change(const std::string& key) {
 
 }  // namespace
 
-std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkpoint,
-                                             const Scene& scene, const Plan& plan,
-                                             const std::vector<std::string>& accepted) {
+std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkpoint, const Scene& scene,
+                                             const Plan& plan, const std::vector<std::string>& accepted) {
     std::vector<AcceptedChange> changes;
     const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
     if (!label) return changes;

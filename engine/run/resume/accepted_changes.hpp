@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/text/assignment.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/scene/text/assignment.hpp"
 
 namespace grainreel {
 
@@ -20,9 +20,8 @@ struct AcceptedChange {
 // What differs between the scene that a checkpoint holds and the one that is to go on. accepted: keys that
 // the user named, "drive.g_level", or "contact.friction" of all pairs. Throws UserError for a difference that
 // was not named, and for a key that cannot change while a run goes on.
-std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkpoint,
-                                             const Scene& scene, const Plan& plan,
-                                             const std::vector<std::string>& accepted);
+std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkpoint, const Scene& scene,
+                                             const Plan& plan, const std::vector<std::string>& accepted);
 
 // What undoes the changes, for a reader of the scene.
 Assignments undone(const std::vector<AcceptedChange>& changes);

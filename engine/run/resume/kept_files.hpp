@@ -29,7 +29,7 @@ void check_files_of_run(const std::filesystem::path& run, const Scene& scene, co
 std::int64_t reached_step(const std::filesystem::path& run, std::int64_t last_checkpoint);
 
 // Whether its files have all that a run which began at `first` has written before `step`.
-bool files_reach(const std::filesystem::path& run, const Scene& scene, const Plan& plan,
-                 std::int64_t first, std::int64_t step);
+bool files_reach(const std::filesystem::path& run, const Scene& scene, const Plan& plan, std::int64_t first,
+                 std::int64_t step);
 
 }  // namespace grainreel

@@ -10,12 +10,12 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/run/driver/run_files.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/resume/kept_files.hpp"
+#include "engine/scene/scene.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"
-#include "engine/run/driver/run_files.hpp"
-#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -57,8 +57,8 @@ bool is_former_end(const KeptCheckpoint& one, const CheckpointLabel& label, cons
     return false;
 }
 
-std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, const Plan& plan,
-                                 int threads, std::optional<UserError>& mistake) {
+std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, const Plan& plan, int threads,
+                                 std::optional<UserError>& mistake) {
     try {
         if (const auto label = label_of_checkpoint(one.file)) {
             check_same_files(label->scene, scene, plan);

@@ -9,6 +9,9 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/files/frames/damaged_frame.hpp"
+#include "engine/questions/answer_forces.hpp"
+#include "engine/questions/asked_moment.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/histogram.hpp"
 #include "engine/questions/mean_answer.hpp"
@@ -18,13 +21,10 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "engine/files/frames/damaged_frame.hpp"
-#include "engine/questions/answer_forces.hpp"
-#include "engine/questions/asked_moment.hpp"
-#include "render/film/answers/filmed_record.hpp"
-#include "render/film/production/caption_holds.hpp"
 #include "render/film/answers/answer_picture.hpp"
+#include "render/film/answers/filmed_record.hpp"
 #include "render/film/answers/pixel_question.hpp"
+#include "render/film/production/caption_holds.hpp"
 
 namespace grainreel {
 namespace {
@@ -267,8 +267,9 @@ class Inspect final : public Verb {
                                const Record& record) const {
         if (!asked.kept || asks_for_forces()) return true;
         if (grain_) return finder.can_bring_back(asked);
-        return (takes(Needs::contacts) && !record.frames().has_contacts_of(*asked.kept)) || takes(Needs::forces) ||
-               takes(Needs::period) || (asks_nothing() && finder.is_checkpoint(asked));
+        return (takes(Needs::contacts) && !record.frames().has_contacts_of(*asked.kept)) ||
+               takes(Needs::forces) || takes(Needs::period) ||
+               (asks_nothing() && finder.is_checkpoint(asked));
     }
 
     // A kept moment. None where it is damaged and can be brought back.
@@ -384,8 +385,8 @@ class Inspect final : public Verb {
             });
         if (!pixel_.empty())
             return named("--pixel", [&] {
-                Answer there = PixelPicker(snapshot, asked_->scene(), film_time())
-                                   .at(pixel_[0], pixel_[1], through_);
+                Answer there =
+                    PixelPicker(snapshot, asked_->scene(), film_time()).at(pixel_[0], pixel_[1], through_);
                 if (there.tables[0].rows.empty())
                     throw UserError(fmt::format("nothing is at {:g},{:g}", pixel_[0], pixel_[1]));
                 return there;

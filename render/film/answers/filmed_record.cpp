@@ -21,7 +21,9 @@ void open_checkpoint(FilmedRecord& one, const fs::path& file, const Assignments&
 // Whatever is no checkpoint must be a table.
 void open_table(FilmedRecord& one, const fs::path& file, const Assignments& sets) {
     FrameRequest request{.format = "grain-table"};
-    request.scene_of_run = [&](const fs::path& folder) { return one.film.emplace(scene_of_run(folder, sets)); };
+    request.scene_of_run = [&](const fs::path& folder) {
+        return one.film.emplace(scene_of_run(folder, sets));
+    };
     one.state = std::make_unique<Record>(std::shared_ptr<const FrameArchive>(open_frames(file, request)));
     if (one.film) return;
     if (!sets.empty())

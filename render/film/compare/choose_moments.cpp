@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/film/sampling/pacing.hpp"
 #include "render/film/compare/comparison.hpp"
+#include "render/film/sampling/pacing.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/scene/filmed_scene.hpp"
 

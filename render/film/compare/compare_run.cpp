@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "render/film/compare/comparison_words.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/production/side_by_side_drawer.hpp"
-#include "render/picture/camera/camera_path.hpp"
-#include "render/picture/panels/side_by_side.hpp"
-#include "render/film/compare/comparison_words.hpp"
 #include "render/film/run/still.hpp"
 #include "render/film/run/together.hpp"
+#include "render/picture/camera/camera_path.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 
 namespace grainreel {
 

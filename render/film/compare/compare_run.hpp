@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render/film/run/film_run.hpp"
 #include "render/film/compare/comparison.hpp"
+#include "render/film/run/film_run.hpp"
 
 namespace grainreel {
 

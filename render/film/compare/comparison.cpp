@@ -7,9 +7,9 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "render/picture/panels/side_by_side.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/compare/vary.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

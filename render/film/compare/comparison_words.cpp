@@ -10,9 +10,9 @@
 
 #include "render/film/sampling/pacing.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/choice.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/missing_letters.hpp"
-#include "render/film/sources/choice.hpp"
 
 namespace grainreel {
 

@@ -12,9 +12,9 @@
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/driver/first_failure.hpp"
-#include "render/film/sources/scene_run.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/revisited_run.hpp"
+#include "render/film/sources/scene_run.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -7,10 +7,10 @@
 
 #include "engine/run/folder/run_desk.hpp"
 #include "engine/run/folder/side_work.hpp"
-#include "render/scene/filmed_scene.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/request/film_request.hpp"
 #include "render/film/request/thread_plan.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -29,7 +29,8 @@ class FolderFilm final : public SideWork {
 
     // Of so many pictures. start: from which start heights are counted; null: from the film's first picture.
     // draw: what makes pictures; none for the Renderer. Nothing happens where no pictures are wanted.
-    void open(const FilmedScene& scene, std::int64_t pictures, FramePtr start = nullptr, DrawerMaker draw = {});
+    void open(const FilmedScene& scene, std::int64_t pictures, FramePtr start = nullptr,
+              DrawerMaker draw = {});
     // Takes pictures while it is open.
     FilmMaker& maker() { return *film_; }
     // Progress of what is drawn alone.

@@ -24,21 +24,22 @@ ThreadPlan threads_for(const FilmRequest& request, const FilmedScene& scene) {
 
 }  // namespace
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan)
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+                   const Plan& plan)
     : MovieRun(request, listener, scene, plan, threads_for(request, scene), schedule(request, scene, plan)) {
     check_film();
     new_folder();
 }
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
-                   ResumePoint point, std::shared_ptr<FolderLock> lock)
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+                   const Plan& plan, ResumePoint point, std::shared_ptr<FolderLock> lock)
     : MovieRun(request, listener, scene, plan, std::move(point), schedule(request, scene, plan)) {
     check_film();
     go_on_in(std::move(lock), source_.has_shots(pictures_));
 }
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
-                   const ThreadPlan& threads, Pictures pictures)
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+                   const Plan& plan, const ThreadPlan& threads, Pictures pictures)
     : SceneFolderRun(request, listener, scene, plan, threads.engine),
       pictures_(std::move(pictures)),
       film_(request, desk_),
@@ -47,8 +48,8 @@ MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Film
     film_.use_threads(threads);
 }
 
-MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
-                   ResumePoint point, Pictures pictures)
+MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+                   const Plan& plan, ResumePoint point, Pictures pictures)
     : SceneFolderRun(request, listener, scene, plan, std::move(point)),
       pictures_(std::move(pictures)),
       film_(request, desk_),

@@ -48,8 +48,8 @@ RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunL
         choose_pictures(what);
     film_.check(scene_, static_cast<std::int64_t>(shots_.size()));
     film_.use_threads(drawing_threads(scene_.run.threads));
-    make_folder(
-        {scene_.name + "-render", source.record().frames().folder().parent_path(), request.out, request.force});
+    make_folder({scene_.name + "-render", source.record().frames().folder().parent_path(), request.out,
+                 request.force});
 }
 
 // The film's, from one moment to another.
@@ -113,7 +113,8 @@ std::vector<std::string> RedrawRun::warnings() const {
     const auto add = [&](std::vector<std::string> lines) {
         std::move(lines.begin(), lines.end(), std::back_inserter(warnings));
     };
-    if (auto warning = periods_warning(scene, source_.record().frames())) warnings.push_back(std::move(*warning));
+    if (auto warning = periods_warning(scene, source_.record().frames()))
+        warnings.push_back(std::move(*warning));
     if (kept_alone_) {
         add(single_moment_warnings(scene,
                                    "--every draws frames of the trajectory, which are single moments"));
@@ -154,8 +155,9 @@ bool RedrawRun::work() {
     mark_begun();
     const std::vector<Frame> moments = moments_of(shots_, source_.film());
     desk_.record.scene_file = scene_.file;
-    desk_.record.drawn = {{source_.record().frames().folder().string(), static_cast<std::int64_t>(moments.size()),
-                           moments.front().time, moments.back().time}};
+    desk_.record.drawn = {{source_.record().frames().folder().string(),
+                           static_cast<std::int64_t>(moments.size()), moments.front().time,
+                           moments.back().time}};
     begin_record(warnings());
     if (brought_back_ > 0)
         desk_.listener.info(fmt::format(
@@ -191,10 +193,10 @@ std::string RedrawRun::stopped_text() const {
 void RedrawRun::report_written() {
     const FilmOfRun& film = source_.film();
     desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
-    desk_.listener.info(fmt::format("took {}: {} frames of {}, from {:.6g} to {:.6g} s",
-                                    duration_text(desk_.watch.seconds()), film_.report().frames,
-                                    source_.record().frames().folder().string(), film.moment(shots_.front().step).time,
-                                    film.moment(shots_.back().step).time));
+    desk_.listener.info(
+        fmt::format("took {}: {} frames of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),
+                    film_.report().frames, source_.record().frames().folder().string(),
+                    film.moment(shots_.front().step).time, film.moment(shots_.back().step).time));
 }
 
 }  // namespace grainreel

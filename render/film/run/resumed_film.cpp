@@ -25,8 +25,8 @@ bool is_of_single_moments(const Film& film) {
 
 // The first step before `end` at which the film that is to be made and the pictures whose moments were kept
 // differ; `end` when there is none. A locked picture may have been left out.
-std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan, const std::vector<std::int64_t>& kept,
-                               std::int64_t first, std::int64_t end) {
+std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
+                               const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t end) {
     const std::vector<Instant> instants = instants_of(scene, plan.clock, plan.steps);
     std::size_t k = 0;
     for (const Shot& shot : shots_at(instants, scene.film.segments, plan.clock, plan.steps)) {

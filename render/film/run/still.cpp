@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/questions/asked_moment.hpp"
 #include "engine/run/driver/stage_times.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/whole/renderer.hpp"
-#include "engine/questions/asked_moment.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -110,8 +110,9 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Revis
 bool remember_what_was(Renderer& renderer, std::int64_t step, RevisitedRun& source,
                        const FrameSource::GoOn& go_on) {
     const std::vector<Shot> film = source.film().shots();
-    const FramePtr start = film.empty() ? std::make_shared<const Frame>(source.record().frames().first_whole())
-                                        : source.grains(source.shown(film.front().step), go_on);
+    const FramePtr start = film.empty()
+                               ? std::make_shared<const Frame>(source.record().frames().first_whole())
+                               : source.grains(source.shown(film.front().step), go_on);
     if (!start) return false;
     renderer.start_from(*start);
     const FilmTrails& trails = source.scene().film.shows.trails;
@@ -153,8 +154,9 @@ std::optional<fs::path> draw_still(const FilmRequest& request, double at, RunLis
     source.start({{chosen.step, place.segment}}, source.segments());
     const std::optional<Taken> picture = source.next(go_on);
     if (!picture) return std::nullopt;
-    const fs::path path =
-        request.out ? *request.out : free_name(scene, source.record().frames().folder(), picture->frame->time);
+    const fs::path path = request.out
+                              ? *request.out
+                              : free_name(scene, source.record().frames().folder(), picture->frame->time);
     write_png(path, renderer.draw(*picture->frame, "", place.time),
               texts_of(scene.name, scene.film.title, *picture->frame, ""), scene.film.transparent);
     if (const std::string note = renderer.colour_note(); !note.empty()) listener.info(note);

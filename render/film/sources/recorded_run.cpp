@@ -133,7 +133,8 @@ void RecordedRun::look_for_earlier_frames() {
     const double first = moments().front().cycles + archive_->periods() - 1e-3;
     std::size_t lack = 0;
     for (const Frame& moment : moments())
-        lack += moment.cycles >= first && !archive_->index_at(clock().time(clock().step_at(moment.cycles - archive_->periods())));
+        lack += moment.cycles >= first &&
+                !archive_->index_at(clock().time(clock().step_at(moment.cycles - archive_->periods())));
     if (lack > 0)
         archive_->note(fmt::format(
             "{}: {} of its {} frames have none a period before them, and are drawn without displacements; "
@@ -168,7 +169,8 @@ Frame RecordedRun::frame(std::size_t index) const {
 
 std::vector<Frame> RecordedRun::moments(const Pictures& pictures) const {
     std::vector<Frame> all;
-    for (const Instant& instant : pictures.instants) all.push_back(moments()[archive_->nearest(instant.time)]);
+    for (const Instant& instant : pictures.instants)
+        all.push_back(moments()[archive_->nearest(instant.time)]);
     return all;
 }
 

@@ -11,10 +11,10 @@
 #include "engine/files/outflow_record.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/questions/record.hpp"
-#include "render/scene/filmed_scene.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -16,7 +16,8 @@ Assignments sets_for_drawing(const Assignments& sets);
 // cannot be read.
 FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
 
-// The scene of a checkpoint as it was used, with such changes; named after the file. Throws UserError likewise.
+// The scene of a checkpoint as it was used, with such changes; named after the file. Throws UserError
+// likewise.
 FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
 
 }  // namespace grainreel

@@ -66,11 +66,11 @@ bool RevisitedRun::is_brought_back(std::int64_t step) const {
 std::string RevisitedRun::why_not_all() const {
     if (reachable_.brings_all_back()) return "";
     if (!replay_) return "--no-replay: nothing is brought back";
-    return fmt::format("{}: has no checkpoint{} from which moments can be brought back",
-                       run_.frames().folder().string(),
-                       run_.record().checkpoints().empty()
-                           ? ""
-                           : fmt::format(" before {:.6g} s", clock().time(run_.record().checkpoints().front().step)));
+    return fmt::format(
+        "{}: has no checkpoint{} from which moments can be brought back", run_.frames().folder().string(),
+        run_.record().checkpoints().empty()
+            ? ""
+            : fmt::format(" before {:.6g} s", clock().time(run_.record().checkpoints().front().step)));
 }
 
 Supply RevisitedRun::supply() const {

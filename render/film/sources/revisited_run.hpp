@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/questions/reachable_moments.hpp"
 #include "engine/run/driver/kept_moments.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_of_run.hpp"
-#include "engine/questions/reachable_moments.hpp"
 #include "render/film/sources/recorded_run.hpp"
 #include "render/scene/filmed_scene.hpp"
 

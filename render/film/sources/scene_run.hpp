@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "engine/run/driver/run_driver.hpp"
-#include "render/scene/filmed_scene.hpp"
 #include "render/film/moments/bed_periods.hpp"
 #include "render/film/sources/earlier_pictures.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

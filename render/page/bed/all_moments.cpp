@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/run_names.hpp"
-#include "engine/state/wall_motion.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/same_run.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
@@ -66,7 +66,8 @@ void AllMoments::merge(const FrameArchive& file, std::optional<std::size_t> Plac
     };
     const Scene& scene = *run_.scene();
     const std::vector<std::string> damage = file.damage();
-    if (!file.moments().empty() && file.place(0) == 0) check_grains(scene, file.world(), file.grains(0), name);
+    if (!file.moments().empty() && file.place(0) == 0)
+        check_grains(scene, file.world(), file.grains(0), name);
     if (!damage.empty()) throw UserError(damage.front());
     for (std::size_t index = 0; index < file.moments().size(); ++index) {
         Frame moment = file.moments()[index];

@@ -1,4 +1,5 @@
-// Frames of whatever lies on disk, through the one list of readers; and through the one of writers back to disk.
+// Frames of whatever lies on disk, through the one list of readers; and through the one of writers back to
+// disk.
 #include "engine/files/frames/open_frames.hpp"
 
 #include <gmock/gmock.h>
@@ -53,8 +54,8 @@ class OpenFrames : public testing::Test {
     static void SetUpTestSuite() {
         run_ = new TemporaryFolder;
         write_small_scene(run_->path());
-        const Ended ended = run_program({"movie", "fifty.toml", "--no-film", "--no-report", "--out", "run", "--set",
-                                         "output.contacts=true"},
+        const Ended ended = run_program({"movie", "fifty.toml", "--no-film", "--no-report", "--out", "run",
+                                         "--set", "output.contacts=true"},
                                         {run_->path(), {}});
         ASSERT_EQ(ended.status, 0) << ended.err;
     }

@@ -8,10 +8,10 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy/energy_balance.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
-#include "engine/state/face_names.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"
+#include "engine/state/face_names.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 

@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_reader.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/state/grain_table.hpp"
+#include "engine/grain_table.hpp"
 
 namespace grainreel {
 
@@ -39,7 +39,8 @@ Frame by_id(const Frame& table) {
 // Of a table that lies alone.
 std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
     std::vector<WorldSpecies> types(static_cast<std::size_t>(last) + 1);
-    for (std::size_t type = 0; type < types.size(); ++type) types[type].name = fmt::format("type {}", type + 1);
+    for (std::size_t type = 0; type < types.size(); ++type)
+        types[type].name = fmt::format("type {}", type + 1);
     std::vector<double> sums(types.size(), 0);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const auto type = static_cast<std::size_t>(frame.species[i]);
@@ -86,8 +87,9 @@ class GrainTable final : public FrameArchive {
                 throw UserError(fmt::format("{}: has grains of type {}; there may be {} types at most",
                                             file_.string(), last + 1, most_types));
             world_.species = types_of(frame_, last);
-            news_.push_back(fmt::format(
-                "{}: there is no scene.toml beside it; names, masses and walls are not known", file_.string()));
+            news_.push_back(
+                fmt::format("{}: there is no scene.toml beside it; names, masses and walls are not known",
+                            file_.string()));
             return;
         }
         const fs::path folder = beside.empty() ? fs::path(".") : beside;
@@ -103,8 +105,7 @@ class GrainTable final : public FrameArchive {
 
     // Where no grain comes or goes, the table of a run has as many as its scene.
     void check_all_are_there() const {
-        const bool traffic =
-            !scene_->feeds.empty() || (scene_->container.outlet && !scene_->container.tray);
+        const bool traffic = !scene_->feeds.empty() || (scene_->container.outlet && !scene_->container.tray);
         const auto grains = static_cast<std::int64_t>(frame_.size());
         if (traffic || file_.filename() != kFinalTable || grains == scene_->grains()) return;
         throw UserError(

@@ -21,7 +21,8 @@ std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest& req
     const fs::path folder = folder_of_run(path);
     const bool for_questions = true;
     auto run = std::make_unique<RunArchive>(
-        folder, request.scene_of_run ? request.scene_of_run(folder) : plain_scene_of_run(folder), for_questions);
+        folder, request.scene_of_run ? request.scene_of_run(folder) : plain_scene_of_run(folder),
+        for_questions);
     std::error_code ignored;
     if (fs::exists(folder / "contacts.nc", ignored)) run->read_contacts(true);
     return run;

@@ -1,4 +1,5 @@
-// trajectory.nc, and the other files of moments that a run writes in its format, without what lies beside them.
+// trajectory.nc, and the other files of moments that a run writes in its format, without what lies beside
+// them.
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,8 +15,7 @@ namespace fs = std::filesystem;
 
 class Trajectory final : public FrameArchive {
   public:
-    explicit Trajectory(const fs::path& path)
-        : path_(path), reader_(path), world_(world_of(reader_.info())) {
+    explicit Trajectory(const fs::path& path) : path_(path), reader_(path), world_(world_of(reader_.info())) {
         for (std::size_t place = 0; place < reader_.frames(); ++place) {
             try {
                 moments_.push_back(reader_.read_moment(place));

@@ -3,7 +3,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
-#include "engine/state/grain_table.hpp"
+#include "engine/grain_table.hpp"
 
 namespace grainreel {
 

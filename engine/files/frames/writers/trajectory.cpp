@@ -1,5 +1,5 @@
-// A trajectory.nc from whatever has frames. A run writes its own through TrajectoryWriter itself, which can also
-// go on with a file that is there.
+// A trajectory.nc from whatever has frames. A run writes its own through TrajectoryWriter itself, which can
+// also go on with a file that is there.
 #include <optional>
 
 #include "engine/files/frames/frame_writer.hpp"

@@ -1,4 +1,4 @@
-#include "engine/state/grain_table.hpp"
+#include "engine/grain_table.hpp"
 
 #include <array>
 #include <charconv>
