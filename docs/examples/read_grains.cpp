@@ -1,7 +1,7 @@
 // Runs a scene and reads its grains, by the engine alone: two balls fly for a fifth of a second.
 #include <cstdio>
 
-#include "engine/run/simulation.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 
 int main() {

@@ -75,7 +75,10 @@ void tell_engine(FilmedScene& scene) {
 }
 
 Plan plan_with_film(const FilmedScene& scene) {
-    Plan plan = make_plan(scene);
+    return with_film_warnings(scene, make_plan(scene));
+}
+
+Plan with_film_warnings(const FilmedScene& scene, Plan plan) {
     Warnings warnings(scene);
     warn_of_colours(scene, warnings);
     warn_of_end(scene, warnings);

@@ -23,6 +23,7 @@ void tell_engine(FilmedScene& scene);
 
 // The plan, with the warnings that the film and its colours give as well.
 Plan plan_with_film(const FilmedScene& scene);
+Plan with_film_warnings(const FilmedScene& scene, Plan plan);
 
 // As the engine's, with the film as it is now.
 std::string resolved_scene(const FilmedScene& scene, const Plan& plan);

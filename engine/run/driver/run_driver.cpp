@@ -12,7 +12,6 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/driver/key_moments.hpp"
 #include "engine/scene/file/scene_file.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "engine/scene/text/comments.hpp"
 
 namespace grainreel {

@@ -82,12 +82,12 @@ class Resume final : public Verb {
         put_back_former(folder, reporter);
         if (is_only_page_missing(folder)) return make_missing_page(folder, reporter);
         FilmedScene scene = scene_to_go_on(folder, {});
-        Plan plan = plan_of_run(scene, folder);
+        Plan plan = plan_to_go_on(scene, folder);
         std::vector<AcceptedChange> changes;
         if (!accept_.empty()) {
             changes = accepted_changes(kept_checkpoints(folder).back().file, scene, plan, accepted_keys());
             scene = scene_to_go_on(folder, undone(changes));
-            plan = plan_of_run(scene, folder);
+            plan = plan_to_go_on(scene, folder);
         }
         film_.out = folder;
         film_.film = !no_film_ && has_film(scene, folder);
@@ -184,8 +184,7 @@ class Resume final : public Verb {
         const std::string words = words_of_changes(scene, changed, changes);
         changed.drive = drive_changed_at(time, scene, changed, changes);
         add_caption_of_change(changed, time, words);
-        tell_engine(changed);
-        const Plan changed_plan = plan_of_run(changed, folder);
+        const Plan changed_plan = plan_to_go_on(changed, folder);
         check_overlap_stays(scene, plan, changed_plan);
         point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
         for (const KeyDifference& one :
@@ -194,6 +193,10 @@ class Resume final : public Verb {
         scene = changed;
         plan = changed_plan;
         point.changed = true;
+    }
+
+    static Plan plan_to_go_on(const FilmedScene& scene, const fs::path& folder) {
+        return with_film_warnings(scene, plan_of_run(scene, folder));
     }
 
     // With the end that is asked for, and values that were given with --accept; `undone` goes before those.

@@ -44,6 +44,21 @@ std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
     return k < kept.size() ? std::min(end, kept[k]) : end;
 }
 
+// Captions do not overlap: the one that is there then ends, and the next one comes when it did.
+void add_caption(FilmedScene& scene, double time, const std::string& text) {
+    std::vector<FilmCaption>& captions = scene.film.captions;
+    const auto next = std::find_if(captions.begin(), captions.end(),
+                                   [&](const FilmCaption& caption) { return caption.from >= time; });
+    if (next != captions.end() && next->from == time) {
+        next->text += "\n" + text;
+        return;
+    }
+    double end = std::min(time + shown_for, scene.run.duration);
+    if (next != captions.end()) end = std::min(end, next->from);
+    if (next != captions.begin()) (next - 1)->to = std::min((next - 1)->to, time);
+    captions.insert(next, {time, end, text, 0});
+}
+
 }  // namespace
 
 bool has_film(const FilmedScene& scene, const fs::path& run) {
@@ -58,20 +73,10 @@ FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan) {
     };
 }
 
-// Captions do not overlap: the one that is there then ends, and the next one comes when it did.
 void add_caption_of_change(FilmedScene& scene, double time, const std::string& text) {
     if (text.empty()) return;
-    std::vector<FilmCaption>& captions = scene.film.captions;
-    const auto next = std::find_if(captions.begin(), captions.end(),
-                                   [&](const FilmCaption& caption) { return caption.from >= time; });
-    if (next != captions.end() && next->from == time) {
-        next->text += "\n" + text;
-        return;
-    }
-    double end = std::min(time + shown_for, scene.run.duration);
-    if (next != captions.end()) end = std::min(end, next->from);
-    if (next != captions.begin()) (next - 1)->to = std::min((next - 1)->to, time);
-    captions.insert(next, {time, end, text, 0});
+    add_caption(scene, time, text);
+    tell_engine(scene);
 }
 
 }  // namespace grainreel

@@ -18,7 +18,8 @@ bool has_film(const FilmedScene& scene, const std::filesystem::path& run);
 // run go on from its beginning. The scene and the plan must outlive what is returned.
 FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan);
 
-// A caption that says from `time` (s of simulated time) on what has changed. Nothing without a text.
+// A caption that says from `time` (s of simulated time) on what has changed; the engine is told. Nothing
+// without a text.
 void add_caption_of_change(FilmedScene& scene, double time, const std::string& text);
 
 }  // namespace grainreel

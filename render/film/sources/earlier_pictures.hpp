@@ -11,7 +11,6 @@
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/run/driver/run_files.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"

@@ -5,6 +5,7 @@
 #include "engine/questions/displacement.hpp"
 #include "render/film/moments/period_means.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,6 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "render/film/files/png.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/read_scene.hpp"
